@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the commands share. A command is one file with one cli_command; its option table parses the command line and
+ * prints the help. stdout is data, stderr is talk, exit codes are those of koksma_status_exit_code().
+ */
+#ifndef KOKSMA_CLI_CLI_H
+#define KOKSMA_CLI_CLI_H
+
+#include <koksma/koksma.h>
+
+enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2 };
+
+typedef struct cli_option {
+    char letter;          /* 0: none */
+    const char *name;     /* tables end at a NULL name */
+    const char *argument; /* NULL: a flag */
+    const char *help;
+} cli_option;
+
+typedef struct cli_arguments cli_arguments;
+
+typedef struct cli_command {
+    const char *name, *summary;
+    const char *synopsis; /* operands and options, after "koksma NAME" */
+    const char *details;  /* paragraphs of --help, may be NULL */
+    const cli_option *options;
+    int (*run)(const cli_arguments *arguments); /* the exit code */
+} cli_command;
+
+struct cli_arguments {
+    const cli_command *command;
+    int n_operands;
+    char **operands;
+    const char *values[CLI_MAX_OPTIONS]; /* by option; "" for a flag that is set, NULL when not given */
+};
+
+#define COMMAND(name) extern const cli_command cli_command_##name;
+#include "commands.def"
+#undef COMMAND
+
+/* The options that most commands have, for the end of an option table. */
+#define CLI_ROW_OPTIONS {0, "json", NULL, "one JSON object a line instead of aligned text"}
+#define CLI_RUN_OPTIONS                                                                                               \
+    {0, "threads", "T", "threads to use (default: all)"},                                                             \
+        {0, "progress", "WHEN", "auto, always or never (default: auto, when stderr is a terminal)"},                  \
+    {                                                                                                                 \
+        'q', "quiet", NULL, "no talk on stderr but errors"                                                            \
+    }
+
+/* An option's text, or fallback; whether a flag is set. The name must be in the table. */
+const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback);
+bool cli_flag(const cli_arguments *arguments, const char *name);
+
+/* An option as a number in [min, max]; false after an error that names it. */
+bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
+               uint64_t *out);
+bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
+
+/* "koksma NAME: text" on stderr; returns the exit code of a wrong command line. */
+int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
+
+/* The library's error text on stderr; returns the exit code of status. */
+int cli_fail(const cli_arguments *arguments, koksma_status status);
+
+/* Item i (0..) of a list "a,b:x=1,y=2,c": commas inside a spec's parameters don't split, because a parameter has '='
+   and what follows it in a list of specs has none before its ':' or end. False past the end. */
+bool cli_list_item(const char *list, size_t i, char *item, size_t size);
+
+/* ---- Long work: threads, progress and Ctrl-C, from CLI_RUN_OPTIONS ------------------------------------ */
+
+typedef struct cli_work {
+    koksma_run run;     /* hand &work.run to the library */
+    const char *what;   /* shown before the bar; may be changed while running */
+    bool shown;
+    double started_s, updated_s;
+} cli_work;
+
+/* False after an error. From here until cli_work_end, the first Ctrl-C makes keep_going false. */
+bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
+void cli_work_end(cli_work *work); /* clears the progress line */
+bool cli_interrupted(void);
+
+/* ---- Rows: aligned text, or a JSON object a line ------------------------------------------------------- */
+
+typedef struct cli_rows cli_rows;
+
+/* NULL when memory runs out. With json, rows are printed as they end; as text, all of them at cli_rows_close. */
+cli_rows *cli_rows_open(bool json);
+void cli_row_text(cli_rows *rows, const char *key, const char *value);
+void cli_row_number(cli_rows *rows, const char *key, double value); /* %.17g in JSON, %.9g as text; null or - */
+void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
+void cli_row_flag(cli_rows *rows, const char *key, bool value);
+void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text); /* a ready JSON value */
+void cli_row_end(cli_rows *rows);
+/* The exit code: 0, or 4 when stdout could not be written. */
+int cli_rows_close(cli_rows *rows);
+
+#endif

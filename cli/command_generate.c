@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+
+#include "cli.h"
+
+static int generate(const cli_arguments *arguments, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
+                    koksma_points *points)
+{
+    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 64];
+    koksma_status status = koksma_generate(spec, seed, run, points);
+    if (!status) {
+        koksma_spec_text(spec, text);
+        snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+        status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment);
+    }
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    koksma_spec spec;
+    koksma_points points;
+    cli_work work;
+    uint64_t n, dim, seed;
+    if (arguments->n_operands != 1) {
+        return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2");
+    }
+    if (!cli_text(arguments, "n", NULL)) {
+        return cli_usage_error(arguments, "-n N, the number of points, is missing");
+    }
+    koksma_status status = koksma_pattern_spec(arguments->operands[0], &spec);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
+        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
+        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
+        return CLI_USAGE;
+    }
+    status = koksma_points_init(&points, n, (int)dim);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    const int code = generate(arguments, &spec, seed, &work.run, &points);
+    cli_work_end(&work);
+    koksma_points_fini(&points);
+    return code;
+}
+
+static const cli_option options[] = {
+    {'n', "n", "N", "number of points"},
+    {'d', "dim", "DIM", "number of dimensions (default: 2)"},
+    {'s', "seed", "S", "seed of the random numbers (default: 0)"},
+    {'o', "output", "FILE", ".txt, .csv or .npy by its ending (default: text on stdout)"},
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_generate = {
+    .name = "generate",
+    .summary = "generate the points of a pattern",
+    .synopsis = "PATTERN -n N [-d DIM] [-s S] [-o FILE]",
+    .details = "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
+               "Equal arguments give equal bits, on any number of threads.",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+
+static const struct {
+    unsigned claim;
+    const char *name;
+} claim_names[] = {
+    {KOKSMA_CLAIM_DETERMINISTIC, "deterministic"}, {KOKSMA_CLAIM_SEQUENCE, "sequence"},
+    {KOKSMA_CLAIM_ANY_N, "any-n"},                 {KOKSMA_CLAIM_STRATIFIED, "stratified"},
+    {KOKSMA_CLAIM_LATIN, "latin"},                 {KOKSMA_CLAIM_UNBIASED, "unbiased"},
+    {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},   {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
+    {KOKSMA_CLAIM_CENTRED, "centred"},
+};
+
+static void put_dims(cli_rows *rows, int min_dim, int max_dim)
+{
+    char text[32];
+    snprintf(text, sizeof text, min_dim == max_dim ? "%d" : "%d-%d", min_dim, max_dim);
+    cli_row_text(rows, "dim", text);
+}
+
+static void put_params(cli_rows *rows, const koksma_param *params)
+{
+    char text[512] = "";
+    for (; params && params->name; params++) {
+        const size_t used = strlen(text);
+        const char *separator = used ? "," : "";
+        if (params->choices) {
+            snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
+                     params->choices[(int)params->fallback]);
+        } else {
+            snprintf(text + used, sizeof text - used, "%s%s=%g", separator, params->name, params->fallback);
+        }
+    }
+    cli_row_text(rows, "parameters", *text ? text : "-");
+}
+
+static void list_patterns(cli_rows *rows)
+{
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        char claims[256] = "";
+        for (size_t c = 0; c < sizeof claim_names / sizeof *claim_names; c++) {
+            if (p->claims & claim_names[c].claim) {
+                const size_t used = strlen(claims);
+                snprintf(claims + used, sizeof claims - used, "%s%s", used ? "," : "", claim_names[c].name);
+            }
+        }
+        cli_row_text(rows, "pattern", p->name);
+        put_dims(rows, p->min_dim, p->max_dim);
+        put_params(rows, p->params);
+        cli_row_text(rows, "claims", *claims ? claims : "-");
+        cli_row_text(rows, "source", p->cite);
+        cli_row_text(rows, "what", p->title);
+        cli_row_end(rows);
+    }
+}
+
+static void list_measures(cli_rows *rows)
+{
+    const koksma_measure *m;
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        cli_row_text(rows, "measure", m->name);
+        put_dims(rows, m->min_dim, m->max_dim);
+        put_params(rows, m->params);
+        cli_row_text(rows, "cost", m->cost);
+        cli_row_text(rows, "source", m->cite);
+        cli_row_text(rows, "what", m->title);
+        cli_row_end(rows);
+    }
+}
+
+static const struct {
+    const char *name;
+    void (*list)(cli_rows *rows);
+} lists[] = {
+    {"patterns", list_patterns},
+    {"measures", list_measures},
+};
+
+static int run(const cli_arguments *arguments)
+{
+    const char *which = arguments->n_operands ? arguments->operands[0] : NULL;
+    bool found = false;
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    for (size_t i = 0; rows && i < sizeof lists / sizeof *lists; i++) {
+        if (!which || !strcmp(which, lists[i].name)) {
+            lists[i].list(rows);
+            found = true;
+        }
+    }
+    const int code = cli_rows_close(rows);
+    if (!code && (!found || arguments->n_operands > 1)) {
+        return cli_usage_error(arguments, "it takes one of patterns, measures");
+    }
+    return code;
+}
+
+static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
+
+const cli_command cli_command_list = {
+    .name = "list",
+    .summary = "list the members of a table",
+    .synopsis = "[patterns|measures] [--json]",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "options.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LONG_BASE = 1000, HELP = 999 };
+
+static void print_help(const cli_command *command)
+{
+    printf("koksma %s: %s\n\nusage: koksma %s %s\n\n", command->name, command->summary, command->name, command->synopsis);
+    for (const cli_option *o = command->options; o->name; o++) {
+        char left[64];
+        snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);
+        printf(o->letter ? "  -%c, %-22s %s\n" : "  %c   %-22s %s\n", o->letter ? o->letter : ' ', left, o->help);
+    }
+    printf("      %-22s %s\n", "--help", "this text");
+    if (command->details) {
+        printf("\n%s\n", command->details);
+    }
+}
+
+static int parse_failure(const cli_arguments *arguments, int code, char **argv)
+{
+    /* With a short option getopt sets optopt; with a long one the word before optind is the culprit. */
+    if (optopt > 0 && optopt < LONG_BASE) {
+        return cli_usage_error(arguments, code == ':' ? "option -%c takes an argument" : "no option -%c", optopt);
+    }
+    return cli_usage_error(arguments, code == ':' ? "option %s takes an argument" : "option %s is unknown or takes no argument",
+                           argv[optind - 1]);
+}
+
+int cli_run(const cli_command *command, int argc, char **argv)
+{
+    cli_arguments arguments = {.command = command};
+    struct option longs[CLI_MAX_OPTIONS + 2] = {{0}};
+    char shorts[2 * CLI_MAX_OPTIONS + 4] = ":";
+    int n = 0;
+    for (; command->options[n].name; n++) {
+        const cli_option *o = &command->options[n];
+        longs[n] = (struct option){o->name, o->argument ? required_argument : no_argument, NULL, LONG_BASE + n};
+        if (o->letter) {
+            strncat(shorts, &o->letter, 1);
+            strcat(shorts, o->argument ? ":" : "");
+        }
+    }
+    longs[n] = (struct option){"help", no_argument, NULL, HELP};
+    opterr = 0;
+    optind = 1;
+    for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+        if (code == HELP) {
+            print_help(command);
+            return CLI_YES;
+        }
+        if (code == '?' || code == ':') {
+            return parse_failure(&arguments, code, argv);
+        }
+        int i = code - LONG_BASE;
+        if (code < LONG_BASE) {
+            for (i = 0; command->options[i].letter != code; i++) {
+            }
+        }
+        if (arguments.values[i] && command->options[i].argument) {
+            return cli_usage_error(&arguments, "option --%s is given twice", command->options[i].name);
+        }
+        arguments.values[i] = optarg ? optarg : "";
+    }
+    arguments.n_operands = argc - optind;
+    arguments.operands = argv + optind;
+    return command->run(&arguments);
+}
+
+const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)
+{
+    for (int i = 0; arguments->command->options[i].name; i++) {
+        if (!strcmp(arguments->command->options[i].name, name)) {
+            return arguments->values[i] ? arguments->values[i] : fallback;
+        }
+    }
+    abort(); /* a name that is not in the table is a mistake in the program */
+}
+
+bool cli_flag(const cli_arguments *arguments, const char *name)
+{
+    return cli_text(arguments, name, NULL) != NULL;
+}
+
+bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
+               uint64_t *out)
+{
+    const char *text = cli_text(arguments, name, NULL);
+    *out = fallback;
+    if (!text) {
+        return true;
+    }
+    char *end;
+    errno = 0;
+    const unsigned long long value = strtoull(text, &end, 10);
+    if (text[0] < '0' || text[0] > '9' || *end || errno || value < min || value > max) {
+        cli_usage_error(arguments, "--%s %s: it takes a whole number from %llu to %llu", name, text,
+                        (unsigned long long)min, (unsigned long long)max);
+        return false;
+    }
+    *out = value;
+    return true;
+}
+
+bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out)
+{
+    const char *text = cli_text(arguments, name, NULL);
+    *out = fallback;
+    if (!text) {
+        return true;
+    }
+    char *end;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value >= min && value <= max)) {
+        cli_usage_error(arguments, "--%s %s: it takes a number from %g to %g", name, text, min, max);
+        return false;
+    }
+    *out = value;
+    return true;
+}
+
+int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    fprintf(stderr, "koksma %s: ", arguments->command->name);
+    vfprintf(stderr, format, list);
+    fputc('\n', stderr);
+    va_end(list);
+    return CLI_USAGE;
+}
+
+int cli_fail(const cli_arguments *arguments, koksma_status status)
+{
+    fprintf(stderr, "koksma %s: %s\n", arguments->command->name, koksma_error_text());
+    return koksma_status_exit_code(status);
+}
+
+/* The end of the list item that starts at s: the next comma that is not followed by "key=value" up to the next
+   comma (that is the current spec's next parameter). A parameter never holds a ':'; a new spec has its ':' before
+   any '='. */
+static const char *item_end(const char *s)
+{
+    bool has_parameters = false;
+    for (;; s++) {
+        has_parameters |= *s == ':';
+        if (!*s) {
+            return s;
+        }
+        if (*s == ',') {
+            const size_t stop = strcspn(s + 1, ",:=");
+            if (!has_parameters || s[1 + stop] != '=') {
+                return s;
+            }
+        }
+    }
+}
+
+bool cli_list_item(const char *list, size_t i, char *item, size_t size)
+{
+    const char *start = list;
+    for (;; i--) {
+        const char *end = item_end(start);
+        if (i == 0) {
+            snprintf(item, size, "%.*s", (int)(end - start), start);
+            return true;
+        }
+        if (!*end) {
+            return false;
+        }
+        start = end + 1;
+    }
+}

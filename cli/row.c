@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+typedef struct cell {
+    char *key, *text;
+    bool is_number;
+} cell;
+
+/* As text, rows are kept until the end, because columns are as wide as their widest cell. */
+struct cli_rows {
+    bool json, started, failed;
+    cell *cells;      /* of all rows; a row ends at a cell with a NULL key */
+    size_t n, room;
+};
+
+cli_rows *cli_rows_open(bool json)
+{
+    cli_rows *rows = calloc(1, sizeof *rows);
+    if (rows) {
+        rows->json = json;
+    }
+    return rows;
+}
+
+static void push(cli_rows *rows, const char *key, const char *text, bool is_number)
+{
+    if (rows->n == rows->room) {
+        const size_t room = rows->room ? 2 * rows->room : 64;
+        cell *cells = realloc(rows->cells, room * sizeof *cells);
+        if (!cells) {
+            rows->failed = true;
+            return;
+        }
+        rows->cells = cells;
+        rows->room = room;
+    }
+    cell *c = &rows->cells[rows->n++];
+    *c = (cell){key ? strdup(key) : NULL, text ? strdup(text) : NULL, is_number};
+    rows->failed |= (key && !c->key) || (text && !c->text);
+}
+
+static void json_text(const char *text)
+{
+    putchar('"');
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if (c == '"' || c == '\\') {
+            printf("\\%c", c);
+        } else if (c < 0x20) {
+            printf("\\u%04x", c);
+        } else {
+            putchar(c);
+        }
+    }
+    putchar('"');
+}
+
+static void json_key(cli_rows *rows, const char *key)
+{
+    fputs(rows->started ? "," : "{", stdout);
+    rows->started = true;
+    json_text(key);
+    putchar(':');
+}
+
+void cli_row_text(cli_rows *rows, const char *key, const char *value)
+{
+    if (rows->json) {
+        json_key(rows, key);
+        json_text(value);
+    } else {
+        push(rows, key, value, false);
+    }
+}
+
+void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text)
+{
+    if (rows->json) {
+        json_key(rows, key);
+        fputs(json, stdout);
+    } else {
+        push(rows, key, text, false);
+    }
+}
+
+void cli_row_number(cli_rows *rows, const char *key, double value)
+{
+    char text[40];
+    if (rows->json) {
+        json_key(rows, key);
+        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
+        fputs(text, stdout);
+        return;
+    }
+    snprintf(text, sizeof text, isfinite(value) ? "%.9g" : "-", value);
+    push(rows, key, text, true);
+}
+
+void cli_row_whole(cli_rows *rows, const char *key, uint64_t value)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%llu", (unsigned long long)value);
+    if (rows->json) {
+        json_key(rows, key);
+        fputs(text, stdout);
+    } else {
+        push(rows, key, text, true);
+    }
+}
+
+void cli_row_flag(cli_rows *rows, const char *key, bool value)
+{
+    cli_row_json(rows, key, value ? "true" : "false", value ? "yes" : "no");
+}
+
+void cli_row_end(cli_rows *rows)
+{
+    if (rows->json) {
+        if (rows->started) {
+            puts("}");
+            fflush(stdout);
+        }
+        rows->started = false;
+    } else {
+        push(rows, NULL, NULL, false);
+    }
+}
+
+/* A block is a run of rows with the same keys; it gets a header and columns of its own. */
+static size_t row_length(const cli_rows *rows, size_t start)
+{
+    size_t length = 0;
+    while (start + length < rows->n && rows->cells[start + length].key) {
+        length++;
+    }
+    return length;
+}
+
+static bool same_keys(const cli_rows *rows, size_t a, size_t b, size_t length)
+{
+    if (row_length(rows, b) != length) {
+        return false;
+    }
+    for (size_t i = 0; i < length; i++) {
+        if (strcmp(rows->cells[a + i].key, rows->cells[b + i].key) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void print_cell(const char *text, int width, bool right, bool last)
+{
+    printf(right ? "%*s" : "%-*s", last && !right ? 0 : width, text);
+    fputs(last ? "\n" : "  ", stdout);
+}
+
+static size_t print_block(const cli_rows *rows, size_t start)
+{
+    const size_t length = row_length(rows, start);
+    size_t end = start;
+    int widths[64] = {0};
+    do {
+        for (size_t i = 0; i < length && i < 64; i++) {
+            const int key = (int)strlen(rows->cells[end + i].key), text = (int)strlen(rows->cells[end + i].text);
+            widths[i] = widths[i] > key ? widths[i] : key;
+            widths[i] = widths[i] > text ? widths[i] : text;
+        }
+        end += length + 1;
+    } while (end < rows->n && same_keys(rows, start, end, length));
+    for (size_t i = 0; i < length && i < 64; i++) {
+        print_cell(rows->cells[start + i].key, widths[i], rows->cells[start + i].is_number, i + 1 == length);
+    }
+    for (size_t at = start; at < end; at += length + 1) {
+        for (size_t i = 0; i < length && i < 64; i++) {
+            print_cell(rows->cells[at + i].text, widths[i], rows->cells[at + i].is_number, i + 1 == length);
+        }
+    }
+    return end;
+}
+
+int cli_rows_close(cli_rows *rows)
+{
+    if (!rows) {
+        return 4;
+    }
+    for (size_t at = 0; !rows->failed && at < rows->n;) {
+        at = print_block(rows, at);
+    }
+    const bool failed = rows->failed;
+    for (size_t i = 0; i < rows->n; i++) {
+        free(rows->cells[i].key);
+        free(rows->cells[i].text);
+    }
+    free(rows->cells);
+    free(rows);
+    if (failed || fflush(stdout) || ferror(stdout)) {
+        fputs("koksma: standard output could not be written\n", stderr);
+        return 4;
+    }
+    return CLI_YES;
+}

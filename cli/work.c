@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number)
+{
+    interrupted = 1;
+    signal(number, SIG_DFL); /* the second one ends the program at once */
+}
+
+bool cli_interrupted(void)
+{
+    return interrupted != 0;
+}
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void show(cli_work *work, double fraction)
+{
+    const double now = now_s(), elapsed = now - work->started_s;
+    if (now - work->updated_s < 1.0 / 6) {
+        return;
+    }
+    work->updated_s = now;
+    fprintf(stderr, "\r\033[K%s %3.0f %%", work->what, 100 * fraction);
+    if (fraction > 0.01 && elapsed > 1) {
+        fprintf(stderr, ", %.0f s left", elapsed * (1 - fraction) / fraction);
+    }
+    fflush(stderr);
+    work->shown = true;
+}
+
+static bool keep_going(void *context, double fraction)
+{
+    show(context, fraction);
+    return !interrupted;
+}
+
+static bool keep_going_silently(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return !interrupted;
+}
+
+bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work)
+{
+    uint64_t threads;
+    const char *when = cli_text(arguments, "progress", "auto");
+    if (!cli_whole(arguments, "threads", 0, 1, 256, &threads)) {
+        return false;
+    }
+    const bool always = !strcmp(when, "always"), automatic = !strcmp(when, "auto");
+    if (!always && !automatic && strcmp(when, "never") != 0) {
+        cli_usage_error(arguments, "--progress %s: it takes auto, always or never", when);
+        return false;
+    }
+    const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
+    *work = (cli_work){.what = what, .started_s = now_s()};
+    work->run = (koksma_run){.threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
+    signal(SIGINT, on_signal);
+    signal(SIGTERM, on_signal);
+    return true;
+}
+
+void cli_work_end(cli_work *work)
+{
+    if (work->shown) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
+    work->shown = false;
+}

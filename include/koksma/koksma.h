@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Koksma: sampling patterns, and exact measures of how irregular they are.
+ *
+ * The whole library in a page: look a pattern up (or parse a spec such as "poisson-disk:d=0.2"), generate
+ * points with it, look a measure up, evaluate it.
+ *
+ *     koksma_points points;
+ *     koksma_spec spec;
+ *     koksma_value value;
+ *     if (koksma_points_init(&points, 16, 2) || koksma_pattern_spec("n-rooks", &spec) ||
+ *         koksma_generate(&spec, 7, NULL, &points))
+ *         puts(koksma_error_text());
+ *     koksma_spec star;
+ *     koksma_measure_spec("star", &star);
+ *     koksma_evaluate(&star, &points, NULL, &value);
+ *     koksma_points_fini(&points);
+ *
+ * Every function that can fail returns a koksma_status, and leaves a line that names the thing and the reason
+ * in koksma_error_text(). Results come through out-pointers, last. Nothing here prints, exits or keeps global
+ * state; all functions may be called from several threads at once on different objects.
+ * Equal arguments give equal bits, on any number of threads.
+ */
+#ifndef KOKSMA_KOKSMA_H
+#define KOKSMA_KOKSMA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define KOKSMA_VERSION "0.1.0"
+
+#if defined(__GNUC__)
+#define KOKSMA_API __attribute__((visibility("default")))
+#define KOKSMA_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
+#else
+#define KOKSMA_API
+#define KOKSMA_PRINTF(text, first)
+#endif
+
+/* ---- Status ------------------------------------------------------------------------------------------- */
+
+typedef enum koksma_status {
+#define X(name, exit_code, text) KOKSMA_##name,
+#include <koksma/status.def>
+#undef X
+    KOKSMA_STATUS_COUNT
+} koksma_status;
+
+/* The general meaning of a status: a constant string. */
+KOKSMA_API const char *koksma_status_text(koksma_status status);
+
+/* The exit code that the program gives for a status (0, 2, 3, 4 or 130). */
+KOKSMA_API int koksma_status_exit_code(koksma_status status);
+
+/* What the last failed call of this thread has to say: one line without a newline that names the thing and the
+   reason. Valid until this thread's next failing call. */
+KOKSMA_API const char *koksma_error_text(void);
+
+/* The library's version, equal to KOKSMA_VERSION of the header it was built with. */
+KOKSMA_API const char *koksma_version(void);
+
+/* ---- Points ------------------------------------------------------------------------------------------- */
+
+/* n points of dim coordinates; point i is xs[i*dim] .. xs[i*dim + dim-1]. Generators give coordinates in [0,1);
+   measures take the closed [0,1]. */
+typedef struct koksma_points {
+    size_t n;
+    int dim;
+    double *xs;
+} koksma_points;
+
+enum { KOKSMA_MAX_DIM = 4096 };
+
+/* The most coordinates one set may have (2 GiB of doubles). */
+#define KOKSMA_MAX_COORDINATES ((size_t)1 << 28)
+
+/* Room for n points of dim coordinates, all zero. n = 0 is an error, as is more than KOKSMA_MAX_COORDINATES.
+   Errors: ARGUMENT, MEMORY. */
+KOKSMA_API koksma_status koksma_points_init(koksma_points *points, size_t n, int dim);
+
+/* Frees what init or read allocated; takes a zeroed struct and NULL. */
+KOKSMA_API void koksma_points_fini(koksma_points *points);
+
+/* Reads .npy (by content) or text: one point a line, separated by blanks, commas or tabs, `#` comments, an
+   optional CSV header. path "-" is standard input. Coordinates outside [0,1], NaN, ragged rows and empty files
+   are errors that name file, line and reason. Allocates points. Errors: MISSING, MALFORMED, MEMORY. */
+KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *points);
+
+/* Writes by the ending of the path: .csv, .npy, anything else text; "-" is text on standard output. Files are
+   written whole or not at all. comment (may be NULL) becomes `# ` lines of text files. Numbers are %.17g: they
+   read back to the same bits. Errors: IO. */
+KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment);
+
+/* ---- Parameters and specs ----------------------------------------------------------------------------- */
+
+/* A parameter of a pattern or measure; tables of them end at a NULL name. */
+typedef struct koksma_param {
+    const char *name, *help;
+    double fallback, min, max;  /* the default and the closed range; with choices, of their index */
+    const char *const *choices; /* NULL, or the words that it takes, ending at NULL; the value is the index */
+    bool whole;                 /* only whole numbers */
+} koksma_param;
+
+enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_SPEC = 512 };
+
+/* How to run a call that may be long. NULL wherever it is taken means: all threads, no limit, no questions. */
+typedef struct koksma_run {
+    int threads;         /* 0: as many as there are processors */
+    double time_limit_s; /* 0: none. A measure that is cut short gives bounds, and says so */
+    bool (*keep_going)(void *context, double fraction_done); /* may be NULL; false stops: INTERRUPTED.
+                                                                 Called from the calling thread only */
+    void *context;
+} koksma_run;
+
+/* What a table member's function gets beside its points: its parameters in table order, and how to run. */
+typedef struct koksma_args {
+    double params[KOKSMA_MAX_PARAMS];
+    const char *path;      /* the text after the colon for members that take a file; else NULL */
+    const koksma_run *run; /* may be NULL */
+} koksma_args;
+
+typedef struct koksma_pattern koksma_pattern;
+typedef struct koksma_measure koksma_measure;
+
+/* A member of a table with its parameters: what "poisson-disk:d=0.2" means. Plain data; copy it freely. */
+typedef struct koksma_spec {
+    const koksma_pattern *pattern; /* exactly one of pattern and measure is not NULL */
+    const koksma_measure *measure;
+    double params[KOKSMA_MAX_PARAMS];
+    char path[KOKSMA_MAX_SPEC];    /* for members that take a file */
+} koksma_spec;
+
+/* Parses "name" or "name:key=value,key=value". Errors (ARGUMENT, UNKNOWN) name the key and what it takes. */
+KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec);
+KOKSMA_API koksma_status koksma_measure_spec(const char *text, koksma_spec *spec);
+
+/* The canonical text of a spec: parameters in table order, those at their default left out. This is the key under
+   which results are stored. text has room for KOKSMA_MAX_SPEC characters. */
+KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
+
+/* ---- Patterns ----------------------------------------------------------------------------------------- */
+
+/* Properties that a pattern claims; each switches on its test for every pattern that makes it.
+   A stratum [j/m, (j+1)/m) is bounded by the doubles nearest to its two fractions. */
+enum {
+    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0, /* the seed does not matter */
+    KOKSMA_CLAIM_SEQUENCE = 1u << 1,      /* the first k of n points are the set of k points */
+    KOKSMA_CLAIM_ANY_N = 1u << 2,         /* serves every n >= 1 */
+    KOKSMA_CLAIM_STRATIFIED = 1u << 3,    /* n = m^dim: one point in each of the m^dim cells, in order of the
+                                             cells: the last coordinate's cell changes fastest */
+    KOKSMA_CLAIM_LATIN = 1u << 4,         /* each coordinate has one point in each [j/n, (j+1)/n) */
+    KOKSMA_CLAIM_UNBIASED = 1u << 5,      /* each point set is uniform in the mean: E(#/n in B) = volume of B */
+    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,  /* the order of the points is random already: shuffling is idle */
+    KOKSMA_CLAIM_MIN_DISTANCE = 1u << 7,  /* no two points closer than parameter "d" (on the torus with torus=1) */
+    KOKSMA_CLAIM_CENTRED = 1u << 8        /* with STRATIFIED: each point in the middle half of its cell */
+};
+
+struct koksma_pattern {
+    const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
+    int min_dim, max_dim;
+    unsigned claims;
+    const koksma_param *params;      /* NULL: none */
+    koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
+    bool takes_path;                 /* the spec's text after the colon is a file's path */
+    const char *alias_of;            /* not NULL: another name for that pattern */
+};
+
+/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+KOKSMA_API const koksma_pattern *koksma_pattern_at(size_t i);
+KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
+
+/* Fills out->n points of out->dim coordinates. A pattern that can't serve n, dim or its parameters says which would
+   do; it never returns fewer points and never runs for ever. run may be NULL.
+   Errors: N, DIM, ARGUMENT, IMPOSSIBLE, MEMORY, INTERRUPTED (for file patterns MISSING and MALFORMED). */
+KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
+                                         koksma_points *out);
+
+/* ---- Measures ----------------------------------------------------------------------------------------- */
+
+enum { KOKSMA_WITNESS_DIM = 16 };
+
+typedef enum koksma_witness_kind {
+    KOKSMA_WITNESS_NONE,
+    KOKSMA_WITNESS_BOX,        /* sides lo[k] .. hi[k] */
+    KOKSMA_WITNESS_HALF_PLANE, /* lo[0] x + lo[1] y <= hi[0] */
+    KOKSMA_WITNESS_DISK        /* centre lo[0], lo[1], radius hi[0] */
+} koksma_witness_kind;
+
+/* The region where a supremum is reached, so that anyone can check it by counting. */
+typedef struct koksma_witness {
+    koksma_witness_kind kind;
+    int dim;
+    bool closed;   /* count takes the points on the boundary in (an excess), or leaves them out (a deficit) */
+    size_t count;  /* points in the region; |count/n - volume| is the value */
+    double volume;
+    double lo[KOKSMA_WITNESS_DIM], hi[KOKSMA_WITNESS_DIM];
+} koksma_witness;
+
+typedef struct koksma_value {
+    double value;          /* the measure; of a root-mean-square measure the root */
+    double square;         /* its square where that is the more exact number, else NaN */
+    double lower, upper;   /* certified bounds: both equal value when exact */
+    double standard_error; /* of a sampled measure, else 0 */
+    bool exact;
+    koksma_witness witness;
+} koksma_value;
+
+struct koksma_measure {
+    const char *name, *title, *cite, *cost; /* cost: "n log n", "n^2 d" */
+    int min_dim, max_dim;
+    const koksma_param *params;             /* NULL: none */
+    koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
+};
+
+KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);
+KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
+
+/* Evaluates a measure. Points must lie in the closed unit cube; n >= 1. run may be NULL.
+   Errors: ARGUMENT (a coordinate outside [0,1]), N (too many for the method), DIM, MEMORY, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points,
+                                         const koksma_run *run, koksma_value *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

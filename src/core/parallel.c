@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "core/parallel.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/status.h"
+
+enum { MAX_THREADS = 256 };
+
+typedef struct pool {
+    koksma__block_function f;
+    void *context;
+    size_t n_blocks;
+    atomic_size_t next;
+    atomic_size_t done;
+    atomic_int status;
+    pthread_mutex_t lock; /* guards text */
+    char text[512];
+} pool;
+
+int koksma__threads(const koksma_run *run)
+{
+    if (run && run->threads > 0) {
+        return run->threads < MAX_THREADS ? run->threads : MAX_THREADS;
+    }
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online < 1 ? 1 : online < MAX_THREADS ? (int)online : MAX_THREADS;
+}
+
+bool koksma__keep_going(const koksma_run *run, double fraction_done)
+{
+    return !run || !run->keep_going || run->keep_going(run->context, fraction_done);
+}
+
+koksma_status koksma__fail_interrupted(void)
+{
+    return koksma__fail(KOKSMA_INTERRUPTED, "interrupted");
+}
+
+static void stop(pool *p, koksma_status status)
+{
+    pthread_mutex_lock(&p->lock);
+    if (atomic_load(&p->status) == KOKSMA_OK) {
+        strncpy(p->text, koksma_error_text(), sizeof p->text - 1);
+        atomic_store(&p->status, (int)status);
+    }
+    pthread_mutex_unlock(&p->lock);
+}
+
+static bool work_one(pool *p)
+{
+    if (atomic_load(&p->status) != KOKSMA_OK) {
+        return false;
+    }
+    const size_t block = atomic_fetch_add(&p->next, 1);
+    if (block >= p->n_blocks) {
+        return false;
+    }
+    const koksma_status status = p->f(p->context, block);
+    if (status) {
+        stop(p, status);
+    }
+    atomic_fetch_add(&p->done, 1);
+    return true;
+}
+
+static void *work(void *argument)
+{
+    while (work_one(argument)) {
+    }
+    return NULL;
+}
+
+koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f, void *context)
+{
+    pool p = {.f = f, .context = context, .n_blocks = n_blocks, .lock = PTHREAD_MUTEX_INITIALIZER};
+    pthread_t helpers[MAX_THREADS];
+    int n_helpers = 0;
+    size_t wanted = (size_t)koksma__threads(run);
+    wanted = wanted < n_blocks ? wanted : n_blocks;
+    while ((size_t)n_helpers + 1 < wanted && !pthread_create(&helpers[n_helpers], NULL, work, &p)) {
+        n_helpers++; /* a thread that can't be had only makes it slower */
+    }
+    do {
+        if (!koksma__keep_going(run, (double)atomic_load(&p.done) / (double)(n_blocks ? n_blocks : 1))) {
+            koksma__fail_interrupted();
+            stop(&p, KOKSMA_INTERRUPTED);
+        }
+    } while (work_one(&p));
+    for (int i = 0; i < n_helpers; i++) {
+        pthread_join(helpers[i], NULL);
+    }
+    pthread_mutex_destroy(&p.lock);
+    const koksma_status status = (koksma_status)atomic_load(&p.status);
+    return status ? koksma__fail(status, "%s", p.text) : KOKSMA_OK;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdlib.h>
+
+#include "core/status.h"
+
+koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
+{
+    *points = (koksma_points){0};
+    if (n == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");
+    }
+    if (dim < 1 || dim > KOKSMA_MAX_DIM) {
+        return koksma__fail(KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim, KOKSMA_MAX_DIM);
+    }
+    if (n > KOKSMA_MAX_COORDINATES / (size_t)dim) {
+        return koksma__fail(KOKSMA_ARGUMENT, "n = %zu: at most %zu points of %d dimensions fit into one set", n,
+                            KOKSMA_MAX_COORDINATES / (size_t)dim, dim);
+    }
+    points->xs = calloc(n * (size_t)dim, sizeof *points->xs);
+    if (!points->xs) {
+        return koksma__fail_memory(n * (size_t)dim * sizeof *points->xs);
+    }
+    points->n = n;
+    points->dim = dim;
+    return KOKSMA_OK;
+}
+
+void koksma_points_fini(koksma_points *points)
+{
+    if (points) {
+        free(points->xs);
+        *points = (koksma_points){0};
+    }
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "core/points_io.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/atomic_file.h"
+#include "core/status.h"
+
+koksma_status koksma_points_read(const char *path, koksma_points *points)
+{
+    *points = (koksma_points){0};
+    const bool standard = !strcmp(path, "-");
+    const char *name = standard ? "standard input" : path;
+    FILE *stream = standard ? stdin : fopen(path, "rb");
+    if (!stream) {
+        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(errno));
+    }
+    struct stat info;
+    koksma_status status;
+    if (!fstat(fileno(stream), &info) && S_ISDIR(info.st_mode)) {
+        status = koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a directory", name);
+    } else {
+        const int first = getc(stream); /* the first byte of "\x93NUMPY"; no text begins with it */
+        ungetc(first, stream);
+        status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
+                               : koksma__points_read_text(stream, name, points);
+    }
+    if (!standard) {
+        fclose(stream);
+    }
+    return status;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t n = strlen(text), m = strlen(end);
+    return n >= m && !strcmp(text + n - m, end);
+}
+
+koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment)
+{
+    koksma__atomic_file file;
+    const koksma_status status = koksma__atomic_open(path, &file);
+    if (status) {
+        return status;
+    }
+    if (ends_with(path, ".npy")) {
+        koksma__points_write_npy(file.stream, points);
+    } else if (ends_with(path, ".csv")) {
+        koksma__points_write_csv(file.stream, points);
+    } else {
+        koksma__points_write_text(file.stream, points, comment);
+    }
+    return koksma__atomic_close(&file, true);
+}

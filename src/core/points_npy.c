@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* NumPy's .npy, versions 1 to 3: little- or big-endian float32 and float64 arrays of shape (n, dim) or (n,), in C or
+   Fortran order. Format: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/points_io.h"
+#include "core/status.h"
+
+enum { MAX_HEADER = 4096 };
+
+typedef struct layout {
+    size_t n, dim;
+    size_t item_size;
+    bool big_endian, fortran_order;
+} layout;
+
+static koksma_status malformed(const char *name, const char *reason)
+{
+    return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: %s", name, reason);
+}
+
+/* The text after 'key': in the header's dictionary, or NULL. */
+static const char *find_value(const char *header, const char *key)
+{
+    char quoted[32];
+    snprintf(quoted, sizeof quoted, "'%s':", key);
+    const char *at = strstr(header, quoted);
+    if (!at) {
+        return NULL;
+    }
+    at += strlen(quoted);
+    return at + strspn(at, " ");
+}
+
+static koksma_status parse_shape(const char *name, const char *shape, layout *out)
+{
+    unsigned long long sizes[2] = {0, 1};
+    int n_sizes = 0;
+    const char *s = shape + 1;
+    s += strspn(s, " ");
+    while (*s != ')') {
+        char *end;
+        if (*s < '0' || *s > '9' || n_sizes == 2) {
+            return malformed(name, "the shape is not (n,) or (n, dim)");
+        }
+        sizes[n_sizes++] = strtoull(s, &end, 10);
+        s = end + strspn(end, " ");
+        if (*s == ',') {
+            s += 1 + strspn(s + 1, " ");
+        } else if (*s != ')') {
+            return malformed(name, "the shape is not (n,) or (n, dim)");
+        }
+    }
+    if (n_sizes == 0 || sizes[0] == 0 || sizes[1] == 0) {
+        return malformed(name, "no points");
+    }
+    if (sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1]) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %llu points of %llu dimensions, more than fit", name,
+                            sizes[0], sizes[1]);
+    }
+    out->n = (size_t)sizes[0];
+    out->dim = (size_t)sizes[1];
+    return KOKSMA_OK;
+}
+
+static koksma_status parse_header(const char *name, const char *header, layout *out)
+{
+    const char *type = find_value(header, "descr");
+    const char *order = find_value(header, "fortran_order");
+    const char *shape = find_value(header, "shape");
+    if (!type || !order || !shape || *shape != '(') {
+        return malformed(name, "descr, fortran_order or shape is missing");
+    }
+    const bool float64 = !strncmp(type + 2, "f8'", 3), float32 = !strncmp(type + 2, "f4'", 3);
+    if (type[0] != '\'' || !strchr("<>", type[1]) || !(float64 || float32)) {
+        return malformed(name, "the type is not float32 or float64");
+    }
+    out->big_endian = type[1] == '>';
+    out->item_size = float64 ? 8 : 4;
+    out->fortran_order = !strncmp(order, "True", 4);
+    return parse_shape(name, shape, out);
+}
+
+static koksma_status read_header(FILE *stream, const char *name, layout *out)
+{
+    unsigned char start[12];
+    if (fread(start, 1, 8, stream) != 8 || memcmp(start, "\x93NUMPY", 6) != 0 || start[6] < 1 || start[6] > 3) {
+        return malformed(name, "not a .npy file of version 1, 2 or 3");
+    }
+    const size_t length_bytes = start[6] == 1 ? 2 : 4;
+    size_t length = 0;
+    if (fread(start + 8, 1, length_bytes, stream) == length_bytes) {
+        for (size_t i = length_bytes; i > 0; i--) {
+            length = length << 8 | start[8 + i - 1];
+        }
+    }
+    char header[MAX_HEADER + 1];
+    if (length == 0 || length > MAX_HEADER || fread(header, 1, length, stream) != length) {
+        return malformed(name, "cut short or longer than 4096 bytes");
+    }
+    header[length] = '\0';
+    return parse_header(name, header, out);
+}
+
+static double decode(const unsigned char *bytes, const layout *l)
+{
+    uint64_t bits = 0;
+    for (size_t i = 0; i < l->item_size; i++) {
+        bits = bits << 8 | bytes[l->big_endian ? i : l->item_size - 1 - i];
+    }
+    if (l->item_size == 4) {
+        const uint32_t bits32 = (uint32_t)bits;
+        float x;
+        memcpy(&x, &bits32, sizeof x);
+        return (double)x;
+    }
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static koksma_status read_items(FILE *stream, const char *name, const layout *l, koksma_points *points)
+{
+    for (size_t item = 0; item < l->n * l->dim; item++) {
+        unsigned char bytes[8];
+        if (fread(bytes, 1, l->item_size, stream) != l->item_size) {
+            return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
+                                item, l->n, l->dim);
+        }
+        const double x = decode(bytes, l);
+        if (!(x >= 0 && x <= 1)) {
+            return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name, item, x);
+        }
+        const size_t i = l->fortran_order ? item % l->n : item / l->dim;
+        const size_t k = l->fortran_order ? item / l->n : item % l->dim;
+        points->xs[i * l->dim + k] = x == 0 ? 0.0 : x;
+    }
+    if (getc(stream) != EOF) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: the file goes on after the %zu points of dim %zu that it claims", name,
+                            l->n, l->dim);
+    }
+    return KOKSMA_OK;
+}
+
+/* A claim of 10^9 points is believed only when the file is that long: nothing large is allocated before. */
+static koksma_status check_length(FILE *stream, const char *name, const layout *l)
+{
+    const long here = ftell(stream);
+    if (here < 0 || fseek(stream, 0, SEEK_END)) {
+        return KOKSMA_OK; /* a pipe: read_items finds out */
+    }
+    const long end = ftell(stream);
+    fseek(stream, here, SEEK_SET);
+    if ((size_t)(end - here) / l->item_size < l->n * l->dim) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers",
+                            name, l->n, l->dim, (size_t)(end - here) / l->item_size);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points)
+{
+    layout l = {0};
+    *points = (koksma_points){0};
+    koksma_status status = read_header(stream, name, &l);
+    if (!status) {
+        status = check_length(stream, name, &l);
+    }
+    if (!status) {
+        status = koksma_points_init(points, l.n, (int)l.dim);
+    }
+    if (!status) {
+        status = read_items(stream, name, &l, points);
+    }
+    if (status) {
+        koksma_points_fini(points);
+    }
+    return status;
+}
+
+void koksma__points_write_npy(FILE *stream, const koksma_points *points)
+{
+    char header[128];
+    const int used = snprintf(header, sizeof header, "{'descr': '<f8', 'fortran_order': False, 'shape': (%zu, %d), }",
+                              points->n, points->dim);
+    const size_t length = ((size_t)used + 1 + 10 + 63) / 64 * 64 - 10; /* the data begins at a multiple of 64 */
+    const unsigned char start[10] = {0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, (unsigned char)(length & 255),
+                                     (unsigned char)(length >> 8)};
+    fwrite(start, 1, sizeof start, stream);
+    fprintf(stream, "%-*s\n", (int)length - 1, header);
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        uint64_t bits;
+        unsigned char bytes[8];
+        memcpy(&bits, &points->xs[i], sizeof bits);
+        for (int b = 0; b < 8; b++) {
+            bytes[b] = (unsigned char)(bits >> (8 * b));
+        }
+        fwrite(bytes, 1, sizeof bytes, stream);
+    }
+}

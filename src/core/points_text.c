@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Points as text: one point a line, `%.17g`, with `# key value` lines in front. Reading takes any of blanks,
+   commas, tabs, comments and a CSV header; `# n N` and `# dim D` are promises that are checked. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/points_io.h"
+#include "core/status.h"
+
+enum { MAX_LINE = 1 << 18, SHOWN = 40 };
+
+typedef struct reader {
+    FILE *stream;
+    const char *name;
+    char *line; /* MAX_LINE + 1 bytes */
+    size_t line_number, length;
+    bool header_seen;
+    size_t header_fields;
+    unsigned long long promised_n, promised_dim; /* 0: nothing promised */
+    size_t capacity;                             /* of xs, in coordinates */
+    koksma_points *points;
+} reader;
+
+static koksma_status malformed(const reader *r, const char *reason)
+{
+    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %s", r->name, r->line_number, reason);
+}
+
+/* Reads one line without its end. False at the end of the file. */
+static bool read_line(reader *r, koksma_status *status)
+{
+    size_t n = 0;
+    int c;
+    while ((c = getc_unlocked(r->stream)) != EOF && c != '\n') {
+        if (n == MAX_LINE) {
+            r->line_number++;
+            *status = malformed(r, "longer than 262144 characters");
+            return false;
+        }
+        r->line[n++] = (char)c;
+    }
+    if (c == EOF && n == 0) {
+        return false;
+    }
+    if (n && r->line[n - 1] == '\r') {
+        n--;
+    }
+    r->line[n] = '\0';
+    r->length = n;
+    r->line_number++;
+    return true;
+}
+
+static bool is_separator(char c)
+{
+    return c == ' ' || c == '\t' || c == ',' || c == ';';
+}
+
+static const char *skip_blanks(const char *s)
+{
+    while (*s == ' ' || *s == '\t') {
+        s++;
+    }
+    return s;
+}
+
+/* From the end of a field to the start of the next; one comma or semicolon at most. NULL: two in a row. */
+static const char *next_field(const char *s)
+{
+    s = skip_blanks(s);
+    if (*s == ',' || *s == ';') {
+        s = skip_blanks(s + 1);
+        if (*s == ',' || *s == ';') {
+            return NULL;
+        }
+    }
+    return s;
+}
+
+static koksma_status read_promise(reader *r)
+{
+    char key[8];
+    char digits[24];
+    if (sscanf(r->line, "# %7[a-z] %23[0-9]", key, digits) == 2) {
+        unsigned long long *promise = !strcmp(key, "n") ? &r->promised_n : !strcmp(key, "dim") ? &r->promised_dim : NULL;
+        if (promise) {
+            *promise = strtoull(digits, NULL, 10);
+            if (*promise > KOKSMA_MAX_COORDINATES) {
+                return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: claims %s = %llu, more than the %zu that fit",
+                                    r->name, r->line_number, key, *promise, KOKSMA_MAX_COORDINATES);
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status append(reader *r, double x)
+{
+    koksma_points *p = r->points;
+    const size_t used = p->n; /* while reading, n counts coordinates */
+    if (used == KOKSMA_MAX_COORDINATES) {
+        return malformed(r, "more coordinates than the 268435456 that fit into one set");
+    }
+    if (used == r->capacity) {
+        const size_t capacity = used ? 2 * used : 64;
+        double *xs = realloc(p->xs, capacity * sizeof *xs);
+        if (!xs) {
+            return koksma__fail_memory(capacity * sizeof *xs);
+        }
+        p->xs = xs;
+        r->capacity = capacity;
+    }
+    p->xs[p->n++] = x;
+    return KOKSMA_OK;
+}
+
+/* A first line without a single number is a CSV header. */
+static bool take_header(reader *r, const char *s)
+{
+    size_t fields = 0;
+    while (s && *s) {
+        char *end;
+        strtod(s, &end);
+        if (end != s && (is_separator(*end) || !*end)) {
+            return false;
+        }
+        while (*s && !is_separator(*s)) {
+            s++;
+        }
+        fields++;
+        s = next_field(s);
+    }
+    if (!s) {
+        return false;
+    }
+    r->header_seen = true;
+    r->header_fields = fields;
+    return true;
+}
+
+static koksma_status bad_number(const reader *r, const char *field)
+{
+    int length = 0;
+    while (length < SHOWN && field[length] && !is_separator(field[length])) {
+        length++;
+    }
+    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number", r->name, r->line_number, length, field);
+}
+
+static koksma_status read_row(reader *r, const char *s)
+{
+    int fields = 0;
+    while (s && *s) {
+        char *end;
+        const double x = strtod(s, &end);
+        if (end == s || !(is_separator(*end) || !*end)) {
+            return bad_number(r, s);
+        }
+        if (!(x >= 0 && x <= 1)) {
+            return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: coordinate %.17g is outside [0,1]", r->name,
+                                r->line_number, x);
+        }
+        if (++fields > KOKSMA_MAX_DIM) {
+            return malformed(r, "more than 4096 coordinates");
+        }
+        const koksma_status status = append(r, x == 0 ? 0.0 : x); /* no -0 */
+        if (status) {
+            return status;
+        }
+        s = next_field(end);
+    }
+    if (!s) {
+        return malformed(r, "an empty field");
+    }
+    if (r->points->dim == 0) {
+        r->points->dim = fields;
+    }
+    if (fields != r->points->dim) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: ragged row: %d coordinates where the rows before have %d",
+                            r->name, r->line_number, fields, r->points->dim);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_line(reader *r)
+{
+    for (size_t i = 0; i < r->length; i++) {
+        const unsigned char c = (unsigned char)r->line[i];
+        if (c < 0x20 && c != '\t') {
+            return malformed(r, "not text (a control character)");
+        }
+    }
+    const char *s = skip_blanks(r->line);
+    if (*s == '\0') {
+        return KOKSMA_OK;
+    }
+    if (*s == '#') {
+        return read_promise(r);
+    }
+    if (r->points->dim == 0 && !r->header_seen && take_header(r, s)) {
+        return KOKSMA_OK;
+    }
+    return read_row(r, s);
+}
+
+static koksma_status check_promises(const reader *r, size_t n)
+{
+    const int dim = r->points->dim;
+    if (n == 0) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
+    }
+    if (r->promised_n && r->promised_n != n) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: the file ends after %zu points and claims %llu", r->name,
+                            r->line_number, n, r->promised_n);
+    }
+    if ((r->promised_dim && r->promised_dim != (unsigned)dim) || (r->header_seen && r->header_fields != (size_t)dim)) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu", r->name,
+                            r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points)
+{
+    *points = (koksma_points){0};
+    reader r = {.stream = stream, .name = name, .points = points, .line = malloc(MAX_LINE + 1)};
+    koksma_status status = r.line ? KOKSMA_OK : koksma__fail_memory(MAX_LINE);
+    while (!status && read_line(&r, &status)) {
+        status = take_line(&r);
+    }
+    if (!status && ferror(stream)) {
+        status = koksma__fail(KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(errno));
+    }
+    if (!status) {
+        points->n /= points->dim ? (size_t)points->dim : 1;
+        status = check_promises(&r, points->n);
+    }
+    free(r.line);
+    if (status) {
+        koksma_points_fini(points);
+    }
+    return status;
+}
+
+static void write_rows(FILE *stream, const koksma_points *points, char separator)
+{
+    for (size_t i = 0; i < points->n; i++) {
+        for (int k = 0; k < points->dim; k++) {
+            fprintf(stream, "%.17g%c", points->xs[i * (size_t)points->dim + (size_t)k],
+                    k + 1 < points->dim ? separator : '\n');
+        }
+    }
+}
+
+void koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment)
+{
+    fprintf(stream, "# koksma %s\n", koksma_version());
+    while (comment && *comment) {
+        const int length = (int)strcspn(comment, "\n");
+        fprintf(stream, "# %.*s\n", length, comment);
+        comment += length + (comment[length] == '\n');
+    }
+    fprintf(stream, "# n %zu\n# dim %d\n", points->n, points->dim);
+    write_rows(stream, points, ' ');
+}
+
+void koksma__points_write_csv(FILE *stream, const koksma_points *points)
+{
+    for (int k = 0; k < points->dim; k++) {
+        fprintf(stream, "x%d%c", k, k + 1 < points->dim ? ',' : '\n');
+    }
+    write_rows(stream, points, ',');
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Counter-based random numbers: every number is a hash of its key (seed, purpose, index, lane), so the same
+ * arguments give the same bits in any order and on any number of threads. The generator is Philox4x32-10
+ * (Salmon et al. 2011), from Random123. The bulk form with the same bits is the kernel `uniform`.
+ */
+#ifndef KOKSMA_CORE_RANDOM_H
+#define KOKSMA_CORE_RANDOM_H
+
+#include <Random123/philox.h>
+#include <stdint.h>
+
+/* What a random number is used for. Numbers with different purposes are independent.
+   Add at the end only: the bits of every pattern depend on these. */
+typedef enum koksma__purpose {
+    KOKSMA__PURPOSE_SEED = 1, /* deriving a seed from a seed */
+    KOKSMA__PURPOSE_POINT,    /* the place of a point in the cube or in its cell */
+    KOKSMA__PURPOSE_SHUFFLE,  /* a random permutation */
+    KOKSMA__PURPOSE_DART,     /* a candidate point that may be rejected */
+    KOKSMA__PURPOSE_SHIFT,    /* a toroidal or digital shift */
+    KOKSMA__PURPOSE_SCRAMBLE, /* scrambling of digits */
+    KOKSMA__PURPOSE_SEARCH,   /* a random search of a measure */
+    KOKSMA__PURPOSE_TEST      /* tests and benchmarks */
+} koksma__purpose;
+
+typedef struct koksma__words {
+    uint32_t w[4];
+} koksma__words;
+
+/* 128 random bits. */
+static inline koksma__words koksma__random(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane)
+{
+    const philox4x32_ctr_t counter = {{(uint32_t)index, (uint32_t)(index >> 32), lane, purpose}};
+    const philox4x32_key_t key = {{(uint32_t)seed, (uint32_t)(seed >> 32)}};
+    const philox4x32_ctr_t r = philox4x32(counter, key);
+    return (koksma__words){{r.v[0], r.v[1], r.v[2], r.v[3]}};
+}
+
+/* A double in [0,1) with 53 random bits. */
+static inline double koksma__unit(uint32_t high, uint32_t low)
+{
+    return (double)(((uint64_t)high << 21) | (low >> 11)) * 0x1p-53;
+}
+
+/* Two doubles in [0,1): the pair that stands at `index` of the kernel `uniform`. */
+static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane,
+                                       double pair[2])
+{
+    const koksma__words r = koksma__random(seed, purpose, index, lane);
+    pair[0] = koksma__unit(r.w[0], r.w[1]);
+    pair[1] = koksma__unit(r.w[2], r.w[3]);
+}
+
+/* A seed for part `index` of what `seed` is for. */
+static inline uint64_t koksma__random_seed(uint64_t seed, uint64_t index, uint32_t lane)
+{
+    const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SEED, index, lane);
+    return (uint64_t)r.w[1] << 32 | r.w[0];
+}
+
+/* A whole number below n < 2^32 from 32 random bits (multiply-shift: the bias is below n / 2^32). */
+static inline uint32_t koksma__below(uint32_t word, uint32_t n)
+{
+    return (uint32_t)(((uint64_t)word * n) >> 32);
+}
+
+/* Fills permutation with a random order of 0 .. n-1, n < 2^32 (Fisher-Yates; Durstenfeld 1964). */
+void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
+
+#endif

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "core/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_SIZE = 1024 };
+
+static _Thread_local char error_text[TEXT_SIZE];
+
+static const struct {
+    int exit_code;
+    const char *text;
+} statuses[] = {
+#define X(name, exit_code, text) {exit_code, text},
+#include <koksma/status.def>
+#undef X
+};
+
+const char *koksma_status_text(koksma_status status)
+{
+    return (unsigned)status < KOKSMA_STATUS_COUNT ? statuses[status].text : "unknown status";
+}
+
+int koksma_status_exit_code(koksma_status status)
+{
+    return (unsigned)status < KOKSMA_STATUS_COUNT ? statuses[status].exit_code : 4;
+}
+
+const char *koksma_error_text(void)
+{
+    return error_text;
+}
+
+const char *koksma_version(void)
+{
+    return KOKSMA_VERSION;
+}
+
+static void make_printable(char *text)
+{
+    for (; *text; text++) {
+        if ((unsigned char)*text < 0x20 || *text == 0x7f) {
+            *text = '?';
+        }
+    }
+}
+
+koksma_status koksma__fail(koksma_status status, const char *format, ...)
+{
+    char text[TEXT_SIZE]; /* arguments may point into error_text */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    make_printable(text);
+    memcpy(error_text, text, sizeof text);
+    return status;
+}
+
+koksma_status koksma__fail_memory(size_t bytes)
+{
+    return koksma__fail(KOKSMA_MEMORY, "out of memory: %zu bytes could not be had", bytes);
+}
+
+koksma_status koksma__fail_in(koksma_status status, const char *name)
+{
+    return koksma__fail(status, "%s: %s", name, error_text);
+}

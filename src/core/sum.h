@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Compensated summation (Neumaier 1974): the error does not grow with the number of terms. */
+#ifndef KOKSMA_CORE_SUM_H
+#define KOKSMA_CORE_SUM_H
+
+#include <math.h>
+
+typedef struct koksma__sum {
+    double total, lost;
+} koksma__sum;
+
+static inline void koksma__sum_add(koksma__sum *sum, double x)
+{
+    const double total = sum->total + x;
+    sum->lost += fabs(sum->total) >= fabs(x) ? (sum->total - total) + x : (x - total) + sum->total;
+    sum->total = total;
+}
+
+static inline double koksma__sum_value(const koksma__sum *sum)
+{
+    return sum->total + sum->lost;
+}
+
+#endif

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Philox4x32-10 on vectors of counters, each word in the lower half of a 64-bit lane. Same bits as Random123's
+   (Salmon et al. 2011), which the reference twin calls. */
+#include <string.h>
+
+#include "kernels/kernels.h"
+#include "kernels/lanes64.h"
+
+enum { CHAINS = 2, LANES = CHAINS * LANES64 }; /* independent chains hide the multiplier's latency */
+
+typedef struct block {
+    lanes64_u w[4][CHAINS]; /* the upper halves of the lanes are garbage */
+} block;
+
+void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
+void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
+
+static inline lanes64_u splat(uint64_t x)
+{
+    return x - (lanes64_u){0};
+}
+
+static inline block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane)
+{
+    block s;
+    for (int c = 0; c < CHAINS; c++) {
+        for (int l = 0; l < LANES64; l++) {
+            s.w[0][c][l] = first + (uint64_t)(c * LANES64 + l);
+        }
+        s.w[1][c] = s.w[0][c] >> 32;
+        s.w[2][c] = splat(lane);
+        s.w[3][c] = splat(purpose);
+    }
+    lanes64_u k0 = splat((uint32_t)seed), k1 = splat(seed >> 32);
+    const lanes64 m0 = (lanes64)splat(0xD2511F53u), m1 = (lanes64)splat(0xCD9E8D57u);
+    for (int round = 0; round < 10; round++) {
+        for (int c = 0; c < CHAINS; c++) {
+            const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)s.w[0][c], m0);
+            const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)s.w[2][c], m1);
+            s.w[0][c] = (p1 >> 32) ^ s.w[1][c] ^ k0;
+            s.w[1][c] = p1;
+            s.w[2][c] = (p0 >> 32) ^ s.w[3][c] ^ k1;
+            s.w[3][c] = p0;
+        }
+        k0 += splat(0x9E3779B9u);
+        k1 += splat(0xBB67AE85u);
+    }
+    return s;
+}
+
+/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. Integers below 2^52 become
+   doubles by way of the mantissa of 2^52. */
+static inline lanes64_d unit(lanes64_u high, lanes64_u low)
+{
+    const lanes64_u exponent = splat(0x4330000000000000u);
+    const lanes64_d offset = (lanes64_d)exponent;
+    const lanes64_d h = (lanes64_d)((high & splat(0xffffffffu)) | exponent) - offset;
+    const lanes64_d l = (lanes64_d)(((low & splat(0xffffffffu)) >> 11) | exponent) - offset;
+    return h * 0x1p-32 + l * 0x1p-53;
+}
+
+void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
+{
+    for (size_t done = 0; done < count; done += LANES) {
+        const block r = philox(seed, purpose, first + done, lane);
+        double pairs[2 * LANES];
+        for (int c = 0; c < CHAINS; c++) {
+            const lanes64_d x = unit(r.w[0][c], r.w[1][c]), y = unit(r.w[2][c], r.w[3][c]);
+            for (int l = 0; l < LANES64; l++) {
+                pairs[2 * (c * LANES64 + l)] = x[l];
+                pairs[2 * (c * LANES64 + l) + 1] = y[l];
+            }
+        }
+        const size_t kept = count - done < LANES ? count - done : LANES;
+        memcpy(out + 2 * done, pairs, 2 * kept * sizeof *out);
+    }
+}
+
+void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
+{
+    for (size_t done = 0; done < count; done += LANES) {
+        const block r = philox(seed, purpose, first + done, lane);
+        uint32_t quads[4 * LANES];
+        for (int c = 0; c < CHAINS; c++) {
+            for (int l = 0; l < LANES64; l++) {
+                for (int k = 0; k < 4; k++) {
+                    quads[4 * (c * LANES64 + l) + k] = (uint32_t)r.w[k][c][l];
+                }
+            }
+        }
+        const size_t kept = count - done < LANES ? count - done : LANES;
+        memcpy(out + 4 * done, quads, 4 * kept * sizeof *out);
+    }
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_KERNELS_KERNELS_H
+#define KOKSMA_KERNELS_KERNELS_H
+
+#include <koksma/koksma.h>
+
+typedef struct koksma__kernel_table {
+    const char *isa; /* "ref", "baseline", "avx2", "avx512" */
+#define KERNEL(result, name, arguments) result(*name) arguments;
+#include "kernels/kernels.def"
+#undef KERNEL
+} koksma__kernel_table;
+
+/* The fastest table that this machine runs; the reference twins with KOKSMA_KERNELS=ref in the environment, and
+   another table by its name. Chosen once. */
+const koksma__kernel_table *koksma__kernels(void);
+
+/* A table by its name; NULL if this build or machine has none. For tests and benchmarks. */
+const koksma__kernel_table *koksma__kernels_find(const char *isa);
+
+/* In a kernel's source file, KERNEL_NAME(uniform) is the symbol for the instruction set being compiled. */
+#define KOKSMA__JOIN3(a, b, c) a##b##_##c
+#define KOKSMA__JOIN(a, b, c) KOKSMA__JOIN3(a, b, c)
+#define KERNEL_NAME(name) KOKSMA__JOIN(koksma__kernel_, name, KOKSMA_ISA)
+
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Vectors of 64-bit lanes for the one thing that compilers don't find by themselves: the product of two 32-bit
+   numbers in 64-bit lanes as one instruction. What the upper half of a lane holds does not matter to it. */
+#ifndef KOKSMA_KERNELS_LANES64_H
+#define KOKSMA_KERNELS_LANES64_H
+
+#include <stdint.h>
+
+#if defined(__AVX512F__)
+#include <immintrin.h>
+enum { LANES64 = 8 };
+typedef __m512i lanes64;
+static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
+{
+    return _mm512_mul_epu32(a, b);
+}
+#elif defined(__AVX2__)
+#include <immintrin.h>
+enum { LANES64 = 4 };
+typedef __m256i lanes64;
+static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
+{
+    return _mm256_mul_epu32(a, b);
+}
+#elif defined(__SSE2__)
+#include <emmintrin.h>
+enum { LANES64 = 2 };
+typedef __m128i lanes64;
+static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
+{
+    return _mm_mul_epu32(a, b);
+}
+#else
+enum { LANES64 = 2 };
+typedef uint64_t lanes64 __attribute__((vector_size(16)));
+static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
+{
+    return (a & 0xffffffffu) * (b & 0xffffffffu);
+}
+#endif
+
+/* The same lanes as unsigned integers and as doubles, for the operators of the compiler's vector types. */
+typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
+typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the patterns on a grid of cells share: how n is cut into cells, and placing a number in its cell. */
+#ifndef KOKSMA_PATTERNS_PARTS_CELLS_H
+#define KOKSMA_PATTERNS_PARTS_CELLS_H
+
+#include <koksma/koksma.h>
+
+/* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
+   nearest to (cell+1)/m, for every m <= 2^27: without the factor, u = 1 - 2^-53 would round up into the next cell. */
+static inline double koksma__in_cell(double cell, double u, double m)
+{
+    return (cell + u * (1 - 0x1p-24)) / m;
+}
+
+/* The parameter that the patterns on cells share: params[0] of those that use KOKSMA__PARAM_COLUMNS. */
+#define KOKSMA__PARAM_COLUMNS                                                                                         \
+    {                                                                                                                 \
+        "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true    \
+    }
+
+/* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
+   Errors: N, with the n that would do. */
+koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
+                            size_t *along_rest);
+
+/* A point of [0,1)^dim in every cell, in order of the cells (the last coordinate's changes fastest): the point is
+   at centre + (u - 1/2) * width of its cell, with u uniform; width in [0,1]. */
+koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
+                                 koksma_points *out);
+
+#endif

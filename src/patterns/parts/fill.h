@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_PATTERNS_PARTS_FILL_H
+#define KOKSMA_PATTERNS_PARTS_FILL_H
+
+#include <koksma/koksma.h>
+
+/* Fills xs with count independent uniform doubles in [0,1): xs[2i], xs[2i+1] are the pair of index i, lane 0.
+   Over threads when there are many; the bits are the same. */
+koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, size_t count, double *xs);
+
+#endif

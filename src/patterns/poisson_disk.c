@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * poisson-disk: random points, one after the other; a new one that is closer than d to an old one is rejected. With
+ * torus=1 the distance goes around the sides, so that tiles fit together.
+ *
+ * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
+ * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
+ * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points
+ * can keep. Dart throwing itself jams at about 0.77 of that on the torus.
+ */
+#include <math.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "patterns/parts/packing.h"
+#include "patterns/patterns.h"
+
+enum { REJECTIONS = 3000, RESTARTS = 200 };
+
+static bool fits(const koksma_points *out, size_t placed, const double *dart, double d2, bool torus)
+{
+    for (size_t i = 0; i < placed; i++) {
+        double sum = 0;
+        for (int k = 0; k < out->dim; k++) {
+            double t = fabs(dart[k] - out->xs[i * (size_t)out->dim + (size_t)k]);
+            t = torus && t > 0.5 ? 1 - t : t;
+            sum += t * t;
+        }
+        if (sum < d2) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The number of points placed before the darts ran out. */
+static size_t throw_darts(uint64_t seed, double d, bool torus, const koksma_run *run, koksma_points *out)
+{
+    size_t placed = 0, dart_number = 0;
+    for (int rejections = 0; placed < out->n && rejections < REJECTIONS; dart_number++) {
+        double dart[8];
+        for (int k = 0; k < out->dim; k += 2) {
+            koksma__random_pair(seed, KOKSMA__PURPOSE_DART, dart_number, (uint32_t)k / 2, dart + k);
+        }
+        if (dart_number % 65536 == 65535 && !koksma__keep_going(run, (double)placed / (double)out->n)) {
+            return placed;
+        }
+        if (!fits(out, placed, dart, d * d, torus)) {
+            rejections++;
+            continue;
+        }
+        rejections = 0;
+        for (int k = 0; k < out->dim; k++) {
+            out->xs[placed * (size_t)out->dim + (size_t)k] = dart[k];
+        }
+        placed++;
+    }
+    return placed;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const double d = args->params[0];
+    const bool torus = args->params[1] != 0;
+    const double limit = koksma__packing_distance(out->n, out->dim, torus);
+    if (d > limit) {
+        return koksma__fail(KOKSMA_IMPOSSIBLE, "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
+                                               "%.4f, and dart throwing gets to about %.3g", out->n, out->dim, d, limit, 0.7 * limit);
+    }
+    size_t most = 0;
+    for (uint32_t restart = 0; restart < RESTARTS; restart++) {
+        const size_t placed =
+            throw_darts(restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed, d, torus, args->run, out);
+        if (placed == out->n) {
+            return KOKSMA_OK;
+        }
+        if (!koksma__keep_going(args->run, 0)) {
+            return koksma__fail_interrupted();
+        }
+        most = placed > most ? placed : most;
+        if (restart >= 5 && most < out->n * 9 / 10) {
+            break; /* hopeless */
+        }
+    }
+    return koksma__fail(KOKSMA_IMPOSSIBLE,
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; the largest possible d is "
+                        "%.4f, and dart throwing gets to about %.3g", most, out->n, d, limit, 0.7 * limit);
+}
+
+static const koksma_param params[] = {
+    {"d", "smallest distance between two points", 0.1, 0, 8, NULL, false},
+    {"torus", "1: distances go around the sides of the square", 0, 0, 1, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_poisson_disk = {
+    .name = "poisson-disk",
+    .title = "dart throwing with a smallest distance",
+    .cite = "cook1986 shirley1991",
+    .min_dim = 1,
+    .max_dim = 8,
+    .claims = KOKSMA_CLAIM_MIN_DISTANCE,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * random: every point independent and uniform in [0,1)^dim. The mother of all comparisons.
+ *
+ * Source: Shirley 1991, section 5.5.1; Mitchell 1992 calls it Poisson.
+ * Known exactly: E(S^2) = (2^-dim - 3^-dim) / n for the L2 star discrepancy S.
+ */
+#include "core/random.h"
+#include "patterns/parts/fill.h"
+#include "patterns/patterns.h"
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    return koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
+}
+
+const koksma_pattern koksma__pattern_random = {
+    .name = "random",
+    .title = "independent uniform points",
+    .cite = "shirley1991 mitchell1992",
+    .min_dim = 1,
+    .max_dim = KOKSMA_MAX_DIM,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE,
+    .generate = generate,
+};
