@@ -39,12 +39,15 @@ struct cli_arguments {
 #undef COMMAND
 
 /* The options that most commands have, for the end of an option table. */
-#define CLI_ROW_OPTIONS {0, "json", NULL, "one JSON object a line instead of aligned text"}
-#define CLI_RUN_OPTIONS                                                                                               \
-    {0, "threads", "T", "threads to use (default: all)"},                                                             \
-        {0, "progress", "WHEN", "auto, always or never (default: auto, when stderr is a terminal)"},                  \
-    {                                                                                                                 \
-        'q', "quiet", NULL, "no talk on stderr but errors"                                                            \
+#define CLI_ROW_OPTIONS                                                                                              \
+    {                                                                                                                \
+        0, "json", NULL, "one JSON object a line instead of aligned text"                                            \
+    }
+#define CLI_RUN_OPTIONS                                                                                              \
+    {0, "threads", "T", "threads to use (default: all)"},                                                            \
+        {0, "progress", "WHEN", "auto, always or never (default: auto, when stderr is a terminal)"},                 \
+    {                                                                                                                \
+        'q', "quiet", NULL, "no talk on stderr but errors"                                                           \
     }
 
 /* An option's text, or fallback; whether a flag is set. The name must be in the table. */
@@ -69,8 +72,8 @@ bool cli_list_item(const char *list, size_t i, char *item, size_t size);
 /* ---- Long work: threads, progress and Ctrl-C, from CLI_RUN_OPTIONS ------------------------------------ */
 
 typedef struct cli_work {
-    koksma_run run;     /* hand &work.run to the library */
-    const char *what;   /* shown before the bar; may be changed while running */
+    koksma_run run;   /* hand &work.run to the library */
+    const char *what; /* shown before the bar; may be changed while running */
     bool shown;
     double started_s, updated_s;
 } cli_work;

@@ -60,8 +60,9 @@ const cli_command cli_command_generate = {
     .name = "generate",
     .summary = "generate the points of a pattern",
     .synopsis = "PATTERN -n N [-d DIM] [-s S] [-o FILE]",
-    .details = "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
-               "Equal arguments give equal bits, on any number of threads.",
+    .details =
+        "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
+        "Equal arguments give equal bits, on any number of threads.",
     .options = options,
     .run = run,
 };

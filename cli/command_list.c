@@ -8,10 +8,14 @@ static const struct {
     unsigned claim;
     const char *name;
 } claim_names[] = {
-    {KOKSMA_CLAIM_DETERMINISTIC, "deterministic"}, {KOKSMA_CLAIM_SEQUENCE, "sequence"},
-    {KOKSMA_CLAIM_ANY_N, "any-n"},                 {KOKSMA_CLAIM_STRATIFIED, "stratified"},
-    {KOKSMA_CLAIM_LATIN, "latin"},                 {KOKSMA_CLAIM_UNBIASED, "unbiased"},
-    {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},   {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
+    {KOKSMA_CLAIM_DETERMINISTIC, "deterministic"},
+    {KOKSMA_CLAIM_SEQUENCE, "sequence"},
+    {KOKSMA_CLAIM_ANY_N, "any-n"},
+    {KOKSMA_CLAIM_STRATIFIED, "stratified"},
+    {KOKSMA_CLAIM_LATIN, "latin"},
+    {KOKSMA_CLAIM_UNBIASED, "unbiased"},
+    {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},
+    {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
     {KOKSMA_CLAIM_CENTRED, "centred"},
 };
 

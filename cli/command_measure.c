@@ -36,22 +36,27 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
         return;
     }
     char json[1024], text[256];
-    const int lo_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 2, hi_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 1;
-    snprintf(json, sizeof json, "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g,\"lo\":", kinds[w->kind],
+    const int lo_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 2,
+              hi_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 1;
+    snprintf(json, sizeof json,
+             "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g,\"lo\":", kinds[w->kind],
              w->closed ? "true" : "false", w->count, w->volume);
     put_corner(json, sizeof json, w->lo, lo_dim);
     strcat(json, ",\"hi\":");
     put_corner(json, sizeof json, w->hi, hi_dim);
     strcat(json, "}");
-    int used = snprintf(text, sizeof text, "%zu points in the %s %s", w->count, w->closed ? "closed" : "open", kinds[w->kind]);
+    int used = snprintf(text, sizeof text, "%zu points in the %s %s", w->count, w->closed ? "closed" : "open",
+                        kinds[w->kind]);
     if (w->kind == KOKSMA_WITNESS_BOX) {
         for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
-            used += snprintf(text + used, sizeof text - (size_t)used, "%s%.6g..%.6g", k ? " x " : " ", w->lo[k], w->hi[k]);
+            used += snprintf(text + used, sizeof text - (size_t)used, "%s%.6g..%.6g", k ? " x " : " ", w->lo[k],
+                             w->hi[k]);
         }
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
         snprintf(text + used, sizeof text - (size_t)used, " %.6g x + %.6g y <= %.6g", w->lo[0], w->lo[1], w->hi[0]);
     } else {
-        snprintf(text + used, sizeof text - (size_t)used, " about (%.6g, %.6g) of radius %.6g", w->lo[0], w->lo[1], w->hi[0]);
+        snprintf(text + used, sizeof text - (size_t)used, " about (%.6g, %.6g) of radius %.6g", w->lo[0], w->lo[1],
+                 w->hi[0]);
     }
     cli_row_json(rows, "witness", json, text);
 }
@@ -156,7 +161,8 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or pattern:SPEC@N");
     }
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) || !cli_work_begin(arguments, "measuring", &j.work)) {
+    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
+        !cli_work_begin(arguments, "measuring", &j.work)) {
         return CLI_USAGE;
     }
     const koksma_status status = choose_measures(&j, cli_text(arguments, "measures", "star,l2-star,extreme"));
@@ -184,8 +190,9 @@ const cli_command cli_command_measure = {
     .name = "measure",
     .summary = "measure how irregular points are",
     .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m NAME,NAME...|all] [--json]",
-    .details = "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures the points of a pattern without a file.\n"
-               "The witness is the region where a supremum is reached: count its points and compare with its volume.",
+    .details =
+        "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures the points of a pattern without a file.\n"
+        "The witness is the region where a supremum is reached: count its points and compare with its volume.",
     .options = options,
     .run = run,
 };

@@ -20,8 +20,10 @@ static void print_help(FILE *stream)
     for (int i = 0; commands[i]; i++) {
         fprintf(stream, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
     }
-    fputs("\n'koksma COMMAND --help' says more. Exit codes: 0 done; 1 it ran and the answer is no; 2 the command line is\n"
-          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, what was done is kept.\n",
+    fputs("\n'koksma COMMAND --help' says more. Exit codes: 0 done; 1 it ran and the answer is no; 2 the command "
+          "line is\n"
+          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, what was done is "
+          "kept.\n",
           stream);
 }
 

@@ -13,7 +13,8 @@ enum { LONG_BASE = 1000, HELP = 999 };
 
 static void print_help(const cli_command *command)
 {
-    printf("koksma %s: %s\n\nusage: koksma %s %s\n\n", command->name, command->summary, command->name, command->synopsis);
+    printf("koksma %s: %s\n\nusage: koksma %s %s\n\n", command->name, command->summary, command->name,
+           command->synopsis);
     for (const cli_option *o = command->options; o->name; o++) {
         char left[64];
         snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);
@@ -31,7 +32,8 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
     if (optopt > 0 && optopt < LONG_BASE) {
         return cli_usage_error(arguments, code == ':' ? "option -%c takes an argument" : "no option -%c", optopt);
     }
-    return cli_usage_error(arguments, code == ':' ? "option %s takes an argument" : "option %s is unknown or takes no argument",
+    return cli_usage_error(arguments,
+                           code == ':' ? "option %s takes an argument" : "option %s is unknown or takes no argument",
                            argv[optind - 1]);
 }
 

@@ -14,7 +14,7 @@ typedef struct cell {
 /* As text, rows are kept until the end, because columns are as wide as their widest cell. */
 struct cli_rows {
     bool json, started, failed;
-    cell *cells;      /* of all rows; a row ends at a cell with a NULL key */
+    cell *cells; /* of all rows; a row ends at a cell with a NULL key */
     size_t n, room;
 };
 

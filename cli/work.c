@@ -69,7 +69,8 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
     *work = (cli_work){.what = what, .started_s = now_s()};
-    work->run = (koksma_run){.threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
+    work->run = (koksma_run){
+        .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
     return true;

@@ -15,21 +15,21 @@
 #include <koksma/koksma.h>
 
 /* Fails with both numbers unless |a - b| <= bound; NaN fails. */
-#define assert_near(a, b, bound)                                                                                      \
-    do {                                                                                                              \
-        const double a_ = (a), b_ = (b), bound_ = (bound);                                                            \
-        if (!(fabs(a_ - b_) <= bound_)) {                                                                             \
-            fail_msg("%s = %.17g and %s = %.17g differ by %.3g, more than %.3g", #a, a_, #b, b_, fabs(a_ - b_),       \
-                     bound_);                                                                                         \
-        }                                                                                                             \
+#define assert_near(a, b, bound)                                                                                     \
+    do {                                                                                                             \
+        const double a_ = (a), b_ = (b), bound_ = (bound);                                                           \
+        if (!(fabs(a_ - b_) <= bound_)) {                                                                            \
+            fail_msg("%s = %.17g and %s = %.17g differ by %.3g, more than %.3g", #a, a_, #b, b_, fabs(a_ - b_),      \
+                     bound_);                                                                                        \
+        }                                                                                                            \
     } while (0)
 
 /* Fails with the library's text unless the call succeeds. */
-#define assert_ok(call)                                                                                               \
-    do {                                                                                                              \
-        if ((call) != KOKSMA_OK) {                                                                                    \
-            fail_msg("%s: %s", #call, koksma_error_text());                                                           \
-        }                                                                                                             \
+#define assert_ok(call)                                                                                              \
+    do {                                                                                                             \
+        if ((call) != KOKSMA_OK) {                                                                                   \
+            fail_msg("%s: %s", #call, koksma_error_text());                                                          \
+        }                                                                                                            \
     } while (0)
 
 /* A fresh set of points by spec; the test ends it with koksma_points_fini. */

@@ -132,7 +132,7 @@ typedef struct koksma_spec {
     const koksma_pattern *pattern; /* exactly one of pattern and measure is not NULL */
     const koksma_measure *measure;
     double params[KOKSMA_MAX_PARAMS];
-    char path[KOKSMA_MAX_SPEC];    /* for members that take a file */
+    char path[KOKSMA_MAX_SPEC]; /* for members that take a file */
 } koksma_spec;
 
 /* Parses "name" or "name:key=value,key=value". Errors (ARGUMENT, UNKNOWN) name the key and what it takes. */
@@ -164,10 +164,10 @@ struct koksma_pattern {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
     int min_dim, max_dim;
     unsigned claims;
-    const koksma_param *params;      /* NULL: none */
+    const koksma_param *params; /* NULL: none */
     koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
-    bool takes_path;                 /* the spec's text after the colon is a file's path */
-    const char *alias_of;            /* not NULL: another name for that pattern */
+    bool takes_path;      /* the spec's text after the colon is a file's path */
+    const char *alias_of; /* not NULL: another name for that pattern */
 };
 
 /* Member i of the table, NULL past the end; by name, NULL if unknown. */
@@ -195,8 +195,8 @@ typedef enum koksma_witness_kind {
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;
-    bool closed;   /* count takes the points on the boundary in (an excess), or leaves them out (a deficit) */
-    size_t count;  /* points in the region; |count/n - volume| is the value */
+    bool closed;  /* count takes the points on the boundary in (an excess), or leaves them out (a deficit) */
+    size_t count; /* points in the region; |count/n - volume| is the value */
     double volume;
     double lo[KOKSMA_WITNESS_DIM], hi[KOKSMA_WITNESS_DIM];
 } koksma_witness;
@@ -213,7 +213,7 @@ typedef struct koksma_value {
 struct koksma_measure {
     const char *name, *title, *cite, *cost; /* cost: "n log n", "n^2 d" */
     int min_dim, max_dim;
-    const koksma_param *params;             /* NULL: none */
+    const koksma_param *params; /* NULL: none */
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
 };
 
@@ -222,8 +222,8 @@ KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
 
 /* Evaluates a measure. Points must lie in the closed unit cube; n >= 1. run may be NULL.
    Errors: ARGUMENT (a coordinate outside [0,1]), N (too many for the method), DIM, MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points,
-                                         const koksma_run *run, koksma_value *out);
+KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
+                                         koksma_value *out);
 
 #ifdef __cplusplus
 }

@@ -9,7 +9,8 @@
 
 #include "core/status.h"
 
-/* Names that end alike stay alike, because libraries choose a format by the ending: out.png -> .koksma-1234-out.png */
+/* Names that end alike stay alike, because libraries choose a format by the ending: out.png -> .koksma-1234-out.png
+ */
 static char *temporary_name(const char *path)
 {
     const char *slash = strrchr(path, '/');

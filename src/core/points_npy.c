@@ -56,8 +56,8 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
         return malformed(name, "no points");
     }
     if (sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1]) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %llu points of %llu dimensions, more than fit", name,
-                            sizes[0], sizes[1]);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %llu points of %llu dimensions, more than fit",
+                            name, sizes[0], sizes[1]);
     }
     out->n = (size_t)sizes[0];
     out->dim = (size_t)sizes[1];
@@ -125,7 +125,8 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
     for (size_t item = 0; item < l->n * l->dim; item++) {
         unsigned char bytes[8];
         if (fread(bytes, 1, l->item_size, stream) != l->item_size) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
+            return koksma__fail(KOKSMA_MALFORMED,
+                                "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
                                 item, l->n, l->dim);
         }
         const double x = decode(bytes, l);
@@ -137,8 +138,8 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
         points->xs[i * l->dim + k] = x == 0 ? 0.0 : x;
     }
     if (getc(stream) != EOF) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: the file goes on after the %zu points of dim %zu that it claims", name,
-                            l->n, l->dim);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: the file goes on after the %zu points of dim %zu that it claims",
+                            name, l->n, l->dim);
     }
     return KOKSMA_OK;
 }
@@ -153,8 +154,9 @@ static koksma_status check_length(FILE *stream, const char *name, const layout *
     const long end = ftell(stream);
     fseek(stream, here, SEEK_SET);
     if ((size_t)(end - here) / l->item_size < l->n * l->dim) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers",
-                            name, l->n, l->dim, (size_t)(end - here) / l->item_size);
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers", name,
+                            l->n, l->dim, (size_t)(end - here) / l->item_size);
     }
     return KOKSMA_OK;
 }
@@ -185,8 +187,8 @@ void koksma__points_write_npy(FILE *stream, const koksma_points *points)
     const int used = snprintf(header, sizeof header, "{'descr': '<f8', 'fortran_order': False, 'shape': (%zu, %d), }",
                               points->n, points->dim);
     const size_t length = ((size_t)used + 1 + 10 + 63) / 64 * 64 - 10; /* the data begins at a multiple of 64 */
-    const unsigned char start[10] = {0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, (unsigned char)(length & 255),
-                                     (unsigned char)(length >> 8)};
+    const unsigned char start[10] = {
+        0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, (unsigned char)(length & 255), (unsigned char)(length >> 8)};
     fwrite(start, 1, sizeof start, stream);
     fprintf(stream, "%-*s\n", (int)length - 1, header);
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {

@@ -84,7 +84,9 @@ static koksma_status read_promise(reader *r)
     char key[8];
     char digits[24];
     if (sscanf(r->line, "# %7[a-z] %23[0-9]", key, digits) == 2) {
-        unsigned long long *promise = !strcmp(key, "n") ? &r->promised_n : !strcmp(key, "dim") ? &r->promised_dim : NULL;
+        unsigned long long *promise = !strcmp(key, "n")     ? &r->promised_n
+                                      : !strcmp(key, "dim") ? &r->promised_dim
+                                                            : NULL;
         if (promise) {
             *promise = strtoull(digits, NULL, 10);
             if (*promise > KOKSMA_MAX_COORDINATES) {
@@ -146,7 +148,8 @@ static koksma_status bad_number(const reader *r, const char *field)
     while (length < SHOWN && field[length] && !is_separator(field[length])) {
         length++;
     }
-    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number", r->name, r->line_number, length, field);
+    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is not a number", r->name, r->line_number, length,
+                        field);
 }
 
 static koksma_status read_row(reader *r, const char *s)
@@ -178,8 +181,9 @@ static koksma_status read_row(reader *r, const char *s)
         r->points->dim = fields;
     }
     if (fields != r->points->dim) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: ragged row: %d coordinates where the rows before have %d",
-                            r->name, r->line_number, fields, r->points->dim);
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "%s: line %zu: ragged row: %d coordinates where the rows before have %d", r->name,
+                            r->line_number, fields, r->points->dim);
     }
     return KOKSMA_OK;
 }
@@ -215,9 +219,10 @@ static koksma_status check_promises(const reader *r, size_t n)
         return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: the file ends after %zu points and claims %llu", r->name,
                             r->line_number, n, r->promised_n);
     }
-    if ((r->promised_dim && r->promised_dim != (unsigned)dim) || (r->header_seen && r->header_fields != (size_t)dim)) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu", r->name,
-                            r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
+    if ((r->promised_dim && r->promised_dim != (unsigned)dim) ||
+        (r->header_seen && r->header_fields != (size_t)dim)) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu",
+                            r->name, r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
     }
     return KOKSMA_OK;
 }

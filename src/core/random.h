@@ -43,8 +43,7 @@ static inline double koksma__unit(uint32_t high, uint32_t low)
 }
 
 /* Two doubles in [0,1): the pair that stands at `index` of the kernel `uniform`. */
-static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane,
-                                       double pair[2])
+static inline void koksma__random_pair(uint64_t seed, uint32_t purpose, uint64_t index, uint32_t lane, double pair[2])
 {
     const koksma__words r = koksma__random(seed, purpose, index, lane);
     pair[0] = koksma__unit(r.w[0], r.w[1]);

@@ -29,8 +29,8 @@ static koksma_status check_range(const char *owner, const koksma_param *param, d
         return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes whole numbers", owner, param->name, value);
     }
     if (!(value >= param->min && value <= param->max)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes %.9g to %.9g", owner, param->name, value, param->min,
-                            param->max);
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes %.9g to %.9g", owner, param->name, value,
+                            param->min, param->max);
     }
     return KOKSMA_OK;
 }
@@ -196,7 +196,8 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
         snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s", KOKSMA_MAX_SPEC - 64, spec->path);
         return;
     }
-    koksma__params_text(is_pattern ? spec->pattern->params : spec->measure->params, spec->params, text, KOKSMA_MAX_SPEC);
+    koksma__params_text(is_pattern ? spec->pattern->params : spec->measure->params, spec->params, text,
+                        KOKSMA_MAX_SPEC);
 }
 
 static koksma_status check_params(const char *owner, const koksma_param *params, const double *values)
@@ -216,7 +217,8 @@ static koksma_status check_dim(const char *owner, int dim, int min_dim, int max_
     if (min_dim == max_dim) {
         return koksma__fail(KOKSMA_DIM, "%s: it has no %d-dimensional form, only dim = %d", owner, dim, min_dim);
     }
-    return koksma__fail(KOKSMA_DIM, "%s: it has no %d-dimensional form, only dim = %d to %d", owner, dim, min_dim, max_dim);
+    return koksma__fail(KOKSMA_DIM, "%s: it has no %d-dimensional form, only dim = %d to %d", owner, dim, min_dim,
+                        max_dim);
 }
 
 static koksma_args arguments_of(const koksma_spec *spec, const koksma_run *run)
@@ -230,7 +232,8 @@ koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koks
 {
     const koksma_pattern *p = spec->pattern;
     if (!p || !out->xs || out->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "koksma_generate: it takes the spec of a pattern and initialised points");
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "koksma_generate: it takes the spec of a pattern and initialised points");
     }
     koksma_status status = check_dim(p->name, out->dim, p->min_dim, p->max_dim);
     if (!status) {
@@ -245,8 +248,8 @@ static koksma_status check_points(const koksma_points *points)
     const size_t n = points->n * (size_t)points->dim;
     for (size_t i = 0; i < n; i++) {
         if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]", i / (size_t)points->dim,
-                                points->xs[i]);
+            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
+                                i / (size_t)points->dim, points->xs[i]);
         }
     }
     return KOKSMA_OK;

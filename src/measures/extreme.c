@@ -27,8 +27,8 @@ enum { MAX_N_2D = 4096, MAX_N_3D = 128 };
 typedef struct search {
     size_t n;
     int dim;
-    double *lists[3];     /* lists[k]: points that are left when coordinates above k are chosen; dim numbers each */
-    double *levels[3];    /* sorted coordinates of all points, without repeats; for deficits with 0 and 1 */
+    double *lists[3];  /* lists[k]: points that are left when coordinates above k are chosen; dim numbers each */
+    double *levels[3]; /* sorted coordinates of all points, without repeats; for deficits with 0 and 1 */
     size_t n_levels[3];
     double lo[3], hi[3];
     const koksma_run *run;
@@ -49,7 +49,8 @@ static void keep(search *s, double value, bool closed, size_t count, double volu
         return;
     }
     s->out->value = value;
-    *w = (koksma_witness){.kind = KOKSMA_WITNESS_BOX, .dim = s->dim, .closed = closed, .count = count, .volume = volume};
+    *w = (koksma_witness){
+        .kind = KOKSMA_WITNESS_BOX, .dim = s->dim, .closed = closed, .count = count, .volume = volume};
     memcpy(w->lo, s->lo, sizeof s->lo);
     memcpy(w->hi, s->hi, sizeof s->hi);
 }
@@ -172,7 +173,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     }
     const size_t max_n = dim == 3 ? MAX_N_3D : dim == 2 ? MAX_N_2D : SIZE_MAX;
     if (n > max_n) {
-        return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %zu points in %zuD; extreme:grid=M takes more", n, max_n, dim);
+        return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %zu points in %zuD; extreme:grid=M takes more", n,
+                            max_n, dim);
     }
     search s = {.n = n, .dim = points->dim, .run = args->run, .out = out};
     const size_t bytes = dim * (n * dim + n + 2) * sizeof(double);
@@ -196,7 +198,8 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"grid", "sides at multiples of 1/grid only, half-open boxes (2D); 0: everywhere, exactly", 0, 0, 4096, NULL, true},
+    {"grid", "sides at multiples of 1/grid only, half-open boxes (2D); 0: everywhere, exactly", 0, 0, 4096, NULL,
+     true},
     {0},
 };
 

@@ -4,11 +4,10 @@
  * and its volume. The first paper's D; the L-infinity star discrepancy.
  *
  * Formula: D = sup over y in [0,1]^d of |#{x_i in [0,y)}/n - prod_k y_k|. It is reached at a corner whose
- * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess at a closed box, a deficit at an open one.
- * Source: Zaremba 1968; Shirley 1991, section 5.5.7.
- * Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres 15/64; one point at the centre of
- * the cube 7/8; Hammersley 2^m: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De Clerck 1986).
- * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16 at any n.
+ * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess at a closed box, a deficit at an open
+ * one. Source: Zaremba 1968; Shirley 1991, section 5.5.7. Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has
+ * D = g; 4 x 4 cell centres 15/64; one point at the centre of the cube 7/8; Hammersley 2^m: n D = m/3 + 13/9 - (-1)^m
+ * 4/(9 2^m) (De Clerck 1986). Limits: counts are exact, volumes are rounded products: errors of a few 1e-16 at any n.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -24,8 +23,8 @@ enum { MAX_N_3D = 4096 };
 typedef struct sweep {
     size_t n;
     int dim;
-    double *points;        /* n x 3, sorted by x; missing coordinates are 0 */
-    double *levels[3];     /* sorted coordinates, then 1 */
+    double *points;    /* n x 3, sorted by x; missing coordinates are 0 */
+    double *levels[3]; /* sorted coordinates, then 1 */
     size_t n_levels[3];
     size_t *closed, *open; /* by y level: points at or below it, points below it */
     koksma_value *out;

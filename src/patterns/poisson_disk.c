@@ -65,13 +65,15 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
     if (d > limit) {
-        return koksma__fail(KOKSMA_IMPOSSIBLE, "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
-                                               "%.4f, and dart throwing gets to about %.3g", out->n, out->dim, d, limit, 0.7 * limit);
+        return koksma__fail(KOKSMA_IMPOSSIBLE,
+                            "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
+                            "%.4f, and dart throwing gets to about %.3g",
+                            out->n, out->dim, d, limit, 0.7 * limit);
     }
     size_t most = 0;
     for (uint32_t restart = 0; restart < RESTARTS; restart++) {
-        const size_t placed =
-            throw_darts(restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed, d, torus, args->run, out);
+        const size_t placed = throw_darts(restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed,
+                                          d, torus, args->run, out);
         if (placed == out->n) {
             return KOKSMA_OK;
         }
@@ -83,9 +85,11 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             break; /* hopeless */
         }
     }
-    return koksma__fail(KOKSMA_IMPOSSIBLE,
-                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; the largest possible d is "
-                        "%.4f, and dart throwing gets to about %.3g", most, out->n, d, limit, 0.7 * limit);
+    return koksma__fail(
+        KOKSMA_IMPOSSIBLE,
+        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; the largest possible d is "
+        "%.4f, and dart throwing gets to about %.3g",
+        most, out->n, d, limit, 0.7 * limit);
 }
 
 static const koksma_param params[] = {

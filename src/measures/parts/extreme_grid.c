@@ -40,7 +40,8 @@ koksma_status koksma__extreme_grid(const koksma_points *points, int grid, koksma
         return koksma__fail(KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2", points->dim);
     }
     const size_t m = (size_t)grid;
-    size_t *counts = calloc((m + 1) * (m + 1), sizeof *counts); /* column by column: points with x below, in each row */
+    size_t *counts =
+        calloc((m + 1) * (m + 1), sizeof *counts); /* column by column: points with x below, in each row */
     if (!counts) {
         return koksma__fail_memory((m + 1) * (m + 1) * sizeof *counts);
     }

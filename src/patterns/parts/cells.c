@@ -31,8 +31,8 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
             return koksma__fail(KOKSMA_ARGUMENT, "%s: columns is for dim = 2", name);
         }
         if (n % c) {
-            return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
-                                n / c ? n / c * c : c, (n / c + 1) * c);
+            return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
+                                n, n / c ? n / c * c : c, (n / c + 1) * c);
         }
         *along_x = c;
         *along_rest = n / c;

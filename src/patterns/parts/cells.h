@@ -13,9 +13,9 @@ static inline double koksma__in_cell(double cell, double u, double m)
 }
 
 /* The parameter that the patterns on cells share: params[0] of those that use KOKSMA__PARAM_COLUMNS. */
-#define KOKSMA__PARAM_COLUMNS                                                                                         \
-    {                                                                                                                 \
-        "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true    \
+#define KOKSMA__PARAM_COLUMNS                                                                                        \
+    {                                                                                                                \
+        "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
 
 /* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
