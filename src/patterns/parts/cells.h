@@ -6,10 +6,11 @@
 #include <koksma/koksma.h>
 
 /* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
-   nearest to (cell+1)/m, for every m <= 2^27: without the factor, u = 1 - 2^-53 would round up into the next cell. */
+   nearest to (cell+1)/m: where rounding takes it there, it is the double before. Cell centres stay exact. */
 static inline double koksma__in_cell(double cell, double u, double m)
 {
-    return (cell + u * (1 - 0x1p-24)) / m;
+    const double x = (cell + u) / m, end = (cell + 1) / m;
+    return x < end ? x : end * (1 - 0x1p-53);
 }
 
 /* The parameter that the patterns on cells share: params[0] of those that use KOKSMA__PARAM_COLUMNS. */
