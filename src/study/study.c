@@ -27,7 +27,7 @@ static koksma_status load_plan(const char *name, long long trials, koksma__plan 
     size_t size = 0;
     koksma_status status = koksma__read_file(name, MAX_PLAN, &text, &size);
     if (status) {
-        return koksma__fail(status, "plan '%s': %s", name, koksma_error_text());
+        return status;
     }
     status = koksma__plan_parse(name, (const char *)text, size, trials, plan);
     free(text);
