@@ -195,9 +195,8 @@ KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
 
-/* The 32-bit fraction of coordinate k (0, 1) of point i: in the empty half of the stratum of an earlier point, whose
-   own upper bits come from a still earlier one. */
-KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
+/* Point 2^level + i shares its stratum of width 2^-level in coordinate k with point i ^ partner. */
+KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
 {
     static const uint32_t partners[2][32] = {
         {0x0,      0x0,      0x2,       0x6,       0x6,       0xe,       0x36,       0x4e,
@@ -208,6 +207,13 @@ KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
          0x17,     0x13b,     0x367,     0x38b,     0x617,     0x183b,     0x2067,     0x8b,
          0x117,    0x1033b,   0x30767,   0x30b8b,   0x71617,   0x1b383b,   0x276067,   0xb808b,
          0x160117, 0x138033b, 0x3600767, 0x3800b8b, 0x6001617, 0x1800383b, 0x20006067, 0x808b}};
+    return partners[k][level];
+}
+
+/* The 32-bit fraction of coordinate k (0, 1) of point i: in the empty half of the stratum of an earlier point, whose
+   own upper bits come from a still earlier one. */
+KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
+{
     uint32_t fraction = 0, above = 0xffffffffu, w[4];
     for (;;) {
         uint32_t level = 0, own;
@@ -222,7 +228,7 @@ KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
         fraction ^= w[i % 4] >> level >> 1 & above & own;
         above &= ~own;
         fraction ^= 1u << (31 - level);
-        i = (i ^ 1u << level) ^ partners[k][level];
+        i = (i ^ 1u << level) ^ koksma_pmj02_partner(k, level);
     }
 }
 

@@ -6,7 +6,7 @@
 enum { GROUP = 1 << 15, COLUMNS = 8 };
 
 typedef struct job {
-    koksma__column f;
+    koksma__block f;
     const void *context;
     koksma_points *out;
 } job;
@@ -34,9 +34,7 @@ static void block(const job *j, size_t first, size_t count)
     double *out = j->out->xs + first * (size_t)dim;
     for (int k = 0; k < dim; k += COLUMNS) {
         const int some = dim - k < COLUMNS ? dim - k : COLUMNS;
-        for (int c = 0; c < some; c++) {
-            j->f(j->context, k + c, first, count, columns[c]);
-        }
+        j->f(j->context, k, some, first, count, columns);
         if (dim == 2) {
             koksma__store_pairs(count, columns[0], columns[1], out);
             return;
@@ -67,9 +65,28 @@ static koksma_status group(void *context, size_t g)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
+koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context)
 {
     job j = {f, context, out};
     const size_t n_groups = (out->n + GROUP - 1) / GROUP;
     return n_groups == 1 ? group(&j, 0) : koksma__parallel(run, n_groups, group, &j);
+}
+
+typedef struct single {
+    koksma__column f;
+    const void *context;
+} single;
+
+static void one_by_one(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+{
+    const single *s = context;
+    for (int c = 0; c < some; c++) {
+        s->f(s->context, k + c, first, count, xs[c]);
+    }
+}
+
+koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
+{
+    const single s = {f, context};
+    return koksma__fill_blocks(run, out, one_by_one, &s);
 }

@@ -12,6 +12,11 @@ enum { KOKSMA__COLUMN_BLOCK = 512 };
    at most the block; xs has room for a whole block. */
 typedef void (*koksma__column)(const void *context, int k, size_t first, size_t count, double *xs);
 
+/* The same for coordinates k .. k + some - 1 at once, some <= 8: xs[c][i] is coordinate k + c of point first + i. */
+typedef double (*koksma__columns)[KOKSMA__COLUMN_BLOCK];
+typedef void (*koksma__block)(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs);
+
+koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context);
 koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context);
 
 /* out[i*dim + k] = xs[i] for i < count. */
