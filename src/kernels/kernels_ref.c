@@ -3,6 +3,8 @@
 #define KOKSMA_ISA ref
 #include <math.h>
 
+#include <koksma/sampler.h>
+
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
@@ -55,4 +57,89 @@ double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
     koksma__sum_add(&square, -2 * koksma__sum_value(&linear) / count);
     koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
     return koksma__sum_value(&square);
+}
+
+void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (xs[i] + add) / whole;
+    }
+}
+
+void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (first + (double)i + add) / whole;
+    }
+}
+
+void KERNEL_NAME(fractions)(size_t count, const uint32_t *v, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = ldexp(v[i], -32);
+    }
+}
+
+void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t *w, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = ldexp(v[i], -32);
+        out[2 * i + 1] = ldexp(w[i], -32);
+    }
+}
+
+static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
+{
+    uint32_t x = 0;
+    for (int b = 0; b < 32; b++) {
+        x ^= i >> b & 1 ? directions[b] : 0;
+    }
+    return x;
+}
+
+void KERNEL_NAME(digital)(size_t count, const uint32_t *directions, uint32_t start, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = start ^ sum_of_directions((uint32_t)i, directions);
+    }
+}
+
+void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
+                            uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t x = koksma_owen_hash(mirror_in ? koksma_mirror(v[i]) : v[i], seed);
+        out[i] = mirror_out ? koksma_mirror(x) : x;
+    }
+}
+
+/* Column c of the Pascal matrix: the binomial coefficients c over r modulo 2, odd where r's bits are among c's. */
+void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = 0;
+        for (uint32_t c = 0; c < 32; c++) {
+            for (uint32_t r = 0; r < 32 && (v[i] >> c & 1); r++) {
+                x ^= (r & ~c) == 0 ? 1u << r : 0;
+            }
+        }
+        out[i] = x;
+    }
+}
+
+void KERNEL_NAME(digital_at)(size_t count, const uint32_t *index, const uint32_t *directions, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = sum_of_directions(index[i], directions);
+    }
+}
+
+void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint32_t partner, const uint32_t *word)
+{
+    const double n = ldexp(1, level);
+    for (size_t i = first; i < first + count; i++) {
+        const double stratum = floor(ldexp(v[i ^ partner], -32) * 2 * n);
+        const double other = fmod(stratum, 2) == 0 ? stratum + 1 : stratum - 1;
+        v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
+    }
 }
