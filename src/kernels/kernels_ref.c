@@ -56,3 +56,59 @@ double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
     koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
     return koksma__sum_value(&square);
 }
+
+void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
+                             double best[2], size_t at[2])
+{
+    for (size_t j = 0; j <= n; j++) {
+        count[j] = 0; /* points so far of rank below j */
+    }
+    best[0] = best[1] = -INFINITY;
+    at[0] = at[1] = 0;
+    for (size_t i = 0; i <= n; i++) {
+        const double scale = (double)n * (i < n ? x[i] : 1);
+        for (size_t j = 0; j <= n; j++) {
+            if (scale * y[j] - count[j] > best[1]) {
+                best[1] = scale * y[j] - count[j];
+                at[1] = i;
+            }
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            count[j + 1] += rank[i] <= j;
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            if (count[j + 1] - scale * y[j] > best[0]) {
+                best[0] = count[j + 1] - scale * y[j];
+                at[0] = i;
+            }
+        }
+    }
+}
+
+void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
+                                double *const out[2])
+{
+    for (size_t c = 0; c < na + nb - 1; c++) {
+        out[0][c] = 0;
+        out[1][c] = 1;
+    }
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            out[0][i + j] = fmax(out[0][i + j], a[0][i] * b[0][j]);
+            out[1][i + j] = fmin(out[1][i + j], a[1][i] * b[1][j]);
+        }
+    }
+}
+
+void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
+                             double inside, double best[2])
+{
+    best[0] = best[1] = -1;
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            const double share = (inside + (double)(i + j)) / n;
+            best[0] = fmax(best[0], a[0][i] * b[0][j] - share);
+            best[1] = fmax(best[1], share - a[1][i] * b[1][j]);
+        }
+    }
+}
