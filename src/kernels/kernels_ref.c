@@ -28,33 +28,22 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
-double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
+void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
+                           double r, double sum[2])
 {
-    koksma__sum linear = {0}, pairs = {0};
-    for (size_t i = 0; i < n; i++) {
-        const double *x = xs + i * (size_t)dim;
-        double product = 1, self = 1;
-        for (int k = 0; k < dim; k++) {
-            product *= (1 - x[k] * x[k]) / 2;
-            self *= 1 - x[k];
-        }
-        koksma__sum_add(&linear, product);
-        koksma__sum_add(&pairs, self);
+    koksma__sum pairs = {0};
+    for (size_t i = first; i < end; i++) {
         for (size_t j = 0; j < i; j++) {
-            const double *y = xs + j * (size_t)dim;
-            double pair = 2;
-            for (int k = 0; k < dim; k++) {
-                pair *= 1 - (x[k] > y[k] ? x[k] : y[k]);
+            double product = 1;
+            for (size_t k = 0; k < (size_t)dim; k++) {
+                const double t = fabs(u[k * n + i] - u[k * n + j]);
+                product *= g[k * n + i] + g[k * n + j] + q * t + r * t * t;
             }
-            koksma__sum_add(&pairs, pair);
+            koksma__sum_add(&pairs, product);
         }
     }
-    const double count = (double)n;
-    koksma__sum square = {0};
-    koksma__sum_add(&square, pow(3, -dim));
-    koksma__sum_add(&square, -2 * koksma__sum_value(&linear) / count);
-    koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
-    return koksma__sum_value(&square);
+    sum[0] = pairs.total;
+    sum[1] = pairs.lost;
 }
 
 void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
