@@ -183,7 +183,7 @@ static void shade_sphere(const koksma__batch_shape *s, int32_t id, const koksma_
            ends are inside; with both outside the vertex must lie between them and below 0. */
         const float at_end = (a * SHADOW_END + 2 * b) * SHADOW_END + c;
         const int enters = (c > 0) & (at_end < 0);
-        const int crosses = (c >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
+        const int crosses = (c >= 0) & (at_end >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
         const int leaves = (c < 0) & (at_end > 0);
         r->light[i] *= enters | crosses | leaves ? 0.0f : 1.0f;
     }
