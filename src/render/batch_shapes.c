@@ -23,7 +23,8 @@
 /* A shadow ray ends this much short of the luminaire. */
 #define SHADOW_END (1 - 0x1p-16f)
 
-static void hit_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+static void hit_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *restrict r, int n,
+                     koksma__hits *restrict h)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
@@ -43,7 +44,8 @@ static void hit_flat(const koksma__batch_shape *s, int32_t id, const koksma__ray
     }
 }
 
-static void hit_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+static void hit_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *restrict r, int n,
+                       koksma__hits *restrict h)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
     for (int i = 0; i < STEP(n); i++) {
@@ -64,7 +66,8 @@ static void hit_sphere(const koksma__batch_shape *s, int32_t id, const koksma__r
 }
 
 /* Place, normal and coordinates of the lanes that hit flat shape s. */
-static void finish_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+static void finish_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *restrict r, int n,
+                        koksma__hits *restrict h)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
@@ -90,7 +93,8 @@ static void finish_flat(const koksma__batch_shape *s, int32_t id, const koksma__
     }
 }
 
-static void finish_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+static void finish_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *restrict r, int n,
+                          koksma__hits *restrict h)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], scale = s->inverse_radius;
     const int32_t material = s->material;
@@ -145,7 +149,8 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     return hit;
 }
 
-static void shade_flat(const koksma__batch_shape *s, int32_t id, const koksma__hits *h, int n, koksma__shadows *r)
+static void shade_flat(const koksma__batch_shape *s, int32_t id, const koksma__hits *restrict h, int n,
+                       koksma__shadows *restrict r)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
@@ -160,25 +165,27 @@ static void shade_flat(const koksma__batch_shape *s, int32_t id, const koksma__h
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
         const int hit = (h->primitive[i] != id) & (t > 0) & (t < SHADOW_END) & (fabsf(u) <= half_u) &
                         (fabsf(v) <= half_v) & (u * u + v * v <= radius2);
-        r->light[i] = hit ? 0 : r->light[i];
+        r->light[i] *= hit ? 0.0f : 1.0f;
     }
 }
 
-static void shade_sphere(const koksma__batch_shape *s, int32_t id, const koksma__hits *h, int n, koksma__shadows *r)
+static void shade_sphere(const koksma__batch_shape *s, int32_t id, const koksma__hits *restrict h, int n,
+                         koksma__shadows *restrict r)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
     for (int i = 0; i < STEP(n); i++) {
         const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
-        const float c = h->primitive[i] == id ? 0 : ex * ex + ey * ey + ez * ez - radius2;
+        const float away = h->primitive[i] != id ? 1.0f : 0.0f;
+        const float c = away * (ex * ex + ey * ey + ez * ez - radius2);
         /* Has f(t) = a t^2 + 2 b t + c a root in (0, end)? By signs, without dividing: f(0) = c and f(end) tell which
            ends are inside; with both outside the vertex must lie between them and below 0. */
         const float at_end = (a * SHADOW_END + 2 * b) * SHADOW_END + c;
         const int enters = (c > 0) & (at_end < 0);
-        const int crosses = (c >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
+        const int crosses = (c >= 0) & (at_end >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
         const int leaves = (c < 0) & (at_end > 0);
-        r->light[i] = enters | crosses | leaves ? 0 : r->light[i];
+        r->light[i] *= enters | crosses | leaves ? 0.0f : 1.0f;
     }
 }
 
