@@ -188,3 +188,17 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
         v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
     }
 }
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    const double m[2] = {(double)nx, (double)ny};
+    for (size_t i = 0; i < nx * ny; i++) {
+        const double cell[2] = {(double)(i / ny), (double)(i % ny)};
+        for (int k = 0; k < 2; k++) {
+            double *x = &xs[2 * i + (size_t)k];
+            const double end = (cell[k] + 1) / m[k];
+            *x = (cell[k] + (start + width * *x)) / m[k];
+            *x = *x < end ? *x : end * (1 - 0x1p-53);
+        }
+    }
+}

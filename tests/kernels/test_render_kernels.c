@@ -39,7 +39,7 @@ static void unit_vector(float v[3])
 
 static koksma__batch_shape random_shape(int kind, int material)
 {
-    koksma__batch_shape s = {.kind = kind, .material = material};
+    koksma__batch_shape s = {.kind = kind, .id = material, .material = material};
     for (int k = 0; k < 3; k++) {
         s.centre[k] = (float)uniform(-2, 2);
     }

@@ -3,10 +3,10 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/fill.h"
 
 /* m^dim, or SIZE_MAX when that is too large for any set. */
@@ -59,30 +59,6 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
                         power(m, out->dim), more, out->dim == 2 ? ", or columns=C with C a divisor of n" : "");
 }
 
-/* koksma__fill_cells in 2D, for the renderer's sake: both coordinates at once, and products for quotients where that
-   is exact. Same bits as koksma__in_cell. */
-typedef double both __attribute__((vector_size(16)));
-typedef int64_t both_bits __attribute__((vector_size(16)));
-
-static void place_2d(double start, double width, size_t along_x, size_t along_y, double *xs)
-{
-    const both m = {(double)along_x, (double)along_y}, inverse = 1 / m, starts = {start, start};
-    const bool exact = koksma__exact_inverse(m[0]) > 0 && koksma__exact_inverse(m[1]) > 0;
-    for (size_t i = 0; i < along_x; i++) {
-        both cell = {(double)i, 0};
-        for (size_t j = 0; j < along_y; j++, xs += 2, cell += (both){0, 1}) {
-            both u;
-            memcpy(&u, xs, sizeof u);
-            const both place = cell + (starts + width * u), end = cell + 1;
-            const both x = exact ? place * inverse : place / m;
-            const both last = (exact ? end * inverse : end / m) * (1 - 0x1p-53);
-            const both_bits below = x < last;
-            const both_bits bits = ((both_bits)x & below) | ((both_bits)last & ~below);
-            memcpy(xs, &bits, sizeof bits);
-        }
-    }
-}
-
 koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows)
 {
     size_t c = (size_t)wanted;
@@ -115,7 +91,7 @@ koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_a
     const double start = (1 - width) / 2, m_x = (double)along_x, m_rest = (double)along_rest;
     double *x = out->xs;
     if (out->dim == 2) {
-        place_2d(start, width, along_x, along_rest, x);
+        koksma__kernels()->cells_2d(start, width, along_x, along_rest, x);
         return KOKSMA_OK;
     }
     size_t cell[KOKSMA_MAX_DIM] = {0};
