@@ -202,3 +202,29 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
         }
     }
 }
+
+bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = gx[r * stride + c] - x, b = gy[r * stride + c] - y;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = fabs(gx[r * stride + c] - x) + h, b = fabs(gy[r * stride + c] - y) + h;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
+}

@@ -85,7 +85,7 @@ static bool walk(const koksma_spec *spec, int dim)
 {
     bool served = false;
     const double start = now_s();
-    for (size_t c = 0; c < N_COUNTS && now_s() - start < 0.3; c++) {
+    for (size_t c = 0; c < N_COUNTS && now_s() - start < 0.15; c++) {
         for (uint64_t seed = 0; seed < SEEDS; seed++) {
             const koksma_run run = {.threads = 1};
             koksma_points points;
