@@ -121,3 +121,23 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
         }
     }
 }
+
+double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0)
+{
+    koksma__sum sum = {0};
+    for (size_t i = 0; i < n; i++) {
+        koksma__sum_add(&sum, sqrt((x[i] - x0) * (x[i] - x0) + (y[i] - y0) * (y[i] - y0)));
+    }
+    return koksma__sum_value(&sum);
+}
+
+void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
+                              const double c[16], double counts[16])
+{
+    for (int l = 0; l < 16; l++) {
+        counts[l] = 0;
+        for (size_t i = 0; i < n; i++) {
+            counts[l] += a[l] * x[i] + b[l] * y[i] <= c[l];
+        }
+    }
+}
