@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "kernels/kernels.h"
 
 enum { MOST = 32, PREFIX_MOST = 4096 };
 
@@ -162,8 +161,16 @@ static koksma_status verify_progress(const koksma_points *points, koksma_finding
 {
     size_t worst = 0;
     double value = 0;
-    for (size_t n = 16; n <= points->n && n <= PREFIX_MOST && points->dim <= 12; n *= 2) {
-        const double square = koksma__kernels()->l2_star(n, points->dim, points->xs);
+    koksma_spec l2_star;
+    koksma_status status = koksma_measure_spec("l2-star", &l2_star);
+    for (size_t n = 16; !status && n <= points->n && n <= PREFIX_MOST && points->dim <= 12; n *= 2) {
+        const koksma_points prefix = {n, points->dim, points->xs};
+        koksma_value measured;
+        status = koksma_evaluate(&l2_star, &prefix, NULL, &measured);
+        if (status) {
+            return status;
+        }
+        const double square = measured.square;
         const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
         const double ratio = sqrt(fmax(square, 0) / random);
         if (ratio > value) {
@@ -171,8 +178,8 @@ static koksma_status verify_progress(const koksma_points *points, koksma_finding
             worst = n;
         }
     }
-    if (worst == 0) {
-        return KOKSMA_OK;
+    if (status || worst == 0) {
+        return status;
     }
     koksma_finding *f = koksma__finding(findings, "progressive");
     if (!f) {
