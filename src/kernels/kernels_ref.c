@@ -237,3 +237,43 @@ bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, doub
     }
     return false;
 }
+
+void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
+                                 double excess[16], double deficit[16])
+{
+    for (int l = 0; l < 16; l++) {
+        double inside = 0, low = HUGE_VAL, low_open = 0, inside_open = 0;
+        excess[l] = deficit[l] = -1;
+        for (size_t i = 0; i <= count; i++) {
+            const double top = i < count ? y[i] : 1;
+            deficit[l] = fmax(deficit[l], sides[5][l] * top - inside_open - low_open);
+            if (i < count) {
+                low = fmin(low, inside - sides[2][l] * top);
+                inside += x[i] >= sides[0][l] && x[i] <= sides[1][l];
+                excess[l] = fmax(excess[l], inside - sides[2][l] * top - low);
+                inside_open += x[i] > sides[3][l] && x[i] < sides[4][l];
+                low_open = fmin(low_open, sides[5][l] * top - inside_open);
+            }
+        }
+    }
+}
+
+double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0)
+{
+    koksma__sum sum = {0};
+    for (size_t i = 0; i < n; i++) {
+        koksma__sum_add(&sum, sqrt((x[i] - x0) * (x[i] - x0) + (y[i] - y0) * (y[i] - y0)));
+    }
+    return koksma__sum_value(&sum);
+}
+
+void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
+                              const double c[16], double counts[16])
+{
+    for (int l = 0; l < 16; l++) {
+        counts[l] = 0;
+        for (size_t i = 0; i < n; i++) {
+            counts[l] += a[l] * x[i] + b[l] * y[i] <= c[l];
+        }
+    }
+}
