@@ -91,6 +91,7 @@ typedef struct cli_rows cli_rows;
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);
 void cli_row_number(cli_rows *rows, const char *key, double value); /* %.17g in JSON, %.9g as text; null or - */
+void cli_row_rounded(cli_rows *rows, const char *key, double value, int digits); /* fewer digits as text */
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
 void cli_row_flag(cli_rows *rows, const char *key, bool value);
 void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text); /* a ready JSON value */

@@ -88,7 +88,7 @@ void cli_row_json(cli_rows *rows, const char *key, const char *json, const char 
     }
 }
 
-void cli_row_number(cli_rows *rows, const char *key, double value)
+void cli_row_rounded(cli_rows *rows, const char *key, double value, int digits)
 {
     char text[40];
     if (rows->json) {
@@ -97,8 +97,15 @@ void cli_row_number(cli_rows *rows, const char *key, double value)
         fputs(text, stdout);
         return;
     }
-    snprintf(text, sizeof text, isfinite(value) ? "%.9g" : "-", value);
-    push(rows, key, text, true);
+    if (isfinite(value)) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+    }
+    push(rows, key, isfinite(value) ? text : "-", true);
+}
+
+void cli_row_number(cli_rows *rows, const char *key, double value)
+{
+    cli_row_rounded(rows, key, value, 9);
 }
 
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value)

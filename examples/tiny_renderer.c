@@ -4,8 +4,8 @@
  *
  *     cc -O2 -Iinclude examples/tiny_renderer.c -lm -o tiny && ./tiny 16 > tiny.ppm
  *
- * Each use of random numbers has a domain of its own, made from the pixel's; sample i of each use is well spread, and no
- * counter of dimensions runs along.
+ * Each use of random numbers has a domain of its own, made from the pixel's; sample i of each use is well spread, and
+ * no counter of dimensions runs along.
  */
 #include <koksma/sampler.h>
 

@@ -30,33 +30,78 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
-double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
+void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
+                           double r, double sum[2])
 {
-    koksma__sum linear = {0}, pairs = {0};
-    for (size_t i = 0; i < n; i++) {
-        const double *x = xs + i * (size_t)dim;
-        double product = 1, self = 1;
-        for (int k = 0; k < dim; k++) {
-            product *= (1 - x[k] * x[k]) / 2;
-            self *= 1 - x[k];
-        }
-        koksma__sum_add(&linear, product);
-        koksma__sum_add(&pairs, self);
+    koksma__sum pairs = {0};
+    for (size_t i = first; i < end; i++) {
         for (size_t j = 0; j < i; j++) {
-            const double *y = xs + j * (size_t)dim;
-            double pair = 2;
-            for (int k = 0; k < dim; k++) {
-                pair *= 1 - (x[k] > y[k] ? x[k] : y[k]);
+            double product = 1;
+            for (size_t k = 0; k < (size_t)dim; k++) {
+                const double t = fabs(u[k * n + i] - u[k * n + j]);
+                product *= g[k * n + i] + g[k * n + j] + q * t + r * t * t;
             }
-            koksma__sum_add(&pairs, pair);
+            koksma__sum_add(&pairs, product);
         }
     }
-    const double count = (double)n;
-    koksma__sum square = {0};
-    koksma__sum_add(&square, pow(3, -dim));
-    koksma__sum_add(&square, -2 * koksma__sum_value(&linear) / count);
-    koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
-    return koksma__sum_value(&square);
+    sum[0] = pairs.total;
+    sum[1] = pairs.lost;
+}
+
+void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
+                             double best[2], size_t at[2])
+{
+    for (size_t j = 0; j <= n; j++) {
+        count[j] = 0; /* points so far of rank below j */
+    }
+    best[0] = best[1] = -INFINITY;
+    at[0] = at[1] = 0;
+    for (size_t i = 0; i <= n; i++) {
+        const double scale = (double)n * (i < n ? x[i] : 1);
+        for (size_t j = 0; j <= n; j++) {
+            if (scale * y[j] - count[j] > best[1]) {
+                best[1] = scale * y[j] - count[j];
+                at[1] = i;
+            }
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            count[j + 1] += rank[i] <= j;
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            if (count[j + 1] - scale * y[j] > best[0]) {
+                best[0] = count[j + 1] - scale * y[j];
+                at[0] = i;
+            }
+        }
+    }
+}
+
+void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
+                                double *const out[2])
+{
+    for (size_t c = 0; c < na + nb - 1; c++) {
+        out[0][c] = 0;
+        out[1][c] = 1;
+    }
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            out[0][i + j] = fmax(out[0][i + j], a[0][i] * b[0][j]);
+            out[1][i + j] = fmin(out[1][i + j], a[1][i] * b[1][j]);
+        }
+    }
+}
+
+void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
+                             double inside, double best[2])
+{
+    best[0] = best[1] = -1;
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            const double share = (inside + (double)(i + j)) / n;
+            best[0] = fmax(best[0], a[0][i] * b[0][j] - share);
+            best[1] = fmax(best[1], share - a[1][i] * b[1][j]);
+        }
+    }
 }
 
 void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
@@ -141,6 +186,20 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
         const double stratum = floor(ldexp(v[i ^ partner], -32) * 2 * n);
         const double other = fmod(stratum, 2) == 0 ? stratum + 1 : stratum - 1;
         v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
+    }
+}
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    const double m[2] = {(double)nx, (double)ny};
+    for (size_t i = 0; i < nx * ny; i++) {
+        const double cell[2] = {(double)(i / ny), (double)(i % ny)};
+        for (int k = 0; k < 2; k++) {
+            double *x = &xs[2 * i + (size_t)k];
+            const double end = (cell[k] + 1) / m[k];
+            *x = (cell[k] + (start + width * *x)) / m[k];
+            *x = *x < end ? *x : end * (1 - 0x1p-53);
+        }
     }
 }
 

@@ -1,0 +1,37 @@
+# Koksma's front door: every target sets up what it needs (Debian packages) and says what it does.
+#
+#   make demo      install what is missing, build, reproduce the first paper's tables, say where the report is
+#   make test      build with sanitizers and with clang, run all tests
+#   make bench     speeds, each beside what it is compared with
+#   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
+#   make help      this list
+
+PREFIX ?= /usr/local
+DEMO ?= demo
+TRIALS ?=
+
+.PHONY: help demo test bench install release clean
+
+help:
+	@sed -n 's/^#   //p' Makefile
+
+release:
+	@scripts/setup build
+	@cmake --preset release -G Ninja -DCMAKE_INSTALL_PREFIX=$(PREFIX) -DBUILD_TESTING=OFF >/dev/null
+	@cmake --build --preset release
+
+demo: release
+	build/release/koksma reproduce shirley1991 -o $(DEMO) $(if $(TRIALS),--trials $(TRIALS))
+
+test:
+	@scripts/setup build test
+	@scripts/test
+
+bench: release
+	@scripts/bench
+
+install: release
+	cmake --install build/release
+
+clean:
+	rm -rf build demo

@@ -1,0 +1,26 @@
+# koksma_embed_text(SYMBOL FILE HEADER): a header with `static const char SYMBOL[]`, the text of FILE.
+function(koksma_embed_text symbol file header)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(READ ${file} text HEX)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${text}")
+  string(REGEX REPLACE "(0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,0x..,)" "\\1\n" bytes "${bytes}")
+  file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from a text file; do not edit. */\nstatic const char ${symbol}[] = {\n${bytes}0};\n" @ONLY)
+endfunction()
+
+# koksma_embed_folder(HEADER GLOB): a header with the table `embedded_texts[]` of {name, text, size}: every file that
+# matches GLOB, by its name without the ending, in alphabetical order.
+function(koksma_embed_folder header glob)
+  file(GLOB files CONFIGURE_DEPENDS ${glob})
+  set(arrays "")
+  set(table "")
+  foreach(file ${files})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    get_filename_component(name ${file} NAME_WE)
+    string(MAKE_C_IDENTIFIER "text_${name}" symbol)
+    file(READ ${file} text HEX)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${text}")
+    string(APPEND arrays "static const char ${symbol}[] = {\n${bytes}0};\n")
+    string(APPEND table "    {\"${name}\", ${symbol}, sizeof ${symbol} - 1},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from text files; do not edit. */\n${arrays}static const struct {\n    const char *name, *text;\n    size_t size;\n} embedded_texts[] = {\n${table}};\n" @ONLY)
+endfunction()

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Images of linear light in floats: reading, writing, and how far one is from another.
+ * Files: OpenEXR, PNG (sRGB, 8 or 16 bits) and PFM. EXR and PFM keep every float exactly.
+ */
+#ifndef KOKSMA_IMAGE_H
+#define KOKSMA_IMAGE_H
+
+#include <koksma/koksma.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { KOKSMA_MAX_IMAGE_SIDE = 65536 };
+
+/* The most pixels one image may have. */
+#define KOKSMA_MAX_PIXELS ((size_t)1 << 28)
+
+/* channels is 1 (luminance) or 3 (red, green and blue of Rec. 709); linear. Row 0 is on top; pixel (x, y) starts at
+   pixels[(y * width + x) * channels]. */
+typedef struct koksma_image {
+    int width, height, channels;
+    float *pixels;
+} koksma_image;
+
+/* An image of zeros. Errors: ARGUMENT, MEMORY. */
+KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels);
+
+/* Frees what init or read allocated; takes a zeroed struct and NULL. */
+KOKSMA_API void koksma_image_fini(koksma_image *image);
+
+/* Reads EXR, PNG or PFM, known by their content. Transparency and further channels are dropped.
+   Errors: MISSING, MALFORMED, UNSUPPORTED (DWA-compressed and deep EXR), MEMORY. */
+KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
+
+/* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be
+   NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending), IO, MEMORY. */
+KOKSMA_API koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata);
+
+/* The image as an 8-bit sRGB PNG file in memory; the caller frees *bytes. */
+KOKSMA_API koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size);
+
+/* The error e = luminance - reference luminance over the pixels (luminance is Rec. 709's). */
+typedef struct koksma_image_error {
+    double mean; /* mean of |e| */
+    double sd;   /* standard deviation of |e| over the pixels */
+    double max;  /* largest |e| */
+    double rmse; /* root of the mean of e^2 */
+} koksma_image_error;
+
+/* Errors: ARGUMENT (the sizes differ). */
+KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference,
+                                              koksma_image_error *out);
+
+/* A one-channel picture of |e|; allocates out. Errors: ARGUMENT, MEMORY. */
+KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,
+                                                 koksma_image *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_CORE_READ_FILE_H
+#define KOKSMA_CORE_READ_FILE_H
+
+#include <koksma/koksma.h>
+
+/* A whole file in memory, with a 0 behind its end; the caller frees *bytes. "-" is standard input.
+   Errors: MISSING (absent, unreadable, a directory), MALFORMED (more than max bytes), MEMORY. */
+koksma_status koksma__read_file(const char *path, size_t max, unsigned char **bytes, size_t *size);
+
+#endif

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The error of one image against another, as Shirley 1991 (section 5.5.6) measures it: e is the difference of the
+ * luminances, and mean, SD and maximum are those of |e| over all pixels.
+ *
+ *     Y = 0.2126 R + 0.7152 G + 0.0722 B   (Rec. 709, linear)
+ *     mean = sum |e| / n,  sd = sqrt(sum (|e| - mean)^2 / n),  rmse = sqrt(sum e^2 / n)
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "core/sum.h"
+#include "image/formats.h"
+
+static double luminance(const koksma_image *image, size_t pixel)
+{
+    const float *p = image->pixels + pixel * (size_t)image->channels;
+    return image->channels == 1 ? (double)p[0]
+                                : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
+}
+
+static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
+{
+    if (a->width != b->width || a->height != b->height) {
+        return koksma__fail(KOKSMA_ARGUMENT, "an image of %d x %d pixels can't be compared with one of %d x %d",
+                            a->width, a->height, b->width, b->height);
+    }
+    return KOKSMA_OK;
+}
+
+static double absolute_error(const koksma_image *image, const koksma_image *reference, size_t pixel)
+{
+    return fabs(luminance(image, pixel) - luminance(reference, pixel));
+}
+
+koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference, koksma_image_error *out)
+{
+    const koksma_status status = check_sizes(image, reference);
+    if (status) {
+        return status;
+    }
+    const size_t n = (size_t)image->width * (size_t)image->height;
+    koksma__sum sum = {0}, squares = {0}, deviations = {0};
+    double max = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double e = absolute_error(image, reference, i);
+        koksma__sum_add(&sum, e);
+        koksma__sum_add(&squares, e * e);
+        max = e > max || isnan(e) ? e : max;
+    }
+    const double count = (double)n, mean = koksma__sum_value(&sum) / count;
+    for (size_t i = 0; i < n; i++) {
+        const double d = absolute_error(image, reference, i) - mean;
+        koksma__sum_add(&deviations, d * d);
+    }
+    *out = (koksma_image_error){
+        .mean = mean,
+        .sd = sqrt(koksma__sum_value(&deviations) / count),
+        .max = max,
+        .rmse = sqrt(koksma__sum_value(&squares) / count),
+    };
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference, koksma_image *out)
+{
+    *out = (koksma_image){0};
+    koksma_status status = check_sizes(image, reference);
+    if (!status) {
+        status = koksma_image_init(out, image->width, image->height, 1);
+    }
+    for (size_t i = 0; !status && i < (size_t)image->width * (size_t)image->height; i++) {
+        out->pixels[i] = (float)absolute_error(image, reference, i);
+    }
+    return status;
+}

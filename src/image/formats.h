@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The table of image formats. Files are read from memory and written into memory, so that a format needs no file, a
+   file is written whole or not at all, and a fuzzer can call the readers. */
+#ifndef KOKSMA_IMAGE_FORMATS_H
+#define KOKSMA_IMAGE_FORMATS_H
+
+#include <koksma/image.h>
+
+/* Bytes that grow. */
+typedef struct koksma__bytes {
+    unsigned char *data;
+    size_t size, room;
+} koksma__bytes;
+
+/* Writes at an offset, filling a gap with zeros; false when memory runs out. */
+bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
+
+typedef struct koksma__image_format {
+    const char *name;
+    bool (*recognises)(const unsigned char *bytes, size_t size);
+    /* Errors name no file: the caller puts its name in front. On failure *out is left for the caller to release. */
+    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
+    koksma_status (*write)(const koksma_image *image, const char *metadata, koksma__bytes *out);
+} koksma__image_format;
+
+#define FORMAT(name) extern const koksma__image_format koksma__format_##name;
+#include "image/formats.def"
+#undef FORMAT
+
+/* NULL past the end. */
+const koksma__image_format *koksma__image_format_at(size_t i);
+
+/* koksma_image_init for sizes that a file claims: MALFORMED when they are out of range, or when `bytes` bytes can't
+   hold so many pixels at `pixels_a_byte` at best. */
+koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
+                                  koksma_image *out);
+
+#endif

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * PFM: "Pf" or "PF", width, height, a scale whose sign is the byte order (negative: little-endian), one blank, then
+ * floats, the bottom row first. The scale's size has no agreed meaning and is not applied.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "image/formats.h"
+
+static bool recognises(const unsigned char *bytes, size_t size)
+{
+    return size >= 3 && bytes[0] == 'P' && (bytes[1] == 'f' || bytes[1] == 'F') &&
+           (bytes[2] == '\n' || bytes[2] == ' ' || bytes[2] == '\r');
+}
+
+static float get_float(const unsigned char *b, bool little)
+{
+    const uint32_t word = little ? (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0]
+                                 : (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
+    float x;
+    memcpy(&x, &word, sizeof x);
+    return x;
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    char header[96] = "", scale_text[24] = "", *end;
+    long long width, height;
+    int used = 0;
+    memcpy(header, bytes + 2, size - 2 < sizeof header - 1 ? size - 2 : sizeof header - 1);
+    if (sscanf(header, "%9lld %9lld %23s%n", &width, &height, scale_text, &used) != 3) {
+        return koksma__fail(KOKSMA_MALFORMED, "line 1: a PFM header is PF or Pf, width, height and scale");
+    }
+    const double scale = strtod(scale_text, &end);
+    if (*end || !isfinite(scale) || scale == 0) {
+        return koksma__fail(KOKSMA_MALFORMED, "line 3: the scale '%s' is not a number other than 0", scale_text);
+    }
+    const int channels = bytes[1] == 'F' ? 3 : 1;
+    const size_t start = 2 + (size_t)used + 1; /* one blank ends the header */
+    const size_t left = size > start ? size - start : 0;
+    const koksma_status status = koksma__image_claim(width, height, channels, left, 0.25 / channels, out);
+    if (status) {
+        return status;
+    }
+    const size_t row = (size_t)width * (size_t)channels;
+    for (size_t y = 0; y < (size_t)height; y++) {
+        const unsigned char *from = bytes + start + 4 * row * ((size_t)height - 1 - y);
+        for (size_t i = 0; i < row; i++) {
+            out->pixels[y * row + i] = get_float(from + 4 * i, scale < 0);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+{
+    (void)metadata; /* PFM has no place for it */
+    char header[64];
+    const int used = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", image->channels == 3 ? "PF" : "Pf",
+                              image->width, image->height);
+    const size_t row = (size_t)image->width * (size_t)image->channels;
+    bool ok = koksma__bytes_put(out, 0, header, (size_t)used);
+    for (size_t y = (size_t)image->height; ok && y-- > 0;) {
+        for (size_t i = 0; ok && i < row; i++) {
+            uint32_t word;
+            memcpy(&word, &image->pixels[y * row + i], sizeof word);
+            const unsigned char b[4] = {(unsigned char)word, (unsigned char)(word >> 8), (unsigned char)(word >> 16),
+                                        (unsigned char)(word >> 24)};
+            ok = koksma__bytes_put(out, out->size, b, sizeof b);
+        }
+    }
+    return ok ? KOKSMA_OK : koksma__fail_memory(4 * row * (size_t)image->height);
+}
+
+const koksma__image_format koksma__format_pfm = {"pfm", recognises, read, write};

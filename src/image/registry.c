@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Images as such, and their files by way of the table of formats. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/atomic_file.h"
+#include "core/read_file.h"
+#include "core/status.h"
+#include "image/formats.h"
+
+#define MAX_FILE ((size_t)1 << 33)
+
+static const koksma__image_format *const formats[] = {
+#define FORMAT(name) &koksma__format_##name,
+#include "image/formats.def"
+#undef FORMAT
+    NULL,
+};
+
+const koksma__image_format *koksma__image_format_at(size_t i)
+{
+    return i < sizeof formats / sizeof *formats ? formats[i] : NULL;
+}
+
+bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size)
+{
+    if (offset + size > bytes->room) {
+        const size_t room = 2 * (offset + size) + 4096;
+        unsigned char *more = realloc(bytes->data, room);
+        if (!more) {
+            return false;
+        }
+        bytes->data = more;
+        bytes->room = room;
+    }
+    if (offset > bytes->size) {
+        memset(bytes->data + bytes->size, 0, offset - bytes->size);
+    }
+    memcpy(bytes->data + offset, data, size);
+    bytes->size = offset + size > bytes->size ? offset + size : bytes->size;
+    return true;
+}
+
+koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
+{
+    *image = (koksma_image){0};
+    if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+        (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%d x %d pixels: a side is 1 to %d, and all are at most %zu", width,
+                            height, KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+    }
+    if (channels != 1 && channels != 3) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
+    }
+    const size_t count = (size_t)width * (size_t)height * (size_t)channels;
+    image->pixels = calloc(count, sizeof *image->pixels);
+    if (!image->pixels) {
+        return koksma__fail_memory(count * sizeof *image->pixels);
+    }
+    image->width = width;
+    image->height = height;
+    image->channels = channels;
+    return KOKSMA_OK;
+}
+
+void koksma_image_fini(koksma_image *image)
+{
+    if (image) {
+        free(image->pixels);
+        *image = (koksma_image){0};
+    }
+}
+
+koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
+                                  koksma_image *out)
+{
+    if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+        (size_t)(width * height) > KOKSMA_MAX_PIXELS) {
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "it claims %lld x %lld pixels: a side is 1 to %d, and all are at most %zu", width, height,
+                            KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+    }
+    if ((double)width * (double)height > (double)bytes * pixels_a_byte) {
+        return koksma__fail(KOKSMA_MALFORMED, "cut short: it claims %lld x %lld pixels and has %zu bytes", width,
+                            height, bytes);
+    }
+    return koksma_image_init(out, (int)width, (int)height, channels);
+}
+
+koksma_status koksma_image_read(const char *path, koksma_image *out)
+{
+    unsigned char *bytes;
+    size_t size;
+    *out = (koksma_image){0};
+    koksma_status status = koksma__read_file(path, MAX_FILE, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    const koksma__image_format *format = NULL;
+    for (size_t i = 0; formats[i] && !format; i++) {
+        format = formats[i]->recognises(bytes, size) ? formats[i] : NULL;
+    }
+    status = format ? format->read(bytes, size, out)
+                    : koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+    free(bytes);
+    if (status) {
+        koksma_image_fini(out);
+        return koksma__fail_in(status, path);
+    }
+    return KOKSMA_OK;
+}
+
+static const koksma__image_format *format_of_name(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && formats[i]; i++) {
+        if (!strcmp(dot + 1, formats[i]->name)) {
+            return formats[i];
+        }
+    }
+    return NULL;
+}
+
+koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)
+{
+    const koksma__image_format *format = format_of_name(path);
+    if (!format) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
+    }
+    koksma__bytes bytes = {0};
+    koksma__atomic_file file;
+    koksma_status status = format->write(image, metadata ? metadata : "", &bytes);
+    if (status) {
+        koksma__fail_in(status, path);
+    } else if (!(status = koksma__atomic_open(path, &file))) {
+        fwrite(bytes.data, 1, bytes.size, file.stream); /* close looks for the stream's error */
+        status = koksma__atomic_close(&file, true);
+    }
+    free(bytes.data);
+    return status;
+}
+
+koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size)
+{
+    koksma__bytes out = {0};
+    const koksma_status status = koksma__format_png.write(image, "", &out);
+    if (status) {
+        free(out.data);
+        out = (koksma__bytes){0};
+    }
+    *bytes = out.data;
+    *size = out.size;
+    return status;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include "core/status.h"
+#include "plot/canvas.h"
+
+struct koksma__canvas {
+    koksma_plot_format format;
+    cairo_surface_t *surface;
+    cairo_t *cairo;
+    unsigned char *bytes;
+    size_t size, room;
+    bool failed;
+};
+
+static cairo_status_t append(void *context, const unsigned char *data, unsigned int length)
+{
+    koksma__canvas *canvas = context;
+    if (canvas->size + length > canvas->room) {
+        const size_t room = 2 * (canvas->size + length);
+        unsigned char *bytes = realloc(canvas->bytes, room);
+        if (!bytes) {
+            canvas->failed = true;
+            return CAIRO_STATUS_NO_MEMORY;
+        }
+        canvas->bytes = bytes;
+        canvas->room = room;
+    }
+    memcpy(canvas->bytes + canvas->size, data, length);
+    canvas->size += length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+koksma__canvas *koksma__canvas_open(koksma_plot_format format, double width, double height)
+{
+    koksma__canvas *canvas = calloc(1, sizeof *canvas);
+    if (!canvas) {
+        return NULL;
+    }
+    canvas->format = format;
+    if (format == KOKSMA_PLOT_SVG) {
+        canvas->surface = cairo_svg_surface_create_for_stream(append, canvas, width, height);
+    } else if (format == KOKSMA_PLOT_PDF) {
+        canvas->surface = cairo_pdf_surface_create_for_stream(append, canvas, width, height);
+        /* The same bytes on every run. */
+        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "1991-01-01T00:00:00Z");
+    } else {
+        canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+    }
+    canvas->cairo = cairo_create(canvas->surface);
+    cairo_set_source_rgb(canvas->cairo, 1, 1, 1);
+    cairo_paint(canvas->cairo);
+    return canvas;
+}
+
+static void stroke_or_fill(koksma__canvas *canvas, double thickness, koksma__colour colour)
+{
+    cairo_set_source_rgba(canvas->cairo, colour.r, colour.g, colour.b, colour.a);
+    if (thickness > 0) {
+        cairo_set_line_width(canvas->cairo, thickness);
+        cairo_stroke(canvas->cairo);
+    } else {
+        cairo_fill(canvas->cairo);
+    }
+}
+
+void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height)
+{
+    cairo_reset_clip(canvas->cairo);
+    cairo_rectangle(canvas->cairo, x, y, width, height);
+    cairo_clip(canvas->cairo);
+}
+
+void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
+                         koksma__colour colour)
+{
+    cairo_move_to(canvas->cairo, x0, y0);
+    cairo_line_to(canvas->cairo, x1, y1);
+    stroke_or_fill(canvas, thickness, colour);
+}
+
+void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
+                        koksma__colour colour)
+{
+    cairo_rectangle(canvas->cairo, x, y, width, height);
+    stroke_or_fill(canvas, thickness, colour);
+}
+
+void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
+                           koksma__colour colour)
+{
+    cairo_new_sub_path(canvas->cairo);
+    cairo_arc(canvas->cairo, x, y, radius, 0, 2 * M_PI);
+    stroke_or_fill(canvas, thickness, colour);
+}
+
+void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                         koksma__colour colour)
+{
+    cairo_text_extents_t extents;
+    cairo_select_font_face(canvas->cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(canvas->cairo, height);
+    cairo_text_extents(canvas->cairo, text, &extents);
+    cairo_set_source_rgba(canvas->cairo, colour.r, colour.g, colour.b, colour.a);
+    cairo_move_to(canvas->cairo, x - anchor * extents.x_advance, y);
+    cairo_show_text(canvas->cairo, text);
+    cairo_new_path(canvas->cairo);
+}
+
+koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
+{
+    if (canvas->format == KOKSMA_PLOT_PNG) {
+        cairo_surface_write_to_png_stream(canvas->surface, append, canvas);
+    }
+    cairo_surface_finish(canvas->surface);
+    const bool failed = canvas->failed || cairo_status(canvas->cairo) != CAIRO_STATUS_SUCCESS ||
+                        cairo_surface_status(canvas->surface) != CAIRO_STATUS_SUCCESS || canvas->size == 0;
+    cairo_destroy(canvas->cairo);
+    cairo_surface_destroy(canvas->surface);
+    *bytes = failed ? NULL : canvas->bytes;
+    *size = failed ? 0 : canvas->size;
+    if (failed) {
+        free(canvas->bytes);
+    }
+    free(canvas);
+    return failed ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
+}

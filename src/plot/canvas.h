@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A canvas in memory: the few strokes that the plots are made of. cairo.c is the only file that knows the library. */
+#ifndef KOKSMA_PLOT_CANVAS_H
+#define KOKSMA_PLOT_CANVAS_H
+
+#include <koksma/plot.h>
+
+typedef struct koksma__canvas koksma__canvas;
+
+typedef struct koksma__colour {
+    double r, g, b, a;
+} koksma__colour;
+
+/* Units are points from the upper left corner. NULL when memory runs out. */
+koksma__canvas *koksma__canvas_open(koksma_plot_format format, double width, double height);
+
+void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height);
+void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
+                         koksma__colour colour);
+void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
+                        koksma__colour colour); /* thickness 0: filled */
+void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
+                           koksma__colour colour); /* thickness 0: filled */
+/* anchor 0: x is the left end, 0.5: the middle, 1: the right end. */
+void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                         koksma__colour colour);
+
+/* The finished picture, which the caller frees. Releases the canvas, also on failure. */
+koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
+
+#endif

@@ -1,0 +1,348 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "scene/json.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "core/status.h"
+
+struct koksma__json {
+    json_t *root;
+    char *kind, *name, *text;
+    size_t size;
+};
+
+/* ---- From a path to a line: jansson keeps no positions, so the text is walked again when an error needs one -----
+ */
+
+typedef struct walker {
+    const char *at, *end;
+} walker;
+
+static void skip_space(walker *w)
+{
+    while (w->at < w->end && strchr(" \t\r\n", *w->at)) {
+        w->at++;
+    }
+}
+
+static void skip_string(walker *w)
+{
+    for (w->at++; w->at < w->end && *w->at != '"'; w->at++) {
+        w->at += *w->at == '\\';
+    }
+    w->at++;
+}
+
+/* Skips one value of a text that is known to be JSON. */
+static void skip_value(walker *w)
+{
+    int depth = 0;
+    skip_space(w);
+    do {
+        if (w->at < w->end && *w->at == '"') {
+            skip_string(w);
+        } else if (w->at < w->end && strchr("[{", *w->at)) {
+            depth++;
+            w->at++;
+        } else if (w->at < w->end && strchr("]}", *w->at)) {
+            depth--;
+            w->at++;
+        } else if (depth) {
+            w->at++;
+        } else {
+            while (w->at < w->end && !strchr(",]} \t\r\n", *w->at)) {
+                w->at++;
+            }
+        }
+    } while (depth && w->at < w->end);
+}
+
+static bool enter_member(walker *w, const char *key, size_t length)
+{
+    for (w->at++; w->at < w->end; w->at++) {
+        skip_space(w);
+        const char *start = w->at;
+        if (w->at >= w->end || *w->at != '"') {
+            return false;
+        }
+        skip_string(w);
+        const bool same = (size_t)(w->at - start) == length + 2 && !strncmp(start + 1, key, length);
+        skip_space(w);
+        w->at++; /* the colon */
+        if (same) {
+            skip_space(w);
+            return true;
+        }
+        skip_value(w);
+        skip_space(w);
+    }
+    return false;
+}
+
+static bool enter_item(walker *w, size_t index)
+{
+    w->at++;
+    for (size_t i = 0; i < index && w->at < w->end; i++) {
+        skip_value(w);
+        skip_space(w);
+        w->at++; /* the comma */
+    }
+    skip_space(w);
+    return w->at < w->end;
+}
+
+static size_t line_of(const koksma__json *document, const char *path)
+{
+    walker w = {document->text, document->text + document->size};
+    skip_space(&w);
+    while (*path) {
+        bool found;
+        const walker before = w;
+        if (*path == '[') {
+            found = enter_item(&w, strtoul(path + 1, NULL, 10));
+            path += strcspn(path, "]") + 1;
+        } else {
+            path += *path == '.';
+            const size_t length = strcspn(path, ".[");
+            found = enter_member(&w, path, length);
+            path += length;
+        }
+        if (!found) {
+            w = before;
+            break;
+        }
+    }
+    size_t line = 1;
+    for (const char *c = document->text; c < w.at && c < w.end; c++) {
+        line += *c == '\n';
+    }
+    return line;
+}
+
+koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...)
+{
+    char reason[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    const koksma__json *d = node->document;
+    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(d, node->path),
+                        node->path, *node->path ? ": " : "", reason);
+}
+
+/* ---- Documents and nodes --------------------------------------------------------------------------------- */
+
+koksma_status koksma__json_open(const char *kind, const char *name, const char *text, size_t size, koksma__json **out)
+{
+    koksma__json *d = calloc(1, sizeof *d);
+    *out = NULL;
+    if (d) {
+        *d = (koksma__json){.kind = strdup(kind), .name = strdup(name), .text = malloc(size + 1), .size = size};
+    }
+    if (!d || !d->kind || !d->name || !d->text) {
+        koksma__json_close(d);
+        return koksma__fail_memory(size);
+    }
+    memcpy(d->text, text, size);
+    d->text[size] = '\0';
+    json_error_t error;
+    d->root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    if (!d->root) {
+        const koksma_status status = koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", kind, name,
+                                                  error.line > 0 ? error.line : 1, error.text);
+        koksma__json_close(d);
+        return status;
+    }
+    *out = d;
+    return KOKSMA_OK;
+}
+
+void koksma__json_close(koksma__json *document)
+{
+    if (document) {
+        json_decref(document->root);
+        free(document->kind);
+        free(document->name);
+        free(document->text);
+        free(document);
+    }
+}
+
+koksma__json_node koksma__json_root(const koksma__json *document)
+{
+    return (koksma__json_node){document, document->root, ""};
+}
+
+koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
+{
+    if (!json_is_object((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes an object, {…}");
+    }
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)node->value, key, value)
+    {
+        int i = 0;
+        while (keys[i] && strcmp(keys[i], key) != 0) {
+            i++;
+        }
+        if (!keys[i]) {
+            koksma__json_node member = *node;
+            if (koksma__json_member(node, key, &member)) {
+                return KOKSMA_MALFORMED;
+            }
+            return koksma__json_fail(&member, "unknown field");
+        }
+    }
+    return KOKSMA_OK;
+}
+
+bool koksma__json_has(const koksma__json_node *node, const char *key)
+{
+    return json_object_get(node->value, key) != NULL;
+}
+
+koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
+{
+    const json_t *value = json_object_get(node->value, key);
+    if (!json_is_object((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes an object, {…}");
+    }
+    if (!value) {
+        return koksma__json_fail(node, "field '%s' is missing", key);
+    }
+    const koksma__json_node parent = *node;
+    *out = (koksma__json_node){.document = parent.document, .value = value};
+    snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", key);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length)
+{
+    if (!json_is_array((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes a list, […]");
+    }
+    *length = json_array_size(node->value);
+    return *length <= max ? KOKSMA_OK : koksma__json_fail(node, "%zu items, and at most %zu are taken", *length, max);
+}
+
+koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i)
+{
+    koksma__json_node out = {.document = node->document, .value = json_array_get(node->value, i)};
+    snprintf(out.path, sizeof out.path, "%.100s[%zu]", node->path, i);
+    return out;
+}
+
+koksma_status koksma__json_number(const koksma__json_node *node, double min, double max, double *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_number(value)) {
+        return koksma__json_fail(node, "it takes a number");
+    }
+    *out = json_number_value(value);
+    if (!(*out >= min && *out <= max)) {
+        return koksma__json_fail(node, "%.9g is not in %.9g to %.9g", *out, min, max);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_integer(value)) {
+        return koksma__json_fail(node, "it takes a whole number");
+    }
+    *out = json_integer_value(value);
+    if (*out < min || *out > max) {
+        return koksma__json_fail(node, "%lld is not in %lld to %lld", *out, min, max);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_flag(const koksma__json_node *node, bool *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_boolean(value)) {
+        return koksma__json_fail(node, "it takes true or false");
+    }
+    *out = json_is_true(value);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
+{
+    *out = json_string_value(node->value);
+    return *out ? KOKSMA_OK : koksma__json_fail(node, "it takes a text, \"…\"");
+}
+
+koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out)
+{
+    size_t length = 0;
+    koksma_status status = koksma__json_length(node, SIZE_MAX, &length);
+    if (!status && length != n) {
+        status = koksma__json_fail(node, "it takes %zu numbers and has %zu items", n, length);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(node, i);
+        status = koksma__json_number(&item, min, max, &out[i]);
+    }
+    return status;
+}
+
+/* ---- Members --------------------------------------------------------------------------------------------- */
+
+/* Whether there is something to read: an absent member that is not needed is fine. */
+static bool absent(const koksma__json_node *node, const char *key, bool needed, koksma__json_node *member,
+                   koksma_status *status)
+{
+    *status = KOKSMA_OK;
+    if (!needed && !koksma__json_has(node, key)) {
+        return true;
+    }
+    *status = koksma__json_member(node, key, member);
+    return *status != KOKSMA_OK;
+}
+
+koksma_status koksma__json_get_number(const koksma__json_node *node, const char *key, bool needed, double min,
+                                      double max, double *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_number(&member, min, max, out);
+}
+
+koksma_status koksma__json_get_whole(const koksma__json_node *node, const char *key, bool needed, long long min,
+                                     long long max, long long *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_whole(&member, min, max, out);
+}
+
+koksma_status koksma__json_get_flag(const koksma__json_node *node, const char *key, bool needed, bool *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_flag(&member, out);
+}
+
+koksma_status koksma__json_get_text(const koksma__json_node *node, const char *key, bool needed, const char **out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_text(&member, out);
+}
+
+koksma_status koksma__json_get_numbers(const koksma__json_node *node, const char *key, bool needed, double min,
+                                       double max, size_t n, double *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_numbers(&member, min, max, n, out);
+}

@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Plans are JSON (studies/README.md has the fields). Everything in a plan is checked here, before any work. */
+#include "study/plan.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/render.h>
+#include <koksma/study.h>
+
+#include "scene/json.h"
+#include "study/plan_parts.h"
+#include "study/plans_embedded.h"
+
+enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20 };
+
+const char *koksma_plan_name_at(size_t i)
+{
+    return i < sizeof embedded_texts / sizeof *embedded_texts ? embedded_texts[i].name : NULL;
+}
+
+const char *koksma__plan_shipped(const char *name, size_t *size)
+{
+    for (size_t i = 0; koksma_plan_name_at(i); i++) {
+        if (!strcmp(embedded_texts[i].name, name)) {
+            *size = embedded_texts[i].size;
+            return embedded_texts[i].text;
+        }
+    }
+    return NULL;
+}
+
+/* ---- The parts that discrepancies and images share ------------------------------------------------------- */
+
+static koksma_status parse_discrepancy(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"patterns", "measures", "n", "dim", "trials", NULL};
+    koksma__discrepancy_block *b = item;
+    long long dim = 2;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
+    status = status ? status : koksma__plan_specs(node, "measures", koksma_measure_spec, &b->measures);
+    status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
+    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
+    status = status ? status : koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, &b->trials);
+    b->dim = (int)dim;
+    b->trials = trials > 0 ? trials : b->trials;
+    return status;
+}
+
+static koksma_status parse_reference(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"name", "pattern", "spp", "replicates", NULL};
+    (void)trials;
+    koksma__reference *r = item;
+    r->replicates = 1;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "name", true, &r->name);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
+    status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
+    return status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
+}
+
+/* A scene that opens; its own errors are handed on with the plan's line. */
+static koksma_status check_scene(const koksma__json_node *node, const char *name)
+{
+    koksma_scene *scene;
+    const koksma_status status = koksma_scene_open(name, &scene);
+    if (!status) {
+        koksma_scene_close(scene);
+    }
+    return status ? koksma__json_fail(node, "%s", koksma_error_text()) : KOKSMA_OK;
+}
+
+static koksma_status check_scenes(const koksma__json_node *node, const koksma__texts *scenes)
+{
+    koksma__json_node list;
+    koksma_status status = koksma__json_member(node, "scenes", &list);
+    for (size_t i = 0; !status && i < scenes->n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = check_scene(&item, scenes->at[i]);
+    }
+    return status;
+}
+
+static koksma_status parse_image(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"scenes", "patterns", "spp", "trials", "references", NULL};
+    koksma__image_block *b = item;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
+    status = status ? status : check_scenes(node, &b->scenes);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
+    status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
+    status = status ? status : koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, &b->trials);
+    b->trials = trials > 0 ? trials : b->trials;
+    return status ? status
+                  : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,
+                                      (void **)&b->references, &b->n_references);
+}
+
+/* ---- Published tables and figures ------------------------------------------------------------------------ */
+
+static koksma_status parse_row(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"pattern", "label", "published", NULL};
+    (void)trials;
+    koksma__table_row *r = item;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
+    status = status ? status : koksma__plan_text(node, "label", true, &r->label);
+    return status ? status : koksma__json_get_numbers(node, "published", true, -1e30, 1e30, 3, r->published);
+}
+
+static koksma_status parse_note(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"pattern", "statistic", "reason", NULL};
+    static const char *const statistics[] = {"mean", "sd", "max"};
+    (void)trials;
+    koksma__note *n = item;
+    const char *statistic;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, false, &n->pattern);
+    status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
+    status = status ? status : koksma__json_get_text(node, "statistic", true, &statistic);
+    for (n->statistic = 0; !status && strcmp(statistics[n->statistic], statistic) != 0;) {
+        if (++n->statistic == 3) {
+            return koksma__json_fail(node, "statistic '%s': it takes mean, sd or max", statistic);
+        }
+    }
+    return status;
+}
+
+static koksma_status parse_table(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"id", "title", "scene", "measure", "also", "n", "rows", "notes", NULL};
+    koksma__table *t = item;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "id", true, &t->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &t->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
+    status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);
+    status = status ? status : koksma__plan_spec(node, "also", koksma_measure_spec, false, &t->also);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, 1 << 28, &t->n);
+    if (!status && !t->scene == !t->measure) {
+        return koksma__json_fail(node, "a table has either a scene or a measure");
+    }
+    status = status ? status
+                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, parse_row, trials, (void **)&t->rows,
+                                        &t->n_rows);
+    return status ? status
+                  : koksma__plan_list(node, "notes", false, sizeof *t->notes, parse_note, trials, (void **)&t->notes,
+                                      &t->n_notes);
+}
+
+static koksma_status parse_figure(const koksma__json_node *node, long long trials, void *item)
+{
+    static const char *const keys[] = {"id", "title", "pattern", "scene", "n", "cells", NULL};
+    (void)trials;
+    koksma__figure *f = item;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "id", true, &f->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &f->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
+    if (!status && f->scene) {
+        status = check_scene(node, f->scene);
+    }
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_SPP, &f->n);
+    return status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
+}
+
+/* ---- The whole ------------------------------------------------------------------------------------------- */
+
+static bool has_text(const koksma__texts *texts, const char *text)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        if (!strcmp(texts->at[i], text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool has_whole(const koksma__wholes *wholes, long long value)
+{
+    for (size_t i = 0; i < wholes->n; i++) {
+        if (wholes->at[i] == value) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the blocks make every row of table t. */
+static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
+{
+    for (size_t b = 0; t->scene && b < plan->n_images; b++) {
+        const koksma__image_block *i = &plan->images[b];
+        if (has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) && has_whole(&i->spp, t->n)) {
+            return true;
+        }
+    }
+    for (size_t b = 0; !t->scene && b < plan->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = &plan->discrepancies[b];
+        if (has_text(&d->measures, measure) && has_text(&d->patterns, pattern) && has_whole(&d->n, t->n)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static koksma_status check_tables(const koksma__json_node *root, const koksma__plan *plan)
+{
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        const koksma__table *t = &plan->tables[i];
+        for (size_t r = 0; r < t->n_rows; r++) {
+            if (!is_made(plan, t, t->measure, t->rows[r].pattern) ||
+                (t->also && !is_made(plan, t, t->also, t->rows[r].pattern))) {
+                koksma__json_node tables;
+                koksma__json_member(root, "tables", &tables);
+                const koksma__json_node table = koksma__json_item(&tables, i);
+                return koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[r].pattern);
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status parse(const koksma__json_node *root, long long trials, koksma__plan *p)
+{
+    static const char *const keys[] = {"name",   "title",  "about",   "discrepancies",
+                                       "images", "tables", "figures", NULL};
+    koksma_status status = koksma__json_only(root, keys);
+    status = status ? status : koksma__plan_text(root, "name", true, &p->name);
+    status = status ? status : koksma__plan_text(root, "title", true, &p->title);
+    status = status ? status : koksma__plan_text(root, "about", false, &p->about);
+    status = status ? status
+                    : koksma__plan_list(root, "discrepancies", false, sizeof *p->discrepancies, parse_discrepancy,
+                                        trials, (void **)&p->discrepancies, &p->n_discrepancies);
+    status = status ? status
+                    : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
+                                        (void **)&p->images, &p->n_images);
+    status = status ? status
+                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, parse_table, trials,
+                                        (void **)&p->tables, &p->n_tables);
+    status = status ? status
+                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, parse_figure, trials,
+                                        (void **)&p->figures, &p->n_figures);
+    if (!status && p->n_discrepancies + p->n_images == 0) {
+        return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
+    }
+    return status ? status : check_tables(root, p);
+}
+
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, long long trials,
+                                 koksma__plan *plan)
+{
+    koksma__json *document;
+    *plan = (koksma__plan){0};
+    koksma_status status = koksma__json_open("plan", name, text, size, &document);
+    if (status) {
+        return status;
+    }
+    const koksma__json_node root = koksma__json_root(document);
+    status = parse(&root, trials, plan);
+    koksma__json_close(document);
+    if (status) {
+        koksma__plan_fini(plan);
+    }
+    return status;
+}
+
+static void free_texts(koksma__texts *texts)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        free(texts->at[i]);
+    }
+    free(texts->at);
+}
+
+static void free_table(koksma__table *t)
+{
+    for (size_t r = 0; r < t->n_rows; r++) {
+        free(t->rows[r].pattern);
+        free(t->rows[r].label);
+    }
+    for (size_t n = 0; n < t->n_notes; n++) {
+        free(t->notes[n].pattern);
+        free(t->notes[n].reason);
+    }
+    free(t->rows);
+    free(t->notes);
+    free(t->id);
+    free(t->title);
+    free(t->scene);
+    free(t->measure);
+    free(t->also);
+}
+
+static void free_image_block(koksma__image_block *b)
+{
+    free_texts(&b->scenes);
+    free_texts(&b->patterns);
+    free(b->spp.at);
+    for (size_t r = 0; r < b->n_references; r++) {
+        free(b->references[r].name);
+        free(b->references[r].pattern);
+    }
+    free(b->references);
+}
+
+void koksma__plan_fini(koksma__plan *p)
+{
+    for (size_t i = 0; i < p->n_discrepancies; i++) {
+        free_texts(&p->discrepancies[i].patterns);
+        free_texts(&p->discrepancies[i].measures);
+        free(p->discrepancies[i].n.at);
+    }
+    for (size_t i = 0; i < p->n_images; i++) {
+        free_image_block(&p->images[i]);
+    }
+    for (size_t i = 0; i < p->n_tables; i++) {
+        free_table(&p->tables[i]);
+    }
+    for (size_t i = 0; i < p->n_figures; i++) {
+        free(p->figures[i].id);
+        free(p->figures[i].title);
+        free(p->figures[i].pattern);
+        free(p->figures[i].scene);
+    }
+    free(p->discrepancies);
+    free(p->images);
+    free(p->tables);
+    free(p->figures);
+    free(p->name);
+    free(p->title);
+    free(p->about);
+    *p = (koksma__plan){0};
+}

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A study's plan: what to measure and render, and what published numbers and figures to show beside it. */
+#ifndef KOKSMA_STUDY_PLAN_H
+#define KOKSMA_STUDY_PLAN_H
+
+#include <koksma/koksma.h>
+
+typedef struct koksma__texts {
+    size_t n;
+    char **at;
+} koksma__texts;
+
+typedef struct koksma__wholes {
+    size_t n;
+    long long *at;
+} koksma__wholes;
+
+/* patterns x n x measures x trials */
+typedef struct koksma__discrepancy_block {
+    koksma__texts patterns, measures; /* canonical specs */
+    koksma__wholes n;
+    int dim;
+    long long trials;
+} koksma__discrepancy_block;
+
+/* How a reference image is made: the mean of `replicates` renders. Its own error is estimated from their spread, so
+   that is known with 2 or more. */
+typedef struct koksma__reference {
+    char *name, *pattern;
+    long long spp, replicates;
+} koksma__reference;
+
+/* scenes x patterns x spp x trials, each compared with every reference */
+typedef struct koksma__image_block {
+    koksma__texts scenes, patterns;
+    koksma__wholes spp;
+    long long trials;
+    size_t n_references;
+    koksma__reference *references;
+} koksma__image_block;
+
+/* A published table: rows of a pattern with mean, SD and max. */
+typedef struct koksma__table_row {
+    char *pattern, *label;
+    double published[3];
+} koksma__table_row;
+
+/* Why a published cell is not what its definition gives. */
+typedef struct koksma__note {
+    char *pattern; /* NULL: the whole column */
+    int statistic; /* 0 mean, 1 SD, 2 max */
+    char *reason;
+} koksma__note;
+
+typedef struct koksma__table {
+    char *id, *title;
+    char *scene;          /* an image table */
+    char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
+    long long n;
+    size_t n_rows, n_notes;
+    koksma__table_row *rows;
+    koksma__note *notes;
+} koksma__table;
+
+/* A figure: the points of a pattern, or a rendered scene. */
+typedef struct koksma__figure {
+    char *id, *title, *pattern, *scene;
+    long long n; /* points, or samples per pixel */
+    bool cells;  /* draw the cells or rows and columns in */
+} koksma__figure;
+
+typedef struct koksma__plan {
+    char *name, *title, *about;
+    size_t n_discrepancies, n_images, n_tables, n_figures;
+    koksma__discrepancy_block *discrepancies;
+    koksma__image_block *images;
+    koksma__table *tables;
+    koksma__figure *figures;
+} koksma__plan;
+
+/* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study does
+   not fail in the middle. trials > 0 replaces the plan's numbers of trials. */
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, long long trials,
+                                 koksma__plan *plan);
+
+/* The text of a plan that ships, or NULL. */
+const char *koksma__plan_shipped(const char *name, size_t *size);
+
+void koksma__plan_fini(koksma__plan *plan);
+
+#endif

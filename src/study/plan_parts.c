@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+enum { MAX_ITEMS = 4096 };
+
+static koksma_status copy(const char *text, char **out)
+{
+    *out = strdup(text);
+    return *out ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+}
+
+static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, char **out)
+{
+    const char *text;
+    koksma_spec spec;
+    koksma_status status = koksma__json_text(node, &text);
+    if (status) {
+        return status;
+    }
+    if (parser(text, &spec)) {
+        return koksma__json_fail(node, "%s", koksma_error_text());
+    }
+    char name[KOKSMA_MAX_SPEC];
+    koksma_spec_text(&spec, name);
+    return copy(name, out);
+}
+
+koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)
+{
+    const char *text = NULL;
+    const koksma_status status = koksma__json_get_text(node, key, needed, &text);
+    return status || !text ? status : copy(text, out);
+}
+
+koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                bool needed, char **out)
+{
+    koksma__json_node member;
+    if (!needed && !koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__json_member(node, key, &member);
+    return status ? status : canonical(&member, parser, out);
+}
+
+/* The list and its length, at least 1. */
+static koksma_status open_list(const koksma__json_node *node, const char *key, koksma__json_node *list,
+                               size_t *length)
+{
+    koksma_status status = koksma__json_member(node, key, list);
+    if (!status) {
+        status = koksma__json_length(list, MAX_ITEMS, length);
+    }
+    if (!status && *length == 0) {
+        status = koksma__json_fail(list, "an empty list");
+    }
+    return status;
+}
+
+static koksma_status read_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                koksma__texts *out)
+{
+    koksma__json_node list;
+    size_t length;
+    koksma_status status = open_list(node, key, &list, &length);
+    if (status) {
+        return status;
+    }
+    out->at = calloc(length, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(length * sizeof *out->at);
+    }
+    for (; !status && out->n < length; out->n++) {
+        const koksma__json_node item = koksma__json_item(&list, out->n);
+        const char *text;
+        if (parser) {
+            status = canonical(&item, parser, &out->at[out->n]);
+        } else if (!(status = koksma__json_text(&item, &text))) {
+            status = copy(text, &out->at[out->n]);
+        }
+        for (size_t i = 0; !status && i < out->n; i++) {
+            if (!strcmp(out->at[i], out->at[out->n])) {
+                status = koksma__json_fail(&item, "'%s' stands twice", out->at[i]);
+            }
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out)
+{
+    return read_texts(node, key, NULL, out);
+}
+
+koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                 koksma__texts *out)
+{
+    return read_texts(node, key, parser, out);
+}
+
+koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
+                                  koksma__wholes *out)
+{
+    koksma__json_node list;
+    size_t length;
+    koksma_status status = open_list(node, key, &list, &length);
+    if (status) {
+        return status;
+    }
+    out->at = calloc(length, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(length * sizeof *out->at);
+    }
+    for (; !status && out->n < length; out->n++) {
+        const koksma__json_node item = koksma__json_item(&list, out->n);
+        status = koksma__json_whole(&item, min, max, &out->at[out->n]);
+    }
+    return status;
+}
+
+koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
+                                koksma__item_parser parser, long long trials, void **items, size_t *n)
+{
+    koksma__json_node list;
+    size_t length;
+    if (!needed && !koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = open_list(node, key, &list, &length);
+    if (status) {
+        return status;
+    }
+    *items = calloc(length, item_size);
+    if (!*items) {
+        return koksma__fail_memory(length * item_size);
+    }
+    while (!status && *n < length) {
+        const koksma__json_node item = koksma__json_item(&list, *n);
+        status = parser(&item, trials, (char *)*items + (*n)++ * item_size);
+    }
+    return status;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The pieces that plans are read with: copies of texts, specs in their canonical form, lists. */
+#ifndef KOKSMA_STUDY_PLAN_PARTS_H
+#define KOKSMA_STUDY_PLAN_PARTS_H
+
+#include "scene/json.h"
+#include "study/plan.h"
+
+typedef koksma_status (*koksma__spec_parser)(const char *text, koksma_spec *spec);
+typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, long long trials, void *item);
+
+/* A copy of the member's text; *out stays NULL when it is not there and not needed. */
+koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out);
+
+/* The same for a spec, checked, in its canonical form. */
+koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                bool needed, char **out);
+
+/* Lists of at least one; these are needed. */
+koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out);
+koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                 koksma__texts *out);
+koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
+                                  koksma__wholes *out);
+
+/* A list of objects into an array of zeroed items of item_size bytes; *n counts the items that must be freed, also on
+   failure. */
+koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
+                                koksma__item_parser parser, long long trials, void **items, size_t *n);
+
+#endif

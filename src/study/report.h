@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_STUDY_REPORT_H
+#define KOKSMA_STUDY_REPORT_H
+
+#include "study/html.h"
+#include "study/study.h"
+
+/* Published means: how many there are, agree, and differ for a known reason. */
+typedef struct koksma__tally {
+    size_t cells, agree, explained;
+} koksma__tally;
+
+/* Appends the figures of the plan: point sets as SVG, scenes as pixels. */
+koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma_run *run);
+
+#endif

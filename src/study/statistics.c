@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/statistics.h"
+
+#include <math.h>
+
+#include "core/sum.h"
+
+double koksma__student_975(size_t degrees)
+{
+    const double z = 1.959963984540054, v = (double)degrees;
+    if (degrees == 1) {
+        return 12.706204736174705;
+    }
+    if (degrees == 2) {
+        return 4.302652729749464;
+    }
+    const double z2 = z * z;
+    return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
+           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
+}
+
+koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+{
+    koksma__summary s = {n, NAN, NAN, NAN, NAN, NAN};
+    if (n == 0) {
+        return s;
+    }
+    koksma__sum sum = {0}, squares = {0};
+    s.max = values[0];
+    for (size_t i = 0; i < n; i++) {
+        koksma__sum_add(&sum, values[i * stride]);
+        s.max = fmax(s.max, values[i * stride]);
+    }
+    s.mean = koksma__sum_value(&sum) / (double)n;
+    for (size_t i = 0; i < n; i++) {
+        const double t = values[i * stride] - s.mean;
+        koksma__sum_add(&squares, t * t);
+    }
+    s.sd = n > 1 ? sqrt(koksma__sum_value(&squares) / (double)(n - 1)) : 0;
+    const double half = n > 1 ? koksma__student_975(n - 1) * s.sd / sqrt((double)n) : 0;
+    s.low = s.mean - half;
+    s.high = s.mean + half;
+    return s;
+}
+
+void koksma__largest_of(const double *values, size_t n, size_t block, double *mean, double *sd)
+{
+    koksma__sum sum = {0}, squares = {0};
+    const size_t blocks = n / block;
+    for (size_t b = 0; b < blocks; b++) {
+        const koksma__summary s = koksma__summarize(values + b * block, block, 1);
+        koksma__sum_add(&sum, s.max);
+        koksma__sum_add(&squares, s.max * s.max);
+    }
+    *mean = blocks ? koksma__sum_value(&sum) / (double)blocks : (double)NAN;
+    const double variance = koksma__sum_value(&squares) - (double)blocks * *mean * *mean;
+    *sd = blocks > 1 ? sqrt(fmax(variance, 0) / (double)(blocks - 1)) : (double)NAN;
+}

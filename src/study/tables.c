@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The published tables beside what the store has. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/statistics.h"
+#include "study/tables.h"
+
+const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
+{
+    for (size_t b = 0; b < study->plan.n_images; b++) {
+        for (size_t s = 0; s < study->plan.images[b].scenes.n; s++) {
+            if (!strcmp(study->plan.images[b].scenes.at[s], table->scene)) {
+                return &study->plan.images[b];
+            }
+        }
+    }
+    return NULL;
+}
+
+static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const char *measure, long long n)
+{
+    for (size_t b = 0; b < study->plan.n_discrepancies; b++) {
+        const koksma__discrepancy_block *block = &study->plan.discrepancies[b];
+        bool has_measure = false, has_n = false;
+        for (size_t m = 0; m < block->measures.n; m++) {
+            has_measure |= !strcmp(block->measures.at[m], measure);
+        }
+        for (size_t i = 0; i < block->n.n; i++) {
+            has_n |= block->n.at[i] == n;
+        }
+        if (has_measure && has_n) {
+            return block;
+        }
+    }
+    return NULL;
+}
+
+koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,
+                                        const char *pattern, koksma__cell *cell)
+{
+    const koksma__discrepancy_block *block = discrepancies_of(study, measure, table->n);
+    *cell = (koksma__cell){0};
+    if (!block) {
+        return koksma__fail(KOKSMA_MALFORMED, "plan '%s': table %s: no discrepancy block has %s at n = %lld",
+                            study->plan.name, table->id, measure, table->n);
+    }
+    const koksma__discrepancy_key key = {pattern, measure, table->n, block->dim, block->trials};
+    double *values;
+    size_t n;
+    const koksma_status status = koksma__store_discrepancies(study->store, &key, &values, &n);
+    if (status) {
+        return status;
+    }
+    cell->mean = koksma__summarize(values, n, 1);
+    cell->sd = cell->mean.sd;
+    koksma__largest_of(values, n, 100, &cell->max, &cell->max_sd);
+    if (isnan(cell->max)) {
+        cell->max = cell->mean.max;
+    }
+    free(values);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__table_image(koksma_study *study, const koksma__table *table, const koksma__reference *reference,
+                                  const char *pattern, koksma__cell *cell)
+{
+    const koksma__image_block *block = koksma__table_images(study, table);
+    const koksma__study_scene *scene = koksma__study_scene_of(study, table->scene);
+    char name[KOKSMA__REFERENCE_NAME];
+    koksma_image_error *errors;
+    size_t n;
+    *cell = (koksma__cell){0};
+    koksma__reference_name(reference, name);
+    const koksma__image_key key = {scene->name, scene->hash,  pattern,       name,
+                                   table->n,    scene->width, scene->height, block->trials};
+    const koksma_status status = koksma__store_images(study->store, &key, &errors, &n);
+    if (status) {
+        return status;
+    }
+    const size_t stride = sizeof *errors / sizeof(double);
+    cell->mean = koksma__summarize(&errors->mean, n, stride);
+    cell->sd = koksma__summarize(&errors->sd, n, stride).mean;
+    const koksma__summary max = koksma__summarize(&errors->max, n, stride);
+    cell->max = max.mean;
+    cell->max_sd = max.sd;
+    free(errors);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
+                                     bool *found)
+{
+    const koksma__table *table = NULL;
+    *found = false;
+    for (size_t t = 0; t < study->plan.n_tables; t++) {
+        if (!strcmp(study->plan.tables[t].id, id)) {
+            table = &study->plan.tables[t];
+        }
+    }
+    if (!table) {
+        return koksma__fail(KOKSMA_UNKNOWN, "plan '%s' has no table '%s'", study->plan.name, id);
+    }
+    if (i >= table->n_rows) {
+        return KOKSMA_OK;
+    }
+    const koksma__table_row *from = &table->rows[i];
+    koksma__cell cell, last;
+    *row = (koksma_study_row){.pattern = from->pattern, .label = from->label, .converged = NAN};
+    memcpy(row->published, from->published, sizeof row->published);
+    koksma_status status;
+    if (table->scene) {
+        const koksma__image_block *block = koksma__table_images(study, table);
+        status = koksma__table_image(study, table, &block->references[0], from->pattern, &cell);
+        if (!status) {
+            status =
+                koksma__table_image(study, table, &block->references[block->n_references - 1], from->pattern, &last);
+            row->converged = last.mean.mean;
+        }
+    } else {
+        status = koksma__table_discrepancy(study, table, table->measure, from->pattern, &cell);
+    }
+    if (status) {
+        return status;
+    }
+    row->mean = cell.mean.mean;
+    row->low = cell.mean.low;
+    row->high = cell.mean.high;
+    row->sd = cell.sd;
+    row->max = cell.max;
+    row->trials = cell.mean.n;
+    *found = true;
+    return KOKSMA_OK;
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_STUDY_TABLES_H
+#define KOKSMA_STUDY_TABLES_H
+
+#include "study/statistics.h"
+#include "study/study.h"
+
+/* One cell triple of a table. */
+typedef struct koksma__cell {
+    koksma__summary mean; /* of the trials' means (images) or values (discrepancies) */
+    double sd;            /* mean of the trials' SDs (images), SD of the values (discrepancies) */
+    double max, max_sd;   /* of the trials' maxima (images), of the largest of 100 values (discrepancies) */
+} koksma__cell;
+
+/* The block that renders an image table's scene, or NULL; koksma__plan_parse makes sure that there is one. */
+const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table);
+
+koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,
+                                        const char *pattern, koksma__cell *cell);
+koksma_status koksma__table_image(koksma_study *study, const koksma__table *table, const koksma__reference *reference,
+                                  const char *pattern, koksma__cell *cell);
+
+#endif

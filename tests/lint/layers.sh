@@ -1,0 +1,67 @@
+#!/bin/sh
+# The plan of the house: which folder may include which, which file may include which outside library.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+failed=0
+complain() { echo "$1"; failed=$((failed + 1)); }
+
+# FOLDER: the folders of src/ that it may include, itself among them.
+allowed() {
+  case $1 in
+    core) echo "core" ;;
+    kernels) echo "core kernels" ;;
+    patterns) echo "core kernels patterns" ;;
+    measures) echo "core kernels measures" ;;
+    image) echo "core image" ;;
+    scene) echo "core kernels patterns measures image scene" ;;
+    plot) echo "core kernels patterns measures image scene plot" ;;
+    render) echo "core kernels patterns measures image scene render" ;;
+    study) echo "core kernels patterns measures image scene render plot study" ;;
+  esac
+}
+for folder in core kernels patterns measures image scene render plot study; do
+  [ -d src/$folder ] || continue
+  ok=" $(allowed $folder) "
+  grep -rnoE '#include "[a-z_0-9]+/' src/$folder --include='*.[ch]' | while IFS=: read -r file line include; do
+    target=$(echo "$include" | sed 's/.*"\(.*\)\//\1/')
+    case "$ok" in *" $target "*) ;; *) echo "$file:$line: $folder may not include $target" ;; esac
+  done
+done >/tmp/koksma-lint.$$
+while read -r problem; do complain "$problem"; done </tmp/koksma-lint.$$
+rm -f /tmp/koksma-lint.$$
+
+grep -nE '#include "(core|kernels|patterns|measures|image|scene|render|plot|study)/' cli/*.[ch] && complain "cli/ includes include/koksma/ only"
+
+# One outside library, one source file.
+only() {
+  others=$(grep -rlE "#include <$1" src cli include | grep -vxF "$2")
+  for file in $others; do complain "$file includes <$1; only $2 may"; done
+}
+only 'png\.h' src/image/png.c
+only 'openexr\.h' src/image/exr.c
+only 'cairo' src/plot/cairo.c
+only 'sqlite3\.h' src/study/store.c
+only 'jansson\.h' src/scene/json.c
+only 'embree' src/render/accel_embree.c
+only 'mpi\.h' src/study/pool_mpi.c
+only 'kiss' src/measures/parts/fft.c
+only 'Random123' src/core/random.h
+
+# Every source says its licence; no file is long without a reason at its top.
+for file in $(git ls-files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]'); do
+  head -1 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || complain "$file: no SPDX line"
+  if [ "$(wc -l <"$file")" -gt 400 ] && ! sed -n 2,12p "$file" | grep -qi 'long because'; then
+    complain "$file: over 400 lines without 'Long because ...' at the top"
+  fi
+done
+
+# File names are unique in the tree, as a reader looks them up by name.
+git ls-files '*.c' | xargs -n1 basename | grep -vx registry.c | sort | uniq -d | while read -r name; do echo "$name is in two folders"; done |
+  grep . && failed=$((failed + 1))
+
+# Every key cited in a table entry is in docs/references.bib.
+for key in $(grep -rhoE '\.cite = "[^"]*"' src | sed 's/.*"\(.*\)"/\1/' | tr ' ' '\n' | grep -vx -e - | sort -u); do
+  grep -q "^@[a-z]*{$key," docs/references.bib || complain "docs/references.bib has no $key"
+done
+echo "$failed problems"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Image files: exact round trips, hand-counted errors, and readers that survive anything. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/image.h>
+
+#include "core/random.h"
+#include "image/formats.h"
+#include "test.h"
+
+static koksma_image noise(int width, int height, int channels)
+{
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, width, height, channels));
+    for (size_t i = 0; i < (size_t)(width * height * channels); i++) {
+        const koksma__words r = koksma__random(1, KOKSMA__PURPOSE_TEST, i, 0);
+        image.pixels[i] = (float)((double)r.w[0] * 0x1p-32) * (r.w[1] % 7 ? 1.0f : -1e30f);
+    }
+    return image;
+}
+
+static koksma__bytes written(const char *format, const koksma_image *image)
+{
+    koksma__bytes bytes = {0};
+    const koksma__image_format *f = NULL;
+    for (size_t i = 0; !f; i++) {
+        f = strcmp(koksma__image_format_at(i)->name, format) ? NULL : koksma__image_format_at(i);
+    }
+    assert_ok(f->write(image, "what it is", &bytes));
+    assert_true(f->recognises(bytes.data, bytes.size));
+    return bytes;
+}
+
+static void floats_come_back_to_the_bit(void **state)
+{
+    (void)state;
+    static const int sizes[][3] = {{1, 1, 1}, {1, 1, 3}, {37, 5, 1}, {5, 41, 3}, {130, 97, 3}, {3, 1, 1}};
+    static const char *const names[] = {"round_trip.pfm", "round_trip.exr"};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        for (size_t f = 0; f < 2; f++) {
+            koksma_image image = noise(sizes[s][0], sizes[s][1], sizes[s][2]), back;
+            image.pixels[0] = -0.0f;
+            assert_ok(koksma_image_write(names[f], &image, "scene x"));
+            assert_ok(koksma_image_read(names[f], &back));
+            assert_int_equal(back.width, image.width);
+            assert_int_equal(back.height, image.height);
+            assert_int_equal(back.channels, image.channels);
+            assert_memory_equal(back.pixels, image.pixels,
+                                sizeof(float) * (size_t)(image.width * image.height * image.channels));
+            koksma_image_fini(&back);
+            koksma_image_fini(&image);
+            unlink(names[f]);
+        }
+    }
+}
+
+/* All 256 grey levels: linear values that come from a PNG give the same PNG. */
+static void png_levels_come_back(void **state)
+{
+    (void)state;
+    koksma_image image, back;
+    assert_ok(koksma_image_init(&image, 16, 16, 1));
+    for (int i = 0; i < 256; i++) {
+        const double s = i / 255.0;
+        image.pixels[i] = (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
+    }
+    unsigned char *bytes;
+    size_t size;
+    assert_ok(koksma_image_png_bytes(&image, &bytes, &size));
+    assert_ok(koksma__format_png.read(bytes, size, &back));
+    assert_memory_equal(back.pixels, image.pixels, 256 * sizeof(float));
+    koksma_image_fini(&back);
+    free(bytes);
+    image.pixels[0] = -3;
+    image.pixels[1] = 7;
+    image.pixels[2] = NAN;
+    assert_ok(koksma_image_png_bytes(&image, &bytes, &size));
+    assert_ok(koksma__format_png.read(bytes, size, &back));
+    assert_true(back.pixels[0] == 0 && back.pixels[1] == 1 && back.pixels[2] == 0);
+    koksma_image_fini(&back);
+    free(bytes);
+    koksma_image_fini(&image);
+}
+
+/* Errors 0, 0.5, 0.25 and -0.25 (in luminance). */
+static void errors_by_hand(void **state)
+{
+    (void)state;
+    koksma_image a, b, difference;
+    koksma_image_error e;
+    assert_ok(koksma_image_init(&a, 2, 2, 1));
+    assert_ok(koksma_image_init(&b, 2, 2, 3));
+    const float values[] = {0, 1, 0.75f, 0.25f};
+    memcpy(a.pixels, values, sizeof values);
+    for (int i = 3; i < 12; i++) {
+        b.pixels[i] = 0.5f; /* grey has its own luminance */
+    }
+    assert_ok(koksma_image_compare(&a, &b, &e));
+    assert_near(e.mean, 0.25, 1e-15);
+    assert_near(e.sd, sqrt(0.125 / 4), 1e-15);
+    assert_near(e.max, 0.5, 1e-15);
+    assert_near(e.rmse, sqrt(0.375 / 4), 1e-15);
+    assert_ok(koksma_image_difference(&a, &b, &difference));
+    assert_true(difference.channels == 1 && difference.pixels[1] == 0.5f && difference.pixels[3] == 0.25f);
+    koksma_image_fini(&difference);
+    koksma_image_fini(&b);
+    assert_ok(koksma_image_init(&b, 2, 3, 1));
+    assert_int_equal(koksma_image_compare(&a, &b, &e), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_image_difference(&a, &b, &difference), KOKSMA_ARGUMENT);
+    koksma_image_fini(&a);
+    koksma_image_fini(&b);
+}
+
+/* Every prefix of a file is an error with a text; changed bytes never crash a reader. */
+static void readers_survive(void **state)
+{
+    (void)state;
+    for (size_t f = 0; koksma__image_format_at(f); f++) {
+        const koksma__image_format *format = koksma__image_format_at(f);
+        koksma_image image = noise(9, 7, 3), back;
+        koksma__bytes bytes = written(format->name, &image);
+        for (size_t size = 8; size < bytes.size; size += 1 + size / 40) {
+            unsigned char *part = malloc(size); /* its own block, so that reading past its end is seen */
+            memcpy(part, bytes.data, size);
+            back = (koksma_image){0};
+            /* A PNG that lacks only its end mark is complete for libpng. */
+            const bool needed = strcmp(format->name, "png") != 0 || size + 16 < bytes.size;
+            const koksma_status status = format->read(part, size, &back);
+            assert_true(!needed || status == KOKSMA_MALFORMED);
+            koksma_image_fini(&back);
+            free(part);
+        }
+        for (uint64_t round = 0; round < 700; round++) {
+            unsigned char *copy = malloc(bytes.size);
+            memcpy(copy, bytes.data, bytes.size);
+            const koksma__words r = koksma__random(2, KOKSMA__PURPOSE_TEST, round, 0);
+            const uint32_t span = round % 2 ? (uint32_t)bytes.size : 400; /* half of them in the header */
+            copy[koksma__below(r.w[0], span < bytes.size ? span : (uint32_t)bytes.size)] = (unsigned char)r.w[1];
+            copy[koksma__below(r.w[2], span < bytes.size ? span : (uint32_t)bytes.size)] = (unsigned char)r.w[3];
+            back = (koksma_image){0};
+            (void)format->read(copy, bytes.size, &back);
+            koksma_image_fini(&back);
+            free(copy);
+        }
+        koksma_image_fini(&image);
+        free(bytes.data);
+    }
+}
+
+static void sizes_are_checked(void **state)
+{
+    (void)state;
+    static const char *const headers[] = {
+        "PF\n100000 100000\n-1\n", "Pf\n65536 4096\n-1\nabc",
+        "Pf\n0 5\n-1\n",           "Pf\n-3 5\n1\n",
+        "PF\n3 x\n-1\n",           "PF\n3 3\n0\n",
+        "PF\n3 3\nnan\n",          "PF\n99999999999999999999 1\n-1\n",
+    };
+    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
+        koksma_image image = {0};
+        const unsigned char *bytes = (const unsigned char *)headers[i];
+        assert_int_equal(koksma__format_pfm.read(bytes, strlen(headers[i]), &image), KOKSMA_MALFORMED);
+        koksma_image_fini(&image);
+    }
+    koksma_image image;
+    assert_int_equal(koksma_image_init(&image, 0, 3, 1), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_image_init(&image, 3, 3, 2), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_image_init(&image, 65536, 65536, 1), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_image_read("no/such.exr", &image), KOKSMA_MISSING);
+    assert_int_equal(koksma_image_read(KOKSMA_TESTS, &image), KOKSMA_MISSING);
+    koksma_image_fini(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floats_come_back_to_the_bit),
+        cmocka_unit_test(png_levels_come_back),
+        cmocka_unit_test(errors_by_hand),
+        cmocka_unit_test(readers_survive),
+        cmocka_unit_test(sizes_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Statistics by hand, plans that are wrong, and a store that is opened again. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "study/plan.h"
+#include "study/statistics.h"
+#include "study/store.h"
+#include "test.h"
+
+static void summary_by_hand(void **state)
+{
+    (void)state;
+    const double values[] = {1, 9, 2, 9, 3, 9, 6, 9};
+    const koksma__summary s = koksma__summarize(values, 4, 2);
+    assert_near(s.mean, 3, 0);
+    assert_near(s.sd, sqrt(14.0 / 3), 1e-15);
+    assert_near(s.max, 6, 0);
+    assert_near(s.high - s.mean, 3.182446 * s.sd / 2, 0.02 * s.sd);
+}
+
+static void student_table(void **state)
+{
+    (void)state;
+    assert_near(koksma__student_975(1), 12.7062, 1e-3);
+    assert_near(koksma__student_975(5), 2.5706, 0.005);
+    assert_near(koksma__student_975(30), 2.0423, 1e-4);
+    assert_near(koksma__student_975(99), 1.9842, 1e-4);
+}
+
+static void largest_of_blocks(void **state)
+{
+    (void)state;
+    const double values[] = {1, 5, 2, 3, 9, 4, 100};
+    double mean, sd;
+    koksma__largest_of(values, 7, 3, &mean, &sd);
+    assert_near(mean, 7, 0);
+    assert_near(sd, sqrt(8), 1e-14);
+    koksma__largest_of(values, 2, 3, &mean, &sd);
+    assert_true(isnan(mean));
+}
+
+static void wrong_plan(const char *text, const char *reason)
+{
+    koksma__plan plan;
+    assert_int_equal(koksma__plan_parse("p", text, strlen(text), 0, &plan), KOKSMA_MALFORMED);
+    if (strcmp(koksma_error_text(), reason) != 0) {
+        fail_msg("the error is \"%s\" and should be \"%s\"", koksma_error_text(), reason);
+    }
+}
+
+static void wrong_plans(void **state)
+{
+    (void)state;
+    wrong_plan("{\"name\": \"a\", \"title\": \"b\"}",
+               "plan 'p': line 1: the plan has neither 'discrepancies' nor 'images': nothing to do");
+    wrong_plan("{\n\"name\": \"a\",\n\"nome\": 1}", "plan 'p': line 3: nome: unknown field");
+    wrong_plan(
+        "{\"name\": \"a\",\n \"title\": \"b\",\n \"discrepancies\": [\n {\"patterns\": [\"random\",\n \"rendom\"]}]}",
+        "plan 'p': line 5: discrepancies[0].patterns[1]: no pattern 'rendom'; 'koksma list patterns' names them");
+    wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
+               "[\"star\"],\n\"n\": [0], \"trials\": 1}]}",
+               "plan 'p': line 2: discrepancies[0].n[0]: 0 is not in 1 to 268435456");
+    wrong_plan("[1, 2", "plan 'p': line 1: ']' expected near end of file");
+    wrong_plan(
+        "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
+        "[\"star\"], \"n\": [4], \"trials\": 1}], \"tables\": [\n{\"id\": \"1\", \"title\": \"t\", \"measure\": "
+        "\"extreme\", \"n\": 4, \"rows\": [{\"pattern\": \"random\", \"label\": \"r\", \"published\": [1,2,3]}]}]}",
+        "plan 'p': line 2: tables[0]: no block of the plan makes the row of random");
+}
+
+static void shipped_plans_parse(void **state)
+{
+    (void)state;
+    size_t size;
+    koksma__plan plan;
+    assert_null(koksma__plan_shipped("nothing", &size));
+    const char *text = koksma__plan_shipped("shirley1991", &size);
+    assert_non_null(text);
+    assert_ok(koksma__plan_parse("shirley1991", text, size, 7, &plan));
+    assert_int_equal(plan.n_tables, 6);
+    assert_int_equal(plan.images[0].trials, 7);
+    koksma__plan_fini(&plan);
+}
+
+static void store_keeps_rows(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/koksma-store-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/r.sqlite", folder);
+    koksma__store *store, *second;
+    const koksma__discrepancy_key key = {"random", "star", 16, 2, 0};
+    bool has;
+    double *values;
+    size_t n;
+    assert_ok(koksma__store_open(path, "plan", &store));
+    assert_ok(koksma__store_put_discrepancy(store, &key, UINT64_MAX, 0.1));
+    assert_ok(koksma__store_put_discrepancy(store, &key, UINT64_MAX, 0.7)); /* a row that exists stays */
+    assert_int_equal(koksma__store_open(path, "plan", &second), KOKSMA_IO);
+    assert_non_null(strstr(koksma_error_text(), "another run"));
+    assert_ok(koksma__store_close(store));
+    assert_int_equal(koksma__store_open(path, "other", &store), KOKSMA_MALFORMED);
+    assert_ok(koksma__store_open(path, "plan", &store));
+    assert_ok(koksma__store_has_discrepancy(store, &key, &has));
+    assert_true(has);
+    const koksma__discrepancy_key all = {"random", "star", 16, 2, 5};
+    assert_ok(koksma__store_discrepancies(store, &all, &values, &n));
+    assert_int_equal(n, 1);
+    assert_near(values[0], 0.1, 0);
+    free(values);
+    assert_ok(koksma__store_close(store));
+    FILE *f = fopen(path, "wb");
+    fputs("this is not a database, and long enough to be read as one would be", f);
+    fclose(f);
+    assert_int_equal(koksma__store_open(path, "plan", &store), KOKSMA_MALFORMED);
+    unlink(path);
+    rmdir(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(summary_by_hand), cmocka_unit_test(student_table),       cmocka_unit_test(largest_of_blocks),
+        cmocka_unit_test(wrong_plans),     cmocka_unit_test(shipped_plans_parse), cmocka_unit_test(store_keeps_rows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
