@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <koksma/render.h>
+
 #include "cli.h"
 
 static const struct {
@@ -17,6 +19,17 @@ static const struct {
     {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},
     {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
     {KOKSMA_CLAIM_CENTRED, "centred"},
+    {KOKSMA_CLAIM_GRID, "grid"},
+    {KOKSMA_CLAIM_NET2, "net2"},
+    {KOKSMA_CLAIM_NET2_PREFIXES, "net2-prefixes"},
+    {KOKSMA_CLAIM_NET_PREFIXES, "net-prefixes"},
+    {KOKSMA_CLAIM_OA2, "oa2"},
+    {KOKSMA_CLAIM_OA3, "oa3"},
+    {KOKSMA_CLAIM_FRACTION, "fraction"},
+    {KOKSMA_CLAIM_MAXIMAL, "maximal"},
+    {KOKSMA_CLAIM_LATTICE, "lattice"},
+    {KOKSMA_CLAIM_BLUE, "blue"},
+    {KOKSMA_CLAIM_LATIN_PREFIXES, "latin-prefixes"},
 };
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)
@@ -77,12 +90,24 @@ static void list_measures(cli_rows *rows)
     }
 }
 
+static void list_scenes(cli_rows *rows)
+{
+    koksma_scene *scene;
+    for (size_t i = 0; koksma_scene_name_at(i) && !koksma_scene_open(koksma_scene_name_at(i), &scene); i++) {
+        cli_row_text(rows, "scene", koksma_scene_name_at(i));
+        cli_row_text(rows, "what", koksma_scene_title(scene));
+        cli_row_end(rows);
+        koksma_scene_close(scene);
+    }
+}
+
 static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
     {"patterns", list_patterns},
     {"measures", list_measures},
+    {"scenes", list_scenes},
 };
 
 static int run(const cli_arguments *arguments)
@@ -98,7 +123,7 @@ static int run(const cli_arguments *arguments)
     }
     const int code = cli_rows_close(rows);
     if (!code && (!found || arguments->n_operands > 1)) {
-        return cli_usage_error(arguments, "it takes one of patterns, measures");
+        return cli_usage_error(arguments, "it takes one of patterns, measures, scenes");
     }
     return code;
 }
@@ -108,7 +133,7 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures] [--json]",
+    .synopsis = "[patterns|measures|scenes] [--json]",
     .options = options,
     .run = run,
 };

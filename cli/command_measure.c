@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "source.h"
 
 enum { MAX_MEASURES = 64 };
 
@@ -82,42 +83,14 @@ static void put_row(job *j, const char *source, const koksma_points *points, con
     cli_row_end(j->rows);
 }
 
-/* Reads a file, or generates for "pattern:SPEC@N" and "pattern:SPEC@N@DIM". */
-static koksma_status get_points(const job *j, const char *source, koksma_points *points, bool *usage_error)
-{
-    static const char prefix[] = "pattern:";
-    *usage_error = false;
-    if (strncmp(source, prefix, sizeof prefix - 1) != 0) {
-        return koksma_points_read(source, points);
-    }
-    char text[KOKSMA_MAX_SPEC];
-    unsigned long long n = 0;
-    int dim = 2, used = 0;
-    snprintf(text, sizeof text, "%s", source + sizeof prefix - 1);
-    char *at = strchr(text, '@');
-    if (!at || sscanf(at, "@%llu%n@%d%n", &n, &used, &dim, &used) < 1 || at[used]) {
-        *usage_error = true;
-        return KOKSMA_ARGUMENT;
-    }
-    *at = '\0';
-    koksma_spec spec;
-    koksma_status status = koksma_pattern_spec(text, &spec);
-    if (!status) {
-        status = koksma_points_init(points, (size_t)n, dim);
-    }
-    if (!status) {
-        status = koksma_generate(&spec, j->seed, &j->work.run, points);
-    }
-    return status;
-}
-
 static int measure_source(job *j, const char *source)
 {
     koksma_points points = {0};
-    bool usage_error;
-    koksma_status status = get_points(j, source, &points, &usage_error);
-    if (usage_error) {
-        return cli_usage_error(j->arguments, "'%s' is not of the form pattern:SPEC@N or pattern:SPEC@N@DIM", source);
+    koksma_status status = KOKSMA_OK;
+    const int code = cli_source_points(j->arguments, source, j->seed, &j->work.run, &points);
+    if (code) {
+        koksma_points_fini(&points);
+        return code;
     }
     for (size_t i = 0; !status && i < j->n_measures; i++) {
         koksma_value value;

@@ -26,14 +26,16 @@ extern "C" {
 
 typedef struct koksma_scene koksma_scene;
 
-/* The name of shipped scene i and what it shows; NULL past the end. */
+/* The name of shipped scene i; NULL past the end. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
-KOKSMA_API const char *koksma_scene_title_at(size_t i);
 
 /* Opens a shipped scene by its name, or a JSON file when the text has a '/' or ends in ".json".
    Errors: UNKNOWN (no such name), MISSING, MALFORMED (with file, line, field and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
+
+/* What it shows, in its own words; may be empty. */
+KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 
 /* 64 bits of the scene's text: it changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);

@@ -3,6 +3,8 @@
 #define KOKSMA_ISA ref
 #include <math.h>
 
+#include <koksma/sampler.h>
+
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
@@ -100,6 +102,131 @@ void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, con
             best[1] = fmax(best[1], share - a[1][i] * b[1][j]);
         }
     }
+}
+
+void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (xs[i] + add) / whole;
+    }
+}
+
+void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (first + (double)i + add) / whole;
+    }
+}
+
+void KERNEL_NAME(fractions)(size_t count, const uint32_t *v, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = ldexp(v[i], -32);
+    }
+}
+
+void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t *w, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = ldexp(v[i], -32);
+        out[2 * i + 1] = ldexp(w[i], -32);
+    }
+}
+
+static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
+{
+    uint32_t x = 0;
+    for (int b = 0; b < 32; b++) {
+        x ^= i >> b & 1 ? directions[b] : 0;
+    }
+    return x;
+}
+
+void KERNEL_NAME(digital)(size_t count, const uint32_t *directions, uint32_t start, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = start ^ sum_of_directions((uint32_t)i, directions);
+    }
+}
+
+void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
+                            uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t x = koksma_owen_hash(mirror_in ? koksma_mirror(v[i]) : v[i], seed);
+        out[i] = mirror_out ? koksma_mirror(x) : x;
+    }
+}
+
+/* Column c of the Pascal matrix: the binomial coefficients c over r modulo 2, odd where r's bits are among c's. */
+void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = 0;
+        for (uint32_t c = 0; c < 32; c++) {
+            for (uint32_t r = 0; r < 32 && (v[i] >> c & 1); r++) {
+                x ^= (r & ~c) == 0 ? 1u << r : 0;
+            }
+        }
+        out[i] = x;
+    }
+}
+
+void KERNEL_NAME(digital_at)(size_t count, const uint32_t *index, const uint32_t *directions, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = sum_of_directions(index[i], directions);
+    }
+}
+
+void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint32_t partner, const uint32_t *word)
+{
+    const double n = ldexp(1, level);
+    for (size_t i = first; i < first + count; i++) {
+        const double stratum = floor(ldexp(v[i ^ partner], -32) * 2 * n);
+        const double other = fmod(stratum, 2) == 0 ? stratum + 1 : stratum - 1;
+        v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
+    }
+}
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    const double m[2] = {(double)nx, (double)ny};
+    for (size_t i = 0; i < nx * ny; i++) {
+        const double cell[2] = {(double)(i / ny), (double)(i % ny)};
+        for (int k = 0; k < 2; k++) {
+            double *x = &xs[2 * i + (size_t)k];
+            const double end = (cell[k] + 1) / m[k];
+            *x = (cell[k] + (start + width * *x)) / m[k];
+            *x = *x < end ? *x : end * (1 - 0x1p-53);
+        }
+    }
+}
+
+bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = gx[r * stride + c] - x, b = gy[r * stride + c] - y;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = fabs(gx[r * stride + c] - x) + h, b = fabs(gy[r * stride + c] - y) + h;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],

@@ -32,11 +32,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     for (size_t k = 0; k < dim; k++) {
         if (k) {
-            koksma__random_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
+            koksma__fill_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
         }
-        for (size_t i = 0; i < n; i++) {
-            double *x = &out->xs[i * dim + k];
-            *x = koksma__in_cell((double)(k ? permutation[i] : i), *x, (double)n);
+        const double m = (double)n, inverse = koksma__exact_inverse(m);
+        double *x = out->xs + k;
+        for (size_t i = 0; i < n; i++, x += dim) {
+            *x = koksma__in_cell_by((double)(k ? permutation[i] : i), *x, m, inverse);
         }
     }
     if (permutation != few) {

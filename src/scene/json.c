@@ -283,7 +283,7 @@ koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
 
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out)
 {
-    size_t length;
+    size_t length = 0;
     koksma_status status = koksma__json_length(node, SIZE_MAX, &length);
     if (!status && length != n) {
         status = koksma__json_fail(node, "it takes %zu numbers and has %zu items", n, length);

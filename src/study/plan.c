@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/render.h>
 #include <koksma/study.h>
 
 #include "scene/json.h"
@@ -60,12 +61,35 @@ static koksma_status parse_reference(const koksma__json_node *node, long long tr
     return status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
 }
 
+/* A scene that opens; its own errors are handed on with the plan's line. */
+static koksma_status check_scene(const koksma__json_node *node, const char *name)
+{
+    koksma_scene *scene;
+    const koksma_status status = koksma_scene_open(name, &scene);
+    if (!status) {
+        koksma_scene_close(scene);
+    }
+    return status ? koksma__json_fail(node, "%s", koksma_error_text()) : KOKSMA_OK;
+}
+
+static koksma_status check_scenes(const koksma__json_node *node, const koksma__texts *scenes)
+{
+    koksma__json_node list;
+    koksma_status status = koksma__json_member(node, "scenes", &list);
+    for (size_t i = 0; !status && i < scenes->n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = check_scene(&item, scenes->at[i]);
+    }
+    return status;
+}
+
 static koksma_status parse_image(const koksma__json_node *node, long long trials, void *item)
 {
     static const char *const keys[] = {"scenes", "patterns", "spp", "trials", "references", NULL};
     koksma__image_block *b = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
+    status = status ? status : check_scenes(node, &b->scenes);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, &b->trials);
@@ -138,6 +162,9 @@ static koksma_status parse_figure(const koksma__json_node *node, long long trial
     status = status ? status : koksma__plan_text(node, "id", true, &f->id);
     status = status ? status : koksma__plan_text(node, "title", true, &f->title);
     status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
+    if (!status && f->scene) {
+        status = check_scene(node, f->scene);
+    }
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_SPP, &f->n);
     return status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);

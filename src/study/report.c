@@ -36,7 +36,8 @@ static void add_published(koksma__html *h, const koksma__table *t, const koksma_
 {
     for (int s = 0; s < 3; s++) {
         const size_t note = note_of(t, row->pattern, s);
-        koksma__html_add(h, "<td>%.4g", row->published[s]);
+        const double value = row->published[s], in_1e4 = value * 1e4;
+        koksma__html_add(h, "<td>%.*f", fabs(in_1e4 - round(in_1e4)) < 1e-6 ? 4 : 5, value);
         if (note) {
             koksma__html_add(h, "<sup class=\"note\">%zu</sup>", note);
         }
@@ -302,8 +303,8 @@ static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma
     koksma__html_add(
         h,
         "<h2>Irregularity of the patterns</h2>\n<p>Exact values, mean over point sets. z is the difference of "
-        "the published mean in standard errors of a mean of 100 sets; a bold claim would need more than "
-        "%.1f. The largest of 100 is a mean over blocks of 100 sets.</p>\n",
+        "the published mean from ours in standard errors of a mean of 100 sets; below "
+        "%.1f it is taken for chance. The largest of 100 is a mean over blocks of 100 sets.</p>\n",
         AGREEMENT_Z);
     if (!status) {
         status = add_tables(study, h, false, &tally);

@@ -5,36 +5,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/read_file.h"
 #include "core/status.h"
 #include "study/study.h"
 
 enum { MAX_PLAN = 1 << 22 };
-
-static koksma_status read_file(const char *path, char **text, size_t *size)
-{
-    FILE *stream = fopen(path, "rb");
-    struct stat info;
-    if (!stream || (!fstat(fileno(stream), &info) && S_ISDIR(info.st_mode))) {
-        const char *reason = stream ? "it is a directory" : strerror(errno);
-        const koksma_status status = koksma__fail(KOKSMA_MISSING, "plan '%s': can't be read: %s", path, reason);
-        if (stream) {
-            fclose(stream);
-        }
-        return status;
-    }
-    *text = malloc(MAX_PLAN + 1);
-    *size = *text ? fread(*text, 1, MAX_PLAN + 1, stream) : 0;
-    fclose(stream);
-    if (!*text) {
-        return koksma__fail_memory(MAX_PLAN);
-    }
-    if (*size > MAX_PLAN) {
-        free(*text);
-        *text = NULL;
-        return koksma__fail(KOKSMA_MALFORMED, "plan '%s': longer than %d bytes", path, MAX_PLAN);
-    }
-    return KOKSMA_OK;
-}
 
 static koksma_status load_plan(const char *name, long long trials, koksma__plan *plan)
 {
@@ -48,13 +23,14 @@ static koksma_status load_plan(const char *name, long long trials, koksma__plan 
         }
         return koksma__plan_parse(name, text, size, trials, plan);
     }
-    char *text;
-    size_t size;
-    koksma_status status = read_file(name, &text, &size);
-    if (!status) {
-        status = koksma__plan_parse(name, text, size, trials, plan);
-        free(text);
+    unsigned char *text = NULL;
+    size_t size = 0;
+    koksma_status status = koksma__read_file(name, MAX_PLAN, &text, &size);
+    if (status) {
+        return status;
     }
+    status = koksma__plan_parse(name, (const char *)text, size, trials, plan);
+    free(text);
     return status;
 }
 

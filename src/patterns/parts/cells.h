@@ -3,6 +3,8 @@
 #ifndef KOKSMA_PATTERNS_PARTS_CELLS_H
 #define KOKSMA_PATTERNS_PARTS_CELLS_H
 
+#include <math.h>
+
 #include <koksma/koksma.h>
 
 /* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
@@ -13,11 +15,36 @@ static inline double koksma__in_cell(double cell, double u, double m)
     return x < end ? x : end * (1 - 0x1p-53);
 }
 
+/* 1/m when m is a power of two, so that multiplying by it is dividing by m, to the bit; else 0. */
+static inline double koksma__exact_inverse(double m)
+{
+    int exponent;
+    return frexp(m, &exponent) == 0.5 ? 1 / m : 0;
+}
+
+/* koksma__in_cell with inverse = koksma__exact_inverse(m), for loops. */
+static inline double koksma__in_cell_by(double cell, double u, double m, double inverse)
+{
+    const double x = inverse > 0 ? (cell + u) * inverse : (cell + u) / m;
+    const double end = inverse > 0 ? (cell + 1) * inverse : (cell + 1) / m;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
 /* The parameter that the patterns on cells share: params[0] of those that use KOKSMA__PARAM_COLUMNS. */
 #define KOKSMA__PARAM_COLUMNS                                                                                        \
     {                                                                                                                \
         "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
+
+/* The same for patterns that serve every n. */
+#define KOKSMA__PARAM_DIVISOR                                                                                        \
+    {                                                                                                                \
+        "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \
+            NULL, true                                                                                               \
+    }
+
+/* columns * rows = n. Errors: N, with the n that would do. */
+koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
 
 /* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
    Errors: N, with the n that would do. */

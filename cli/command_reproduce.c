@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <koksma/study.h>
+
+#include "cli.h"
+
+/* Prints table `id` of the plan, ours beside the published numbers. */
+static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
+{
+    koksma_study_row row;
+    bool found = true;
+    for (size_t i = 0; found; i++) {
+        const koksma_status status = koksma_study_table_row(study, id, i, &row, &found);
+        if (status || !found) {
+            return status;
+        }
+        cli_row_text(rows, "table", id);
+        cli_row_text(rows, "pattern", row.pattern);
+        cli_row_number(rows, "published", row.published[0]);
+        cli_row_rounded(rows, "mean", row.mean, 4);
+        cli_row_rounded(rows, "low", row.low, 4);
+        cli_row_rounded(rows, "high", row.high, 4);
+        cli_row_rounded(rows, "converged", row.converged, 4);
+        cli_row_number(rows, "published_sd", row.published[1]);
+        cli_row_rounded(rows, "sd", row.sd, 4);
+        cli_row_number(rows, "published_max", row.published[2]);
+        cli_row_rounded(rows, "max", row.max, 4);
+        cli_row_whole(rows, "trials", row.trials);
+        cli_row_end(rows);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status reproduce(const cli_arguments *arguments, const char *plan, const char *folder, uint64_t trials,
+                               cli_work *work, cli_rows *rows, koksma_study_summary *summary)
+{
+    koksma_study *study;
+    koksma_status status = koksma_study_open(plan, folder, (long long)trials, &study);
+    if (status) {
+        return status;
+    }
+    status = koksma_study_run(study, &work->run, summary);
+    cli_work_end(work);
+    if (!status) {
+        status = koksma_study_report(study, &work->run);
+    }
+    const char *table = cli_text(arguments, "table", "5.1");
+    if (!status && strcmp(table, "none") != 0) {
+        status = put_table(study, table, rows);
+    }
+    const koksma_status closed = koksma_study_close(study);
+    status = status ? status : closed;
+    return status;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    cli_work work;
+    uint64_t trials;
+    const char *folder = cli_text(arguments, "output", NULL);
+    if (arguments->n_operands != 1 || !folder) {
+        return cli_usage_error(arguments, "it takes a paper and a folder, as in shirley1991 -o DIR");
+    }
+    if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
+        !cli_work_begin(arguments, "reproducing", &work)) {
+        return CLI_USAGE;
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    if (!rows) {
+        return koksma_status_exit_code(KOKSMA_MEMORY);
+    }
+    koksma_study_summary summary;
+    const koksma_status status = reproduce(arguments, arguments->operands[0], folder, trials, &work, rows, &summary);
+    cli_work_end(&work);
+    const int code = cli_rows_close(rows);
+    if (status == KOKSMA_INTERRUPTED) {
+        fprintf(stderr,
+                "koksma reproduce: interrupted; what is done is kept in %s, and the same command goes on there\n",
+                folder);
+        return koksma_status_exit_code(status);
+    }
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (!cli_flag(arguments, "quiet")) {
+        fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
+                summary.done_before, folder);
+    }
+    return code;
+}
+
+static const cli_option options[] = {
+    {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
+    {0, "trials", "T", "trials of every cell instead of the plan's own number"},
+    {0, "table", "ID", "table to print at the end, or none (default: 5.1)"},
+    CLI_ROW_OPTIONS,
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_reproduce = {
+    .name = "reproduce",
+    .summary = "reproduce the tables and figures of a paper",
+    .synopsis = "PAPER -o DIR [--trials T] [--table ID] [--json]",
+    .details =
+        "PAPER is shirley1991, or a plan of your own (./my.json; studies/README.md has the fields).\n"
+        "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
+        "on where it was and ends with the same report.",
+    .options = options,
+    .run = run,
+};

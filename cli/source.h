@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_CLI_SOURCE_H
+#define KOKSMA_CLI_SOURCE_H
+
+#include "cli.h"
+
+/* The points of an operand: a file, "-" for stdin, or "pattern:SPEC@N" or "pattern:SPEC@N@DIM", which are generated
+   with seed. Allocates points. Returns the exit code, after an error on stderr unless it is 0. */
+int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
+                      koksma_points *points);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c). A maker sees blocks of rays
+ * and numbers its primitives as it likes; a shadow ray starts on primitive hits->primitive and never hits it at t =
+ * 0.
+ */
+#ifndef KOKSMA_RENDER_INTERSECT_H
+#define KOKSMA_RENDER_INTERSECT_H
+
+#include "render/batch.h"
+#include "scene/scene.h"
+
+typedef struct koksma__geometry {
+    void *made;
+    /* The closest hits of n rays; the number of lanes with one. */
+    int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, int n, koksma__hits *hits);
+    /* Takes away the light of the shadow rays that meet something. */
+    void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
+                    koksma__shadows *shadows);
+    void (*release)(struct koksma__geometry *geometry);
+} koksma__geometry;
+
+/* The scene's analytic shapes, all tried for every block. Errors: MEMORY. */
+koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
+
+#endif

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "scene/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/read_file.h"
+#include "core/status.h"
+#include "scene/scenes_embedded.h"
+
+#define MAX_FILE ((size_t)1 << 26)
+
+enum { N_SHIPPED = sizeof embedded_texts / sizeof *embedded_texts };
+
+const char *koksma_scene_name_at(size_t i)
+{
+    return i < N_SHIPPED ? embedded_texts[i].name : NULL;
+}
+
+static koksma_status open_text(const char *name, const char *text, size_t size, koksma_scene **out)
+{
+    koksma_scene *scene = calloc(1, sizeof *scene);
+    if (!scene) {
+        return koksma__fail_memory(sizeof *scene);
+    }
+    scene->hash = koksma__hash(text, size);
+    const koksma_status status = koksma__scene_parse(name, text, size, scene);
+    if (status) {
+        koksma_scene_close(scene);
+        return status;
+    }
+    *out = scene;
+    return KOKSMA_OK;
+}
+
+static bool is_path(const char *text)
+{
+    const char *dot = strrchr(text, '.');
+    return strchr(text, '/') || (dot && !strcmp(dot, ".json"));
+}
+
+koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
+{
+    *out = NULL;
+    for (size_t i = 0; i < N_SHIPPED; i++) {
+        if (!strcmp(embedded_texts[i].name, name_or_path)) {
+            return open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);
+        }
+    }
+    if (!is_path(name_or_path)) {
+        return koksma__fail(KOKSMA_UNKNOWN,
+                            "no scene '%s'; 'koksma list scenes' names them, and a file's name ends in .json",
+                            name_or_path);
+    }
+    unsigned char *bytes;
+    size_t size;
+    koksma_status status = koksma__read_file(name_or_path, MAX_FILE, &bytes, &size);
+    if (!status) {
+        status = open_text(name_or_path, (const char *)bytes, size, out);
+        free(bytes);
+    }
+    return status;
+}
+
+void koksma_scene_close(koksma_scene *scene)
+{
+    if (scene) {
+        free(scene->materials);
+        free(scene->shapes);
+        free(scene->lights);
+        free(scene);
+    }
+}
+
+const char *koksma_scene_title(const koksma_scene *scene)
+{
+    return scene->title;
+}
+
+uint64_t koksma_scene_hash(const koksma_scene *scene)
+{
+    return scene->hash;
+}
+
+int koksma_scene_rays_per_sample(const koksma_scene *scene)
+{
+    return 1 + (int)scene->n_lights;
+}
