@@ -277,3 +277,32 @@ void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const 
         }
     }
 }
+
+void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, double sums[8][16])
+{
+    for (size_t r = 0; r < 8; r++) {
+        for (size_t c = 0; c < 16; c++) {
+            for (size_t j = 0; j < count; j++) {
+                sums[r][c] += a[8 * j + r] * b[16 * j + c];
+            }
+        }
+    }
+}
+
+bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
+                            double *spare_im)
+{
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < 16; l++) {
+            koksma__sum x = {0}, y = {0};
+            for (size_t j = 0; j < n; j++) {
+                const double c = twiddles[2 * (k * j % n)], s = -twiddles[2 * (k * j % n) + 1];
+                koksma__sum_add(&x, c * re[16 * j + l] - s * im[16 * j + l]);
+                koksma__sum_add(&y, c * im[16 * j + l] + s * re[16 * j + l]);
+            }
+            spare_re[16 * k + l] = koksma__sum_value(&x);
+            spare_im[16 * k + l] = koksma__sum_value(&y);
+        }
+    }
+    return true;
+}
