@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include <koksma/verify.h>
+
 #include <stdio.h>
 
 #include "cli.h"
@@ -7,12 +9,17 @@
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                     koksma_points *points)
 {
-    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 64];
+    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
     koksma_status status = points->n ? koksma_generate(spec, seed, run, points)
                                      : koksma_generate_whole(spec, seed, run, points->dim, points);
     if (!status) {
         koksma_spec_text(spec, text);
-        snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+        int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+        double distance;
+        if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 && !spec->shift &&
+            !koksma_smallest_distance(points, true, run, &distance)) {
+            snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
+        }
         status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;

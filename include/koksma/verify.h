@@ -42,6 +42,11 @@ typedef struct koksma_findings {
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
+/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: MEMORY,
+ * INTERRUPTED. */
+KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
+                                                  double *distance);
+
 #ifdef __cplusplus
 }
 #endif

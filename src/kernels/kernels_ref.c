@@ -189,17 +189,26 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
     }
 }
 
+/* koksma__in_cell of patterns/parts/cells.h. */
+static double in_cell(double cell, double u, double m)
+{
+    const double x = (cell + u) / m, end = (cell + 1) / m;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
 void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
 {
-    const double m[2] = {(double)nx, (double)ny};
     for (size_t i = 0; i < nx * ny; i++) {
-        const double cell[2] = {(double)(i / ny), (double)(i % ny)};
-        for (int k = 0; k < 2; k++) {
-            double *x = &xs[2 * i + (size_t)k];
-            const double end = (cell[k] + 1) / m[k];
-            *x = (cell[k] + (start + width * *x)) / m[k];
-            *x = *x < end ? *x : end * (1 - 0x1p-53);
-        }
+        xs[2 * i] = in_cell((double)(i / ny), start + width * xs[2 * i], (double)nx);
+        xs[2 * i + 1] = in_cell((double)(i % ny), start + width * xs[2 * i + 1], (double)ny);
+    }
+}
+
+void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs)
+{
+    for (size_t i = 0; i < n; i++) {
+        xs[2 * i] = in_cell((double)i, xs[2 * i], (double)n);
+        xs[2 * i + 1] = in_cell((double)rows[i], xs[2 * i + 1], (double)n);
     }
 }
 

@@ -157,22 +157,18 @@ static koksma_status verify_floats(const koksma_points *points, koksma_findings 
     return KOKSMA_OK;
 }
 
-static koksma_status verify_progress(const koksma_points *points, koksma_findings *findings)
+static koksma_status verify_progress(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
     size_t worst = 0;
     double value = 0;
     koksma_spec l2_star;
     koksma_status status = koksma_measure_spec("l2-star", &l2_star);
-    for (size_t n = 16; !status && n <= points->n && n <= PREFIX_MOST && points->dim <= 12; n *= 2) {
+    for (size_t n = 16; n <= points->n && n <= PREFIX_MOST && points->dim <= 12 && !status; n *= 2) {
         const koksma_points prefix = {n, points->dim, points->xs};
-        koksma_value measured;
-        status = koksma_evaluate(&l2_star, &prefix, NULL, &measured);
-        if (status) {
-            return status;
-        }
-        const double square = measured.square;
         const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
-        const double ratio = sqrt(fmax(square, 0) / random);
+        koksma_value found;
+        status = koksma_evaluate(&l2_star, &prefix, run, &found);
+        const double ratio = status ? 0 : found.value / sqrt(random);
         if (ratio > value) {
             value = ratio;
             worst = n;
@@ -219,7 +215,7 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
         status = verify_floats(points, findings);
     }
     if (!status) {
-        status = verify_progress(points, findings);
+        status = verify_progress(points, run, findings);
     }
     if (status) {
         koksma_findings_fini(findings);

@@ -94,40 +94,63 @@ static koksma_status add_distance(const koksma_points *points, bool torus, doubl
     return KOKSMA_OK;
 }
 
+static point *sort_points(const koksma_points *points)
+{
+    point *sorted = malloc(points->n * sizeof *sorted);
+    for (size_t i = 0; i < points->n && sorted; i++) {
+        sorted[i] = (point){points->xs + i * (size_t)points->dim, points->dim};
+    }
+    if (sorted) {
+        qsort(sorted, points->n, sizeof *sorted, compare);
+    } else {
+        koksma__fail_memory(points->n * sizeof *sorted);
+    }
+    return sorted;
+}
+
+koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
+                                       double *distance)
+{
+    if (points->n == 1) {
+        *distance = INFINITY;
+        return KOKSMA_OK;
+    }
+    if (torus && points->dim == 2) {
+        return grid_distance(points, run, distance);
+    }
+    point *sorted = sort_points(points);
+    if (!sorted) {
+        return KOKSMA_MEMORY;
+    }
+    *distance = sweep(sorted, points->n, torus);
+    free(sorted);
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__verify_distances(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
     const size_t n = points->n;
-    point *sorted = malloc(n * sizeof *sorted);
+    point *sorted = sort_points(points);
     if (!sorted) {
-        return koksma__fail_memory(n * sizeof *sorted);
+        return KOKSMA_MEMORY;
     }
-    for (size_t i = 0; i < n; i++) {
-        sorted[i] = (point){points->xs + i * (size_t)points->dim, points->dim};
-    }
-    qsort(sorted, n, sizeof *sorted, compare);
     size_t repeated = 0;
     for (size_t i = 1; i < n; i++) {
         repeated += !memcmp(sorted[i].xs, sorted[i - 1].xs, (size_t)points->dim * sizeof(double));
     }
+    free(sorted);
     koksma_finding *f = koksma__finding(findings, "repeated");
     koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
     if (!status) {
         f->value = (double)repeated;
         f->holds = repeated == 0;
     }
-    if (!status && n > 1 && (points->dim == 2 || n <= 20000)) {
-        status = add_distance(points, false, sweep(sorted, n, false), findings);
-    }
-    if (!status && n > 1 && points->dim != 2 && n <= 20000) {
-        status = add_distance(points, true, sweep(sorted, n, true), findings);
-    }
-    double distance = 0;
-    if (!status && n > 1 && points->dim == 2) {
-        status = grid_distance(points, run, &distance);
+    for (int torus = 0; torus < 2 && n > 1 && !status && (points->dim == 2 || n <= 20000); torus++) {
+        double distance;
+        status = koksma_smallest_distance(points, torus, run, &distance);
         if (!status) {
-            status = add_distance(points, true, distance, findings);
+            status = add_distance(points, torus, distance, findings);
         }
     }
-    free(sorted);
     return status;
 }
