@@ -71,4 +71,16 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
     memcpy(out + LANES64, &high, sizeof high);
 }
 
+/* a0 b0 a1 b1 … of two vectors of any 64-bit type: the first half and the second half. */
+#if defined(__AVX512F__)
+#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11)
+#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15)
+#elif defined(__AVX2__)
+#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 4, 1, 5)
+#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 2, 6, 3, 7)
+#else
+#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 2)
+#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 1, 3)
+#endif
+
 #endif
