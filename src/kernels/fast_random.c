@@ -63,9 +63,7 @@ static inline void store_units(const block *r, double *out)
 {
     for (int c = 0; c < CHAINS; c++, out += 2 * LANES64) {
         const lanes64_d x = unit(r->w[0][c], r->w[1][c]), y = unit(r->w[2][c], r->w[3][c]);
-        const lanes64_d low = LANES64_LOW(x, y), high = LANES64_HIGH(x, y);
-        memcpy(out, &low, sizeof low);
-        memcpy(out + LANES64, &high, sizeof high);
+        lanes64_interleave(x, y, out);
     }
 }
 
@@ -90,9 +88,7 @@ static inline void store_words(const block *r, uint32_t *out)
     const lanes64_u lower = splat(0xffffffffu);
     for (int c = 0; c < CHAINS; c++, out += 4 * LANES64) {
         const lanes64_u x = (r->w[0][c] & lower) | r->w[1][c] << 32, y = (r->w[2][c] & lower) | r->w[3][c] << 32;
-        const lanes64_u low = LANES64_LOW(x, y), high = LANES64_HIGH(x, y);
-        memcpy(out, &low, sizeof low);
-        memcpy(out + 2 * LANES64, &high, sizeof high);
+        lanes64_interleave((lanes64_d)x, (lanes64_d)y, out);
     }
 }
 

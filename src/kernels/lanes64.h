@@ -56,8 +56,8 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
-/* out = x[0], y[0], x[1], y[1], ... */
-static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
+/* out = x[0], y[0], x[1], y[1], ...: the bits of 2 LANES64 doubles. */
+static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
 {
 #if defined(__AVX512F__)
     const lanes64_d low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
@@ -68,19 +68,7 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
     const lanes64_d low = __builtin_shufflevector(x, y, 0, 2), high = __builtin_shufflevector(x, y, 1, 3);
 #endif
     memcpy(out, &low, sizeof low);
-    memcpy(out + LANES64, &high, sizeof high);
+    memcpy((char *)out + sizeof low, &high, sizeof high);
 }
-
-/* a0 b0 a1 b1 … of two vectors of any 64-bit type: the first half and the second half. */
-#if defined(__AVX512F__)
-#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11)
-#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15)
-#elif defined(__AVX2__)
-#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 4, 1, 5)
-#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 2, 6, 3, 7)
-#else
-#define LANES64_LOW(a, b) __builtin_shufflevector(a, b, 0, 2)
-#define LANES64_HIGH(a, b) __builtin_shufflevector(a, b, 1, 3)
-#endif
 
 #endif

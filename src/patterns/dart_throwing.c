@@ -7,7 +7,7 @@
  *
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
- * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/disks.h tells how.
+ * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/dart_cover.h tells how.
  */
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/disks.h"
+#include "patterns/parts/dart_cover.h"
 #include "patterns/parts/packing.h"
 #include "patterns/patterns.h"
 

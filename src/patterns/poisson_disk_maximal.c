@@ -15,7 +15,7 @@
 
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/disks.h"
+#include "patterns/parts/dart_cover.h"
 #include "patterns/patterns.h"
 
 enum { TRIES = 100 };

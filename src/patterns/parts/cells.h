@@ -3,8 +3,6 @@
 #ifndef KOKSMA_PATTERNS_PARTS_CELLS_H
 #define KOKSMA_PATTERNS_PARTS_CELLS_H
 
-#include <math.h>
-
 #include <koksma/koksma.h>
 
 /* A place u in [0,1) of cell `cell` of m. The result is at least the double nearest to cell/m and below the one
@@ -12,21 +10,6 @@
 static inline double koksma__in_cell(double cell, double u, double m)
 {
     const double x = (cell + u) / m, end = (cell + 1) / m;
-    return x < end ? x : end * (1 - 0x1p-53);
-}
-
-/* 1/m when m is a power of two, so that multiplying by it is dividing by m, to the bit; else 0. */
-static inline double koksma__exact_inverse(double m)
-{
-    int exponent;
-    return frexp(m, &exponent) == 0.5 ? 1 / m : 0;
-}
-
-/* koksma__in_cell with inverse = koksma__exact_inverse(m), for loops. */
-static inline double koksma__in_cell_by(double cell, double u, double m, double inverse)
-{
-    const double x = inverse > 0 ? (cell + u) * inverse : (cell + u) / m;
-    const double end = inverse > 0 ? (cell + 1) * inverse : (cell + 1) / m;
     return x < end ? x : end * (1 - 0x1p-53);
 }
 

@@ -6,8 +6,8 @@
  * Mitchell, Patney, Davidson & Owens (2012): after each round of darts its squares are cut in four, and those without
  * room left out.
  */
-#ifndef KOKSMA_PATTERNS_PARTS_DISKS_H
-#define KOKSMA_PATTERNS_PARTS_DISKS_H
+#ifndef KOKSMA_PATTERNS_PARTS_DART_COVER_H
+#define KOKSMA_PATTERNS_PARTS_DART_COVER_H
 
 #include <koksma/koksma.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "patterns/parts/disks.h"
+#include "patterns/parts/dart_cover.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * disk-sampled: l2-disk from random disks, as the second paper samples its measures.
+ *
+ * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
+ * standard error is that of the mean of the squares over twice the value. Source: Mitchell 1992, section 4. Known
+ * exactly: E(square) is the square of l2-disk. Limits: a sampled value; equal seeds give equal bits.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "measures/measures.h"
+#include "measures/parts/disks.h"
+
+enum { DISKS_PER_BLOCK = 256 };
+
+typedef struct job {
+    const koksma_points *points;
+    koksma__disk_law law;
+    double r, *squares;
+    uint64_t seed;
+    size_t disks;
+} job;
+
+static koksma_status sample_block(void *context, size_t block)
+{
+    const job *j = context;
+    const size_t n = j->points->n, first = block * DISKS_PER_BLOCK;
+    for (size_t d = first; d < j->disks && d < first + DISKS_PER_BLOCK; d++) {
+        double centre[2], u[2];
+        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 2, centre);
+        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 3, u);
+        const double r2 = j->r * j->r *
+                          (j->law == KOKSMA__DISKS_FIXED  ? 1
+                           : j->law == KOKSMA__DISKS_AREA ? u[0]
+                                                          : u[0] * u[0]);
+        double inside = 0;
+        for (size_t i = 0; i < n; i++) {
+            double dx = fabs(j->points->xs[2 * i] - centre[0]), dy = fabs(j->points->xs[2 * i + 1] - centre[1]);
+            dx = dx < 1 - dx ? dx : 1 - dx;
+            dy = dy < 1 - dy ? dy : 1 - dy;
+            inside += dx * dx + dy * dy <= r2 ? 1.0 : 0.0;
+        }
+        const double deviation = inside / (double)n - M_PI * r2;
+        j->squares[d] = deviation * deviation;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
+{
+    const size_t disks = (size_t)args->params[0];
+    job j = {.points = points, .law = (koksma__disk_law)args->params[2], .seed = (uint64_t)args->params[3]};
+    j.r = koksma__disk_radius(j.law, args->params[1]);
+    j.disks = disks;
+    j.squares = malloc(disks * sizeof *j.squares);
+    if (!j.squares) {
+        return koksma__fail_memory(disks * sizeof *j.squares);
+    }
+    const koksma_status status =
+        koksma__parallel(args->run, (disks + DISKS_PER_BLOCK - 1) / DISKS_PER_BLOCK, sample_block, &j);
+    koksma__sum sum = {0}, spread = {0};
+    const double count = (double)disks;
+    for (size_t i = 0; i < disks && !status; i++) {
+        koksma__sum_add(&sum, j.squares[i]);
+    }
+    out->square = koksma__sum_value(&sum) / count;
+    out->value = sqrt(out->square);
+    for (size_t i = 0; i < disks && !status; i++) {
+        koksma__sum_add(&spread, (j.squares[i] - out->square) * (j.squares[i] - out->square));
+    }
+    const double error = disks > 1 ? sqrt(koksma__sum_value(&spread) / count / (count - 1)) : (double)NAN;
+    out->standard_error = out->value > 0 ? error / (2 * out->value) : error;
+    out->exact = false;
+    free(j.squares);
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"disks", "random disks", 10000, 1, 1e8, NULL, true},
+    {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
+    {"law", "fixed radius, radius uniform, or area uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"seed", "seed of the disks", 1, 0, 9007199254740992.0, NULL, true},
+    {0},
+};
+
+const koksma_measure koksma__measure_disk_sampled = {
+    .name = "disk-sampled",
+    .title = "L2 discrepancy of disks on the torus from sampled disks",
+    .cite = "mitchell1992",
+    .cost = "disks n",
+    .min_dim = 2,
+    .max_dim = 2,
+    .params = params,
+    .eval = eval,
+};
