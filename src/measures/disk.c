@@ -17,7 +17,7 @@
 #include "core/status.h"
 #include "measures/measures.h"
 
-enum { MAX_N = 1024 };
+enum { MAX_N = 256 };
 
 typedef struct disk {
     double x, y, r2;
