@@ -19,6 +19,17 @@ static const struct {
     {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},
     {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
     {KOKSMA_CLAIM_CENTRED, "centred"},
+    {KOKSMA_CLAIM_GRID, "grid"},
+    {KOKSMA_CLAIM_NET2, "net2"},
+    {KOKSMA_CLAIM_NET2_PREFIXES, "net2-prefixes"},
+    {KOKSMA_CLAIM_NET_PREFIXES, "net-prefixes"},
+    {KOKSMA_CLAIM_OA2, "oa2"},
+    {KOKSMA_CLAIM_OA3, "oa3"},
+    {KOKSMA_CLAIM_FRACTION, "fraction"},
+    {KOKSMA_CLAIM_MAXIMAL, "maximal"},
+    {KOKSMA_CLAIM_LATTICE, "lattice"},
+    {KOKSMA_CLAIM_BLUE, "blue"},
+    {KOKSMA_CLAIM_LATIN_PREFIXES, "latin-prefixes"},
 };
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)

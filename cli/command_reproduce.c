@@ -35,15 +35,14 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
 }
 
 static koksma_status reproduce(const cli_arguments *arguments, const char *plan, const char *folder, uint64_t trials,
-                               cli_work *work, cli_rows *rows)
+                               cli_work *work, cli_rows *rows, koksma_study_summary *summary)
 {
     koksma_study *study;
-    koksma_study_summary summary;
     koksma_status status = koksma_study_open(plan, folder, (long long)trials, &study);
     if (status) {
         return status;
     }
-    status = koksma_study_run(study, &work->run, &summary);
+    status = koksma_study_run(study, &work->run, summary);
     cli_work_end(work);
     if (!status) {
         status = koksma_study_report(study, &work->run);
@@ -54,10 +53,6 @@ static koksma_status reproduce(const cli_arguments *arguments, const char *plan,
     }
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
-    if (!status && !cli_flag(arguments, "quiet")) {
-        fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
-                summary.done_before, folder);
-    }
     return status;
 }
 
@@ -77,10 +72,18 @@ static int run(const cli_arguments *arguments)
     if (!rows) {
         return koksma_status_exit_code(KOKSMA_MEMORY);
     }
-    const koksma_status status = reproduce(arguments, arguments->operands[0], folder, trials, &work, rows);
+    koksma_study_summary summary;
+    const koksma_status status = reproduce(arguments, arguments->operands[0], folder, trials, &work, rows, &summary);
     cli_work_end(&work);
     const int code = cli_rows_close(rows);
-    return status ? cli_fail(arguments, status) : code;
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (!cli_flag(arguments, "quiet")) {
+        fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
+                summary.done_before, folder);
+    }
+    return code;
 }
 
 static const cli_option options[] = {

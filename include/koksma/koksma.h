@@ -133,9 +133,13 @@ typedef struct koksma_spec {
     const koksma_measure *measure;
     double params[KOKSMA_MAX_PARAMS];
     char path[KOKSMA_MAX_SPEC]; /* for members that take a file */
+    bool shift;                 /* patterns: the points are shifted on the torus by one random vector */
 } koksma_spec;
 
-/* Parses "name" or "name:key=value,key=value". Errors (ARGUMENT, UNKNOWN) name the key and what it takes. */
+/* Parses "name" or "name:key=value,key=value". Errors (ARGUMENT, UNKNOWN) name the key and what it takes.
+   Every pattern takes shift=1 beside its own parameters (for file: as the end ",shift=1"): the random toroidal shift
+   of Cranley & Patterson (1976), uniform in [0,1)^dim and the same for all points of a set. An alias becomes the
+   pattern that it names. */
 KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec);
 KOKSMA_API koksma_status koksma_measure_spec(const char *text, koksma_spec *spec);
 
@@ -148,16 +152,32 @@ KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 /* Properties that a pattern claims; each switches on its test for every pattern that makes it.
    A stratum [j/m, (j+1)/m) is bounded by the doubles nearest to its two fractions. */
 enum {
-    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0, /* the seed does not matter */
-    KOKSMA_CLAIM_SEQUENCE = 1u << 1,      /* the first k of n points are the set of k points */
-    KOKSMA_CLAIM_ANY_N = 1u << 2,         /* serves every n >= 1 */
-    KOKSMA_CLAIM_STRATIFIED = 1u << 3,    /* n = m^dim: one point in each of the m^dim cells, in order of the
-                                             cells: the last coordinate's cell changes fastest */
-    KOKSMA_CLAIM_LATIN = 1u << 4,         /* each coordinate has one point in each [j/n, (j+1)/n) */
-    KOKSMA_CLAIM_UNBIASED = 1u << 5,      /* each point set is uniform in the mean: E(#/n in B) = volume of B */
-    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,  /* the order of the points is random already: shuffling is idle */
-    KOKSMA_CLAIM_MIN_DISTANCE = 1u << 7,  /* no two points closer than parameter "d" (on the torus with torus=1) */
-    KOKSMA_CLAIM_CENTRED = 1u << 8        /* with STRATIFIED: each point in the middle half of its cell */
+    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter */
+    KOKSMA_CLAIM_SEQUENCE = 1u << 1,       /* the first k of n points are the set of k points */
+    KOKSMA_CLAIM_ANY_N = 1u << 2,          /* serves every n >= 1 */
+    KOKSMA_CLAIM_STRATIFIED = 1u << 3,     /* n = m^dim: one point in each of the m^dim cells, in order of the
+                                              cells: the last coordinate's cell changes fastest */
+    KOKSMA_CLAIM_LATIN = 1u << 4,          /* each coordinate has one point in each [j/n, (j+1)/n) */
+    KOKSMA_CLAIM_UNBIASED = 1u << 5,       /* each point set is uniform in the mean: E(#/n in B) = volume of B */
+    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,   /* the order of the points is random already: shuffling is idle */
+    KOKSMA_CLAIM_MIN_DISTANCE = 1u << 7,   /* no two points closer than parameter "d" (on the torus with torus=1) */
+    KOKSMA_CLAIM_CENTRED = 1u << 8,        /* with STRATIFIED: each point in the middle half of its cell */
+    KOKSMA_CLAIM_GRID = 1u << 9,           /* 2D, n = m^2: one point in each of the m x m cells, in any order */
+    KOKSMA_CLAIM_NET2 = 1u << 10,          /* 2D, n = 2^m: a (0,m,2)-net in base 2 */
+    KOKSMA_CLAIM_NET2_PREFIXES = 1u << 11, /* 2D: the first 2^m points are a (0,m,2)-net in base 2, for every m */
+    KOKSMA_CLAIM_NET_PREFIXES = 1u << 12,  /* dim d, b the smallest prime >= d: the first b^m points are a
+                                              (0,m,d)-net in base b, for every m */
+    KOKSMA_CLAIM_OA2 = 1u << 13,           /* n = s^2: each 2D projection has one point in each of the s x s cells */
+    KOKSMA_CLAIM_OA3 = 1u << 14,           /* n = s^3 with strength=3: each 3D projection, s x s x s cells */
+    KOKSMA_CLAIM_FRACTION = 1u << 15,      /* 2D, on the torus: no two points closer than parameter "f" times the
+                                              distance of the densest packing */
+    KOKSMA_CLAIM_MAXIMAL = 1u << 16,       /* 2D: no place of the torus is further from all points than their smallest
+                                              distance: no point can be added */
+    KOKSMA_CLAIM_LATTICE = 1u << 17,       /* the differences of the points are a group on the torus */
+    KOKSMA_CLAIM_BLUE = 1u << 18,          /* 2D, 64 points or more: the smallest distance on the torus is above half
+                                              of the densest packing's */
+    KOKSMA_CLAIM_LATIN_PREFIXES = 1u << 19 /* the first b^m points have one point in each [j/b^m, (j+1)/b^m) of
+                                              coordinate k, b being the k-th prime */
 };
 
 struct koksma_pattern {
@@ -168,6 +188,9 @@ struct koksma_pattern {
     koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
     bool takes_path;      /* the spec's text after the colon is a file's path */
     const char *alias_of; /* not NULL: another name for that pattern */
+    /* NULL, or for a pattern whose parameters can decide how many points there are: allocates them all into out,
+       whose dim is set (0: whichever there is). N when they leave the number open. */
+    koksma_status (*whole)(uint64_t seed, const koksma_args *args, koksma_points *out);
 };
 
 /* Member i of the table, NULL past the end; by name, NULL if unknown. */
@@ -179,6 +202,12 @@ KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
    Errors: N, DIM, ARGUMENT, IMPOSSIBLE, MEMORY, INTERRUPTED (for file patterns MISSING and MALFORMED). */
 KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                                          koksma_points *out);
+
+/* All points of a pattern that knows itself how many there are: a file's, a maximal Poisson disk set's by its
+   radius. dim = 0: whichever the file has. Allocates out. Errors: those of koksma_generate; N when the pattern
+   takes any n. */
+KOKSMA_API koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,
+                                               koksma_points *out);
 
 /* ---- Measures ----------------------------------------------------------------------------------------- */
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/random.h"
 #include "core/spec.h"
 #include "core/status.h"
 
@@ -115,6 +116,39 @@ static koksma_status split(const char *text, char *name, const char **rest)
     return KOKSMA_OK;
 }
 
+/* Copies rest to own without the parameter that all patterns have, "shift=0" or "shift=1". */
+static koksma_status take_shift(const char *name, const char *rest, char *own, bool *shift)
+{
+    size_t used = 0;
+    bool seen = false;
+    if (strlen(rest) >= KOKSMA_MAX_SPEC) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: its parameters are longer than %d characters", name,
+                            KOKSMA_MAX_SPEC - 1);
+    }
+    while (*rest) {
+        const size_t length = strcspn(rest, ",");
+        if (!strncmp(rest, "shift=", 6)) {
+            if (length != 7 || (rest[6] != '0' && rest[6] != '1')) {
+                return koksma__fail(KOKSMA_ARGUMENT, "%s: %.*s: it takes 0 or 1", name, (int)length, rest);
+            }
+            if (seen) {
+                return koksma__fail(KOKSMA_ARGUMENT, "%s: shift is given twice", name);
+            }
+            seen = true;
+            *shift = rest[6] == '1';
+        } else {
+            memcpy(own + used + (used > 0), rest, length);
+            if (used) {
+                own[used++] = ',';
+            }
+            used += length;
+        }
+        rest += length + (rest[length] == ',');
+    }
+    own[used] = '\0';
+    return KOKSMA_OK;
+}
+
 koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 {
     char name[64];
@@ -128,15 +162,20 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     if (!pattern) {
         return koksma__fail(KOKSMA_UNKNOWN, "no pattern '%s'; 'koksma list patterns' names them", name);
     }
-    spec->pattern = pattern;
+    spec->pattern = pattern = pattern->alias_of ? koksma_pattern_find(pattern->alias_of) : pattern;
     if (!pattern->takes_path) {
-        return koksma__params_parse(name, pattern->params, rest, spec->params);
+        char own[KOKSMA_MAX_SPEC];
+        const koksma_status taken = take_shift(name, rest, own, &spec->shift);
+        return taken ? taken : koksma__params_parse(name, pattern->params, own, spec->params);
     }
-    if (!*rest || strlen(rest) >= sizeof spec->path) {
+    const char *end = strrchr(rest, ',');
+    spec->shift = end && !strcmp(end, ",shift=1");
+    const size_t length = strlen(rest) - (spec->shift ? strlen(",shift=1") : 0);
+    if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a path of 1 to %d characters, as in %s:PATH", name,
-                            KOKSMA_MAX_SPEC - 1, name);
+                            KOKSMA_MAX_SPEC - 81, name);
     }
-    memcpy(spec->path, rest, strlen(rest) + 1);
+    memcpy(spec->path, rest, length);
     return KOKSMA_OK;
 }
 
@@ -193,11 +232,16 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
     snprintf(text, KOKSMA_MAX_SPEC, "%s", is_pattern ? spec->pattern->name : spec->measure->name);
     if (is_pattern && spec->pattern->takes_path) {
         const size_t used = strlen(text);
-        snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s", KOKSMA_MAX_SPEC - 64, spec->path);
+        snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s%s", KOKSMA_MAX_SPEC - 80, spec->path,
+                 spec->shift ? ",shift=1" : "");
         return;
     }
     koksma__params_text(is_pattern ? spec->pattern->params : spec->measure->params, spec->params, text,
                         KOKSMA_MAX_SPEC);
+    if (is_pattern && spec->shift) {
+        const size_t used = strlen(text);
+        snprintf(text + used, KOKSMA_MAX_SPEC - used, "%sshift=1", strchr(text, ':') ? "," : ":");
+    }
 }
 
 static koksma_status check_params(const char *owner, const koksma_param *params, const double *values)
@@ -228,19 +272,71 @@ static koksma_args arguments_of(const koksma_spec *spec, const koksma_run *run)
     return args;
 }
 
+/* x + u on the torus; never 1. */
+static void shift_points(uint64_t seed, koksma_points *out)
+{
+    double u[KOKSMA_MAX_DIM + 1];
+    for (int k = 0; k < out->dim; k += 2) {
+        koksma__random_pair(seed, KOKSMA__PURPOSE_SHIFT, 0, (uint32_t)k, u + k);
+    }
+    double *x = out->xs;
+    for (size_t i = 0; i < out->n; i++) {
+        for (int k = 0; k < out->dim; k++, x++) {
+            *x += u[k];
+            *x -= *x >= 1;
+        }
+    }
+}
+
+static koksma_status check_generate(const koksma_spec *spec, const koksma_pattern *p, int dim)
+{
+    const koksma_status status = check_dim(p->name, dim, p->min_dim, p->max_dim);
+    return status ? status : check_params(p->name, p->params, spec->params);
+}
+
+static const koksma_pattern *pattern_of(const koksma_spec *spec)
+{
+    return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
+}
+
 koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)
 {
-    const koksma_pattern *p = spec->pattern;
+    const koksma_pattern *p = pattern_of(spec);
     if (!p || !out->xs || out->n == 0) {
         return koksma__fail(KOKSMA_ARGUMENT,
                             "koksma_generate: it takes the spec of a pattern and initialised points");
     }
-    koksma_status status = check_dim(p->name, out->dim, p->min_dim, p->max_dim);
-    if (!status) {
-        status = check_params(p->name, p->params, spec->params);
-    }
+    koksma_status status = check_generate(spec, p, out->dim);
     const koksma_args args = arguments_of(spec, run);
-    return status ? status : p->generate(seed, &args, out);
+    if (!status) {
+        status = p->generate(seed, &args, out);
+    }
+    if (!status && spec->shift) {
+        shift_points(seed, out);
+    }
+    return status;
+}
+
+koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,
+                                    koksma_points *out)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    *out = (koksma_points){.dim = dim};
+    if (!p) {
+        return koksma__fail(KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
+    }
+    if (!p->whole) {
+        return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
+    }
+    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : KOKSMA_OK;
+    const koksma_args args = arguments_of(spec, run);
+    if (!status) {
+        status = p->whole(seed, &args, out);
+    }
+    if (!status && spec->shift) {
+        shift_points(seed, out);
+    }
+    return status;
 }
 
 static koksma_status check_points(const koksma_points *points)

@@ -17,10 +17,10 @@ double KERNEL_NAME(distances)(int dim, const double *x, size_t count, size_t str
 /* (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4], to 2.4e-16: the Chebyshev fit of degree 11. */
 static inline double asin_series(double z)
 {
-    static const double c[] = {0.166666666666666486,   0.0750000000002076436, 0.0446428571034236434,
-                               0.0303819473670984811,  0.0223720476317445104, 0.0173552599557863217,
-                               0.0139296529023266332,  0.0118754943826369232, 0.00780294947735331714,
-                               0.0160355143491488231,  -0.0107490503396978076, 0.0281692180608814129};
+    static const double c[] = {0.166666666666666486,  0.0750000000002076436,  0.0446428571034236434,
+                               0.0303819473670984811, 0.0223720476317445104,  0.0173552599557863217,
+                               0.0139296529023266332, 0.0118754943826369232,  0.00780294947735331714,
+                               0.0160355143491488231, -0.0107490503396978076, 0.0281692180608814129};
     double sum = c[11];
     for (int k = 10; k >= 0; k--) {
         sum = sum * z + c[k];
@@ -110,12 +110,18 @@ double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t 
 {
     /* Up to r = 1/4 only the nearest image can overlap; up to 1/2 the four nearest. */
     switch (2 * law + (r > 0.25)) {
-    case 0: return sum_overlaps(0, 1, r, x, y, count, xs, ys);
-    case 1: return sum_overlaps(0, 4, r, x, y, count, xs, ys);
-    case 2: return sum_overlaps(1, 1, r, x, y, count, xs, ys);
-    case 3: return sum_overlaps(1, 4, r, x, y, count, xs, ys);
-    case 4: return sum_overlaps(2, 1, r, x, y, count, xs, ys);
-    default: return sum_overlaps(2, 4, r, x, y, count, xs, ys);
+    case 0:
+        return sum_overlaps(0, 1, r, x, y, count, xs, ys);
+    case 1:
+        return sum_overlaps(0, 4, r, x, y, count, xs, ys);
+    case 2:
+        return sum_overlaps(1, 1, r, x, y, count, xs, ys);
+    case 3:
+        return sum_overlaps(1, 4, r, x, y, count, xs, ys);
+    case 4:
+        return sum_overlaps(2, 1, r, x, y, count, xs, ys);
+    default:
+        return sum_overlaps(2, 4, r, x, y, count, xs, ys);
     }
 }
 

@@ -6,58 +6,73 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 
-enum { LANES = 8 };
+enum { LANES = 16, CHUNK = 64 };
 
-double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs);
+void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
+                           double r, double sum[2]);
 
-static double prod_complement_max(int dim, const double *x, const double *y)
+typedef struct shape {
+    size_t n;
+    int dim;
+    const double *u, *g;
+    double q, r;
+} shape;
+
+/* out[0 .. count) = the kernels of point i with points j .. j + count - 1 in coordinate k, times out if k > 0. */
+static inline void multiply(const shape *s, size_t k, size_t i, size_t j, size_t count, double *restrict out)
 {
-    double pair = 1;
-    for (int k = 0; k < dim; k++) {
-        pair *= 1 - (x[k] > y[k] ? x[k] : y[k]);
+    const double *restrict u = s->u + k * s->n + j, *restrict g = s->g + k * s->n + j;
+    const double u_i = s->u[k * s->n + i], g_i = s->g[k * s->n + i], q = s->q, r = s->r;
+    if (k == 0) {
+        for (size_t l = 0; l < count; l++) {
+            const double t = fabs(u_i - u[l]);
+            out[l] = (g_i + g[l]) + t * (q + r * t);
+        }
+    } else {
+        for (size_t l = 0; l < count; l++) {
+            const double t = fabs(u_i - u[l]);
+            out[l] *= (g_i + g[l]) + t * (q + r * t);
+        }
     }
-    return pair;
 }
 
-/* sum_{j < i} prod_k (1 - max(x_ik, x_jk)) */
-static double row(int dim, const double *xs, size_t i)
+/* sum_{j < i} of the products */
+static double row(const shape *s, size_t i)
 {
-    const double *x = xs + i * (size_t)dim;
-    double lanes[LANES] = {0};
+    double lanes[LANES] = {0}, products[CHUNK];
     size_t j = 0;
-    if (dim == 2) {
-        for (; j + LANES <= i; j += LANES) {
-            for (int l = 0; l < LANES; l++) {
-                const double *y = xs + 2 * (j + (size_t)l);
-                const double a = x[0] > y[0] ? x[0] : y[0], b = x[1] > y[1] ? x[1] : y[1];
-                lanes[l] += (1 - a) * (1 - b);
+    for (; j + CHUNK <= i; j += CHUNK) {
+        for (size_t k = 0; k < (size_t)s->dim; k++) {
+            multiply(s, k, i, j, CHUNK, products);
+        }
+        for (size_t c = 0; c < CHUNK; c += LANES) {
+            for (size_t l = 0; l < LANES; l++) {
+                lanes[l] += products[c + l];
             }
         }
     }
-    for (; j < i; j++) {
-        lanes[j % LANES] += prod_complement_max(dim, x, xs + j * (size_t)dim);
+    for (size_t k = 0; k < (size_t)s->dim; k++) {
+        multiply(s, k, i, j, i - j, products);
     }
-    return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+    for (size_t c = 0; c < i - j; c++) {
+        lanes[c % LANES] += products[c];
+    }
+    for (size_t half = LANES / 2; half > 0; half /= 2) {
+        for (size_t l = 0; l < half; l++) {
+            lanes[l] += lanes[l + half];
+        }
+    }
+    return lanes[0];
 }
 
-double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
+void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
+                           double r, double sum[2])
 {
-    koksma__sum linear = {0}, pairs = {0};
-    for (size_t i = 0; i < n; i++) {
-        const double *x = xs + i * (size_t)dim;
-        double product = 1, self = 1;
-        for (int k = 0; k < dim; k++) {
-            product *= (1 - x[k] * x[k]) / 2;
-            self *= 1 - x[k];
-        }
-        koksma__sum_add(&linear, product);
-        koksma__sum_add(&pairs, self);
-        koksma__sum_add(&pairs, 2 * row(dim, xs, i));
+    const shape s = {n, dim, u, g, q, r};
+    koksma__sum pairs = {0};
+    for (size_t i = first; i < end; i++) {
+        koksma__sum_add(&pairs, row(&s, i));
     }
-    const double count = (double)n;
-    koksma__sum square = {0};
-    koksma__sum_add(&square, pow(3, -dim));
-    koksma__sum_add(&square, -2 * koksma__sum_value(&linear) / count);
-    koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
-    return koksma__sum_value(&square);
+    sum[0] = pairs.total;
+    sum[1] = pairs.lost;
 }

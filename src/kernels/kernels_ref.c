@@ -3,6 +3,8 @@
 #define KOKSMA_ISA ref
 #include <math.h>
 
+#include <koksma/sampler.h>
+
 #include "core/random.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
@@ -28,33 +30,163 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
-double KERNEL_NAME(l2_star)(size_t n, int dim, const double *xs)
+void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
+                           double r, double sum[2])
 {
-    koksma__sum linear = {0}, pairs = {0};
-    for (size_t i = 0; i < n; i++) {
-        const double *x = xs + i * (size_t)dim;
-        double product = 1, self = 1;
-        for (int k = 0; k < dim; k++) {
-            product *= (1 - x[k] * x[k]) / 2;
-            self *= 1 - x[k];
-        }
-        koksma__sum_add(&linear, product);
-        koksma__sum_add(&pairs, self);
+    koksma__sum pairs = {0};
+    for (size_t i = first; i < end; i++) {
         for (size_t j = 0; j < i; j++) {
-            const double *y = xs + j * (size_t)dim;
-            double pair = 2;
-            for (int k = 0; k < dim; k++) {
-                pair *= 1 - (x[k] > y[k] ? x[k] : y[k]);
+            double product = 1;
+            for (size_t k = 0; k < (size_t)dim; k++) {
+                const double t = fabs(u[k * n + i] - u[k * n + j]);
+                product *= g[k * n + i] + g[k * n + j] + q * t + r * t * t;
             }
-            koksma__sum_add(&pairs, pair);
+            koksma__sum_add(&pairs, product);
         }
     }
-    const double count = (double)n;
-    koksma__sum square = {0};
-    koksma__sum_add(&square, pow(3, -dim));
-    koksma__sum_add(&square, -2 * koksma__sum_value(&linear) / count);
-    koksma__sum_add(&square, koksma__sum_value(&pairs) / count / count);
-    return koksma__sum_value(&square);
+    sum[0] = pairs.total;
+    sum[1] = pairs.lost;
+}
+
+void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
+                             double best[2], size_t at[2])
+{
+    for (size_t j = 0; j <= n; j++) {
+        count[j] = 0; /* points so far of rank below j */
+    }
+    best[0] = best[1] = -INFINITY;
+    at[0] = at[1] = 0;
+    for (size_t i = 0; i <= n; i++) {
+        const double scale = (double)n * (i < n ? x[i] : 1);
+        for (size_t j = 0; j <= n; j++) {
+            if (scale * y[j] - count[j] > best[1]) {
+                best[1] = scale * y[j] - count[j];
+                at[1] = i;
+            }
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            count[j + 1] += rank[i] <= j;
+        }
+        for (size_t j = 0; j < n && i < n; j++) {
+            if (count[j + 1] - scale * y[j] > best[0]) {
+                best[0] = count[j + 1] - scale * y[j];
+                at[0] = i;
+            }
+        }
+    }
+}
+
+void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
+                                double *const out[2])
+{
+    for (size_t c = 0; c < na + nb - 1; c++) {
+        out[0][c] = 0;
+        out[1][c] = 1;
+    }
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            out[0][i + j] = fmax(out[0][i + j], a[0][i] * b[0][j]);
+            out[1][i + j] = fmin(out[1][i + j], a[1][i] * b[1][j]);
+        }
+    }
+}
+
+void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
+                             double inside, double best[2])
+{
+    best[0] = best[1] = -1;
+    for (size_t i = 0; i < na; i++) {
+        for (size_t j = 0; j < nb; j++) {
+            const double share = (inside + (double)(i + j)) / n;
+            best[0] = fmax(best[0], a[0][i] * b[0][j] - share);
+            best[1] = fmax(best[1], share - a[1][i] * b[1][j]);
+        }
+    }
+}
+
+void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (xs[i] + add) / whole;
+    }
+}
+
+void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (first + (double)i + add) / whole;
+    }
+}
+
+void KERNEL_NAME(fractions)(size_t count, const uint32_t *v, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = ldexp(v[i], -32);
+    }
+}
+
+void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t *w, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = ldexp(v[i], -32);
+        out[2 * i + 1] = ldexp(w[i], -32);
+    }
+}
+
+static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
+{
+    uint32_t x = 0;
+    for (int b = 0; b < 32; b++) {
+        x ^= i >> b & 1 ? directions[b] : 0;
+    }
+    return x;
+}
+
+void KERNEL_NAME(digital)(size_t count, const uint32_t *directions, uint32_t start, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = start ^ sum_of_directions((uint32_t)i, directions);
+    }
+}
+
+void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
+                            uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t x = koksma_owen_hash(mirror_in ? koksma_mirror(v[i]) : v[i], seed);
+        out[i] = mirror_out ? koksma_mirror(x) : x;
+    }
+}
+
+/* Column c of the Pascal matrix: the binomial coefficients c over r modulo 2, odd where r's bits are among c's. */
+void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = 0;
+        for (uint32_t c = 0; c < 32; c++) {
+            for (uint32_t r = 0; r < 32 && (v[i] >> c & 1); r++) {
+                x ^= (r & ~c) == 0 ? 1u << r : 0;
+            }
+        }
+        out[i] = x;
+    }
+}
+
+void KERNEL_NAME(digital_at)(size_t count, const uint32_t *index, const uint32_t *directions, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = sum_of_directions(index[i], directions);
+    }
+}
+
+void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint32_t partner, const uint32_t *word)
+{
+    const double n = ldexp(1, level);
+    for (size_t i = first; i < first + count; i++) {
+        const double stratum = floor(ldexp(v[i ^ partner], -32) * 2 * n);
+        const double other = fmod(stratum, 2) == 0 ? stratum + 1 : stratum - 1;
+        v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
+    }
 }
 
 static double overlap(int law, double r, double distance)
@@ -65,9 +197,12 @@ static double overlap(int law, double r, double distance)
     }
     const double s = sqrt(r * r - h * h), angle = acos(h / r);
     switch (law) {
-    case 0: return 2 * r * r * angle - 2 * h * s;
-    case 1: return (2 * r * r * r * angle - 4 * h * r * s + (h > 0 ? 2 * h * h * h * log((r + s) / h) : 0)) / (3 * r);
-    default: return (r * r * r * r * angle - (5 * h * s * s * s) / 3 - h * h * h * s) / (r * r);
+    case 0:
+        return 2 * r * r * angle - 2 * h * s;
+    case 1:
+        return (2 * r * r * r * angle - 4 * h * r * s + (h > 0 ? 2 * h * h * h * log((r + s) / h) : 0)) / (3 * r);
+    default:
+        return (r * r * r * r * angle - (5 * h * s * s * s) / 3 - h * h * h * s) / (r * r);
     }
 }
 

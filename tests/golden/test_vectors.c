@@ -15,6 +15,11 @@ static const struct {
     {"D", "star", 1e-12},
     {"S", "l2-star", 1e-12},
     {"T", "extreme", 1e-12},
+    {"disk_l2_r0.125", "l2-disk:r=0.125", 1e-11},
+    {"disk_l2_r0.25", "l2-disk:r=0.25", 1e-11},
+    {"disk_l2_r0.5", "l2-disk:r=0.5", 1e-11},
+    {"disk_l2_runif", "l2-disk:law=radius", 1e-11},
+    {"disk_l2_aunif", "l2-disk:law=area", 1e-11},
 };
 
 enum { MAX_VALUES = 64, MAX_LINE = 1024 };

@@ -60,7 +60,7 @@ git ls-files '*.c' | xargs -n1 basename | grep -vx registry.c | sort | uniq -d |
   grep . && failed=$((failed + 1))
 
 # Every key cited in a table entry is in docs/references.bib.
-for key in $(grep -rhoE '\.cite = "[^"]*"' src | sed 's/.*"\(.*\)"/\1/' | tr ' ' '\n' | sort -u); do
+for key in $(grep -rhoE '\.cite = "[^"]*"' src | sed 's/.*"\(.*\)"/\1/' | tr ' ' '\n' | grep -vx -e - | sort -u); do
   grep -q "^@[a-z]*{$key," docs/references.bib || complain "docs/references.bib has no $key"
 done
 echo "$failed problems"

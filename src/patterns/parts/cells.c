@@ -58,6 +58,24 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
                         power(m, out->dim), more, out->dim == 2 ? ", or columns=C with C a divisor of n" : "");
 }
 
+koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows)
+{
+    size_t c = (size_t)wanted;
+    if (c == 0) {
+        c = (size_t)sqrt((double)n);
+        while (n % c) {
+            c--;
+        }
+    }
+    if (n % c) {
+        return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
+                            n / c ? n / c * c : c, (n / c + 1) * c);
+    }
+    *columns = c;
+    *rows = n / c;
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out)
 {

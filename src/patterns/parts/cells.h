@@ -19,6 +19,16 @@ static inline double koksma__in_cell(double cell, double u, double m)
         "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
 
+/* The same for patterns that serve every n. */
+#define KOKSMA__PARAM_DIVISOR                                                                                        \
+    {                                                                                                                \
+        "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \
+            NULL, true                                                                                               \
+    }
+
+/* columns * rows = n. Errors: N, with the n that would do. */
+koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows);
+
 /* Cells along x (2D with columns > 0), and along every other coordinate, such that their product is out->n.
    Errors: N, with the n that would do. */
 koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,

@@ -1,0 +1,348 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Sampling patterns for your renderer: one header, no library, no allocation, no tables to set up. C99, C11, C++,
+ * CUDA.
+ *
+ * A sample is a pure function of a domain and an index; there is no cursor and no running dimension. A domain is a
+ * 64-bit key: begin with the pixel's, derive one for each use of the samples (lens, light, bounce 3's direction ...),
+ * and ask for sample i of that domain. Domains are independent of each other; the samples of one domain are
+ * well spread.
+ *
+ *     const koksma_domain pixel = koksma_domain_of_pixel(seed, x, y);
+ *     for (uint32_t i = 0; i < spp; i++) {
+ *         double film[2], lens[2];
+ *         koksma_sobol_2d(koksma_domain_of_use(pixel, FILM), i, film);
+ *         koksma_sobol_2d(koksma_domain_of_use(pixel, LENS), i, lens);
+ *         ...
+ *
+ * The numbers are those of the library's bulk generators, bit for bit:
+ *     koksma_sobol_2d, _4d    sobol:scramble=hash-owen,shuffle=1    the domain's key is the seed
+ *     koksma_pmj02_2d         pmj02
+ *     koksma_cmj_2d           correlated-multi-jittered:columns=C
+ *     koksma_r_2d             r-sequence:shift=1
+ *     koksma_z_rank           z-sampler (the order of the pixels)
+ * Coordinates are in [0,1). Cast them with koksma_to_float: (float)0.99999999 is 1.
+ *
+ * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
+ * PMJ02 by stochastic generation: Helmer, Christensen & Kensler 2021. Correlated multi-jitter: Kensler 2013.
+ * R-sequence: Roberts 2018. Z-order: Ahmed & Wonka 2020.
+ */
+#ifndef KOKSMA_SAMPLER_H
+#define KOKSMA_SAMPLER_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#else
+#include <stdint.h>
+#endif
+
+#if defined(__CUDACC__)
+#define KOKSMA_INLINE static __host__ __device__ inline
+#else
+#define KOKSMA_INLINE static inline
+#endif
+
+typedef struct koksma_domain {
+    uint64_t key;
+} koksma_domain;
+
+/* ---- Random words: Philox4x32-10 ----------------------------------------------------------------------- */
+
+/* What a word is for; the numbers are those of the library. */
+enum {
+    KOKSMA_FOR_DOMAIN = 1,
+    KOKSMA_FOR_POINT = 2,
+    KOKSMA_FOR_SHUFFLE = 3,
+    KOKSMA_FOR_SHIFT = 5,
+    KOKSMA_FOR_SCRAMBLE = 6
+};
+
+/* 128 random bits: a hash of (key, purpose, index, lane). */
+KOKSMA_INLINE void koksma_words(uint64_t key, uint32_t purpose, uint64_t index, uint32_t lane, uint32_t words[4])
+{
+    uint32_t a = (uint32_t)index, b = (uint32_t)(index >> 32), c = lane, d = purpose;
+    uint32_t k0 = (uint32_t)key, k1 = (uint32_t)(key >> 32);
+    int round;
+    for (round = 0; round < 10; round++) {
+        const uint64_t p = (uint64_t)a * 0xD2511F53u, q = (uint64_t)c * 0xCD9E8D57u;
+        a = (uint32_t)(q >> 32) ^ b ^ k0;
+        b = (uint32_t)q;
+        c = (uint32_t)(p >> 32) ^ d ^ k1;
+        d = (uint32_t)p;
+        k0 += 0x9E3779B9u;
+        k1 += 0xBB67AE85u;
+    }
+    words[0] = a;
+    words[1] = b;
+    words[2] = c;
+    words[3] = d;
+}
+
+/* ---- Domains ------------------------------------------------------------------------------------------- */
+
+/* The domain of a use of a domain's samples; uses are numbers of your choice. */
+KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t use)
+{
+    uint32_t w[4];
+    koksma_domain sub;
+    koksma_words(domain.key, KOKSMA_FOR_DOMAIN, use, 0x75736500u, w);
+    sub.key = (uint64_t)w[1] << 32 | w[0];
+    return sub;
+}
+
+KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, uint32_t y)
+{
+    uint32_t w[4];
+    koksma_domain pixel;
+    koksma_words(seed, KOKSMA_FOR_DOMAIN, (uint64_t)y << 32 | x, 0x70697865u, w);
+    pixel.key = (uint64_t)w[1] << 32 | w[0];
+    return pixel;
+}
+
+/* ---- Numbers ------------------------------------------------------------------------------------------- */
+
+/* The float below or at x in [0,1): never 1. */
+KOKSMA_INLINE float koksma_to_float(double x)
+{
+    return (float)(uint32_t)(x * 16777216.0) * (1.0f / 16777216.0f);
+}
+
+/* 53 random bits as a double in [0,1). */
+KOKSMA_INLINE double koksma_to_unit(uint32_t high, uint32_t low)
+{
+    return (double)((uint64_t)high << 21 | low >> 11) * (1.0 / 9007199254740992.0);
+}
+
+KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
+{
+    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+    return x << 16 | x >> 16;
+}
+
+/* Owen's nested uniform scrambling of the mirrored x: every bit is flipped by a hash of the bits below it. */
+KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= seed >> 16 | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/* ---- Sobol', Owen-scrambled by hashing, in shuffled order ---------------------------------------------- */
+
+/* The upper triangular Pascal matrix modulo 2 times i: Sobol' dimension 2, mirrored. */
+KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
+{
+    i ^= (i & 0xaaaaaaaau) >> 1;
+    i ^= (i & 0xccccccccu) >> 2;
+    i ^= (i & 0xf0f0f0f0u) >> 4;
+    i ^= (i & 0xff00ff00u) >> 8;
+    return i ^ (i & 0xffff0000u) >> 16;
+}
+
+/* Sobol' dimensions 3 and 4 by Joe & Kuo, mirrored. */
+KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
+{
+    static const uint32_t columns[2][32] = {
+        {0x00000001u, 0x00000003u, 0x00000006u, 0x00000009u, 0x00000017u, 0x0000003au, 0x00000071u, 0x000000a3u,
+         0x00000116u, 0x00000339u, 0x00000677u, 0x000009aau, 0x00001601u, 0x00003903u, 0x00007706u, 0x0000aa09u,
+         0x00010117u, 0x0003033au, 0x00060671u, 0x000909a3u, 0x00171616u, 0x003a3939u, 0x00717777u, 0x00a3aaaau,
+         0x01170001u, 0x033a0003u, 0x06710006u, 0x09a30009u, 0x16160017u, 0x3939003au, 0x77770071u, 0xaaaa00a3u},
+        {0x00000001u, 0x00000003u, 0x00000004u, 0x0000000au, 0x0000001fu, 0x0000002eu, 0x00000045u, 0x000000c9u,
+         0x0000011bu, 0x000002a4u, 0x0000079au, 0x00000b67u, 0x0000101eu, 0x0000302du, 0x00004041u, 0x0000a0c3u,
+         0x0001f104u, 0x0002e28au, 0x000457dfu, 0x000c9baeu, 0x0011a105u, 0x002a7289u, 0x0079e7dbu, 0x00b6dba4u,
+         0x0100011au, 0x030002a7u, 0x0400079eu, 0x0a000b6du, 0x1f001001u, 0x2e003003u, 0x45004004u, 0xc900a00au}};
+    uint32_t x = 0;
+    int b;
+    for (b = 0; b < 32; b++) {
+        x ^= columns[dimension][b] & (0u - (i >> b & 1u));
+    }
+    return x;
+}
+
+KOKSMA_INLINE double koksma_scrambled(uint32_t mirrored, uint32_t seed)
+{
+    return koksma_mirror(koksma_owen_hash(mirrored, seed)) * (1.0 / 4294967296.0);
+}
+
+/* Sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
+KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
+{
+    uint32_t seeds[4], j;
+    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, seeds);
+    j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), seeds[3]));
+    xy[0] = koksma_scrambled(j, seeds[0]);
+    xy[1] = koksma_scrambled(koksma_pascal(j), seeds[1]);
+}
+
+/* Four dimensions; the first two are koksma_sobol_2d's. */
+KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4])
+{
+    uint32_t seeds[4], more[4], j;
+    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, seeds);
+    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 1, 0, more);
+    j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), seeds[3]));
+    xs[0] = koksma_scrambled(j, seeds[0]);
+    xs[1] = koksma_scrambled(koksma_pascal(j), seeds[1]);
+    xs[2] = koksma_scrambled(koksma_sobol_mirrored(j, 0), seeds[2]);
+    xs[3] = koksma_scrambled(koksma_sobol_mirrored(j, 1), more[0]);
+}
+
+/* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
+
+/* Point 2^level + i shares its stratum of width 2^-level in coordinate k with point i ^ partner. */
+KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
+{
+    static const uint32_t partners[2][32] = {
+        {0x0,      0x0,      0x2,       0x6,       0x6,       0xe,       0x36,       0x4e,
+         0x16,     0x2e,     0x276,     0x6ce,     0x716,     0xc2e,     0x3076,     0x40ce,
+         0x116,    0x22e,    0x20676,   0x60ece,   0x61716,   0xe2c2e,   0x367076,   0x4ec0ce,
+         0x170116, 0x2c022e, 0x2700676, 0x6c00ece, 0x7001716, 0xc002c2e, 0x30007076, 0x4000c0ce},
+        {0x0,      0x1,       0x3,       0x3,       0x7,       0x1b,       0x27,       0xb,
+         0x17,     0x13b,     0x367,     0x38b,     0x617,     0x183b,     0x2067,     0x8b,
+         0x117,    0x1033b,   0x30767,   0x30b8b,   0x71617,   0x1b383b,   0x276067,   0xb808b,
+         0x160117, 0x138033b, 0x3600767, 0x3800b8b, 0x6001617, 0x1800383b, 0x20006067, 0x808b}};
+    return partners[k][level];
+}
+
+/* The 32-bit fraction of coordinate k (0, 1) of point i: in the empty half of the stratum of an earlier point, whose
+   own upper bits come from a still earlier one. */
+KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
+{
+    uint32_t fraction = 0, above = 0xffffffffu, w[4];
+    for (;;) {
+        uint32_t level = 0, own;
+        koksma_words(key, KOKSMA_FOR_POINT, i / 4, (uint32_t)k, w);
+        if (i == 0) {
+            return fraction ^ (w[0] & above);
+        }
+        while (level < 31 && i >> (level + 1)) {
+            level++;
+        }
+        own = level < 31 ? 0xffffffffu >> (level + 1) : 0;
+        fraction ^= w[i % 4] >> level >> 1 & above & own;
+        above &= ~own;
+        fraction ^= 1u << (31 - level);
+        i = (i ^ 1u << level) ^ koksma_pmj02_partner(k, level);
+    }
+}
+
+/* Sample i of a (0,2)-sequence in base 2. Takes a hash for each one bit or so of i. */
+KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2])
+{
+    xy[0] = koksma_pmj02_fraction(domain.key, i, 0) * (1.0 / 4294967296.0);
+    xy[1] = koksma_pmj02_fraction(domain.key, i, 1) * (1.0 / 4294967296.0);
+}
+
+/* ---- Correlated multi-jitter --------------------------------------------------------------------------- */
+
+/* Element i of a random order of 0 .. n-1 that the key chooses; n < 2^31. A bijection of the next power of two,
+   walked until it falls below n. */
+KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
+{
+    const uint32_t a = (uint32_t)key, b = (uint32_t)(key >> 32);
+    uint32_t mask = n - 1, shift = 1;
+    mask |= mask >> 1;
+    mask |= mask >> 2;
+    mask |= mask >> 4;
+    mask |= mask >> 8;
+    mask |= mask >> 16;
+    while (mask >> (2 * shift)) {
+        shift++;
+    }
+    do {
+        int round;
+        uint32_t k = a;
+        for (round = 0; round < 6; round++) {
+            i = (i ^ k) & mask;
+            i = i * (2 * (k >> 7) + 0x2c1b3c6du) & mask;
+            i ^= i >> shift;
+            i = (i + (k >> 16)) & mask;
+            i = i * 0x297a2d39u & mask;
+            i ^= i >> (shift + 1 < 32 ? shift + 1 : 31);
+            k = (k ^ b) * 0x9e3779b1u;
+            k ^= k >> 15;
+        }
+    } while (i >= n);
+    return i;
+}
+
+/* A place u of cell `cell` of `cells`, never outside it after rounding. */
+KOKSMA_INLINE double koksma_place(double cell, double u, double cells)
+{
+    return (cell + u * (1 - 1.0 / 16777216.0)) / cells;
+}
+
+/* Sample i of columns * rows: one in each cell of the grid, and one in each of the columns * rows strata of either
+   axis. i is below columns * rows < 2^31. */
+KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows, double xy[2])
+{
+    uint32_t keys[4], more[4], w[4], s, c, r;
+    const double cells = (double)columns * (double)rows;
+    koksma_words(domain.key, KOKSMA_FOR_SHUFFLE, 0, 0, keys);
+    koksma_words(domain.key, KOKSMA_FOR_SHUFFLE, 1, 0, more);
+    koksma_words(domain.key, KOKSMA_FOR_POINT, i, 0, w);
+    s = koksma_permute(i, columns * rows, (uint64_t)keys[1] << 32 | keys[0]);
+    c = s % columns;
+    r = s / columns;
+    xy[0] = koksma_place((double)c * rows + koksma_permute(r, rows, (uint64_t)keys[3] << 32 | keys[2]),
+                         koksma_to_unit(w[0], w[1]), cells);
+    xy[1] = koksma_place((double)r * columns + koksma_permute(c, columns, (uint64_t)more[1] << 32 | more[0]),
+                         koksma_to_unit(w[2], w[3]), cells);
+}
+
+/* ---- R-sequence ---------------------------------------------------------------------------------------- */
+
+/* Sample i of the additive recurrence of the plastic number, shifted on the torus by the domain's random vector. */
+KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
+{
+    const uint64_t alpha[2] = {0xC13FA9A902A6328Full, 0x91E10DA5C79E7B1Dull};
+    uint32_t w[4];
+    int k;
+    koksma_words(domain.key, KOKSMA_FOR_SHIFT, 0, 0, w);
+    for (k = 0; k < 2; k++) {
+        const uint64_t x = 0x8000000000000000ull + (i + 1) * alpha[k];
+        xy[k] = (double)(x >> 11) * (1.0 / 9007199254740992.0) + koksma_to_unit(w[2 * k], w[2 * k + 1]);
+        xy[k] -= xy[k] >= 1;
+    }
+}
+
+/* ---- Z-order ------------------------------------------------------------------------------------------- */
+
+/* Element j of the order of 0 .. 3 that the word chooses. */
+KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
+{
+    uint32_t order = 0xe4u, i; /* four fields of two bits */
+    for (i = 3; i > 0; i--) {
+        const uint32_t other = (word & 0x3ffu) * (i + 1) >> 10;
+        const uint32_t difference = (order >> 2 * i ^ order >> 2 * other) & 3u;
+        order ^= difference << 2 * i ^ difference << 2 * other;
+        word >>= 10;
+    }
+    return order >> 2 * j & 3u;
+}
+
+/* The rank of pixel (x, y) of a square image of 2^levels pixels a side, levels <= 16, along a Z-curve whose quadrants
+   are in an order that is random at each node. Give pixel p the samples rank * spp .. rank * spp + spp - 1 of one
+   sequence over the whole image, as in koksma_sobol_2d with the image's domain: neighbours share well-spread samples.
+ */
+KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t y, int levels)
+{
+    uint32_t rank = 0, path = 1;
+    int l;
+    for (l = levels - 1; l >= 0; l--) {
+        const uint32_t quadrant = (y >> l & 1u) << 1 | (x >> l & 1u);
+        uint32_t w[4];
+        koksma_words(domain.key, KOKSMA_FOR_SHUFFLE, path, (uint32_t)l + 1, w);
+        rank = rank << 2 | koksma_permute4(quadrant, w[0]);
+        path = path << 2 | quadrant;
+    }
+    return rank;
+}
+
+#endif

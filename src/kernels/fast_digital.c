@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Digital nets, hashed Owen scrambling and fractions: loops whose lanes are independent, for the compiler to
+   vectorise. All arithmetic on 32-bit words is exact; every division and product of doubles is rounded once. */
+#include <koksma/sampler.h>
+
+#include "kernels/kernels.h"
+
+#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
+#include "kernels/kernels.def"
+#undef KERNEL
+
+void KERNEL_NAME(quotients)(size_t count, const double *restrict xs, double add, double whole, double *restrict out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (xs[i] + add) / whole;
+    }
+}
+
+void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
+{
+    for (uint32_t i = 0; i < (uint32_t)count; i++) {
+        out[i] = (first + (double)(int32_t)i + add) / whole;
+    }
+}
+
+/* Signed conversion is one instruction everywhere; v ^ 2^31 is v - 2^31, and adding it back is exact. */
+static inline double fraction(uint32_t v)
+{
+    return ((double)(int32_t)(v ^ 0x80000000u) + 0x1p31) * 0x1p-32;
+}
+
+void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *restrict out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = fraction(v[i]);
+    }
+}
+
+void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *restrict v, const uint32_t *restrict w,
+                                 double *restrict out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = fraction(v[i]);
+        out[2 * i + 1] = fraction(w[i]);
+    }
+}
+
+/* Doubling: the second half of an aligned block is the first, xor one direction. */
+void KERNEL_NAME(digital)(size_t count, const uint32_t *restrict directions, uint32_t start, uint32_t *restrict out)
+{
+    if (count) {
+        out[0] = start;
+    }
+    size_t done = 1;
+    for (int b = 0; done < count; b++, done *= 2) {
+        const size_t some = count - done < done ? count - done : done;
+        const uint32_t direction = directions[b];
+        for (size_t i = 0; i < some; i++) {
+            out[done + i] = out[i] ^ direction;
+        }
+    }
+}
+
+void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
+                            uint32_t *out)
+{
+    if (mirror_in && mirror_out) {
+        for (size_t i = 0; i < count; i++) {
+            out[i] = koksma_mirror(koksma_owen_hash(koksma_mirror(v[i]), seed));
+        }
+    } else if (mirror_out) {
+        for (size_t i = 0; i < count; i++) {
+            out[i] = koksma_mirror(koksma_owen_hash(v[i], seed));
+        }
+    } else {
+        for (size_t i = 0; i < count; i++) {
+            out[i] = koksma_owen_hash(mirror_in ? koksma_mirror(v[i]) : v[i], seed);
+        }
+    }
+}
+
+void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = koksma_pascal(v[i]);
+    }
+}
+
+void KERNEL_NAME(digital_at)(size_t count, const uint32_t *restrict index, const uint32_t *restrict directions,
+                             uint32_t *restrict out)
+{
+    enum { LANES = 32 };
+    for (size_t first = 0; first < count; first += LANES) {
+        uint32_t x[LANES] = {0}, j[LANES] = {0};
+        const size_t some = count - first < LANES ? count - first : LANES;
+        for (size_t l = 0; l < some; l++) {
+            j[l] = index[first + l];
+        }
+        for (int b = 0; b < 32; b++) {
+            const uint32_t direction = directions[b];
+            for (int l = 0; l < LANES; l++) {
+                x[l] ^= direction & (0u - (j[l] >> b & 1u));
+            }
+        }
+        for (size_t l = 0; l < some; l++) {
+            out[first + l] = x[l];
+        }
+    }
+}
+
+void KERNEL_NAME(grow)(uint32_t *restrict v, int level, size_t first, size_t count, uint32_t partner,
+                       const uint32_t *restrict word)
+{
+    enum { LANES = 64 };
+    uint32_t *out = v + ((size_t)1 << level) + first;
+    const uint32_t low = level < 31 ? 0xffffffffu >> (level + 1) : 0, flip = low + 1;
+    for (size_t done = 0; done < count; done += LANES) {
+        uint32_t old[LANES];
+        const size_t some = count - done < LANES ? count - done : LANES;
+        for (size_t l = 0; l < some; l++) {
+            old[l] = v[(first + done + l) ^ partner];
+        }
+        for (size_t l = 0; l < some; l++) {
+            out[done + l] = ((old[l] & ~low) ^ flip) | (word[done + l] >> level >> 1);
+        }
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Time limits of long measures. */
+#ifndef KOKSMA_MEASURES_PARTS_CLOCK_H
+#define KOKSMA_MEASURES_PARTS_CLOCK_H
+
+#include <math.h>
+#include <time.h>
+
+#include <koksma/koksma.h>
+
+static inline double koksma__now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The moment at which `share` of run's time limit will have passed; infinite without a limit. */
+static inline double koksma__deadline_s(const koksma_run *run, double share)
+{
+    return run && run->time_limit_s > 0 ? koksma__now_s() + share * run->time_limit_s : (double)INFINITY;
+}
+
+#endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A kinetic segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b
+ * counts points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds to
+ * the lines of a range of ranks; x only grows. A node holds the winning line of its leaves, and until when it is
+ * known to win; `lazy` has not been added to its children yet. The lowest levels are blocks of leaves that are
+ * scanned. Wins are decided in doubles: at a near tie either line has the value to the last bits.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "measures/parts/star.h"
+
+enum { BLOCK = 16, CHECK_EVERY = 1 << 14 };
+
+typedef struct node {
+    double k, b;  /* the winner */
+    double until; /* no other line overtakes up to here */
+    double lazy;
+} node;
+
+typedef struct tree {
+    size_t n_blocks; /* a power of two */
+    node *nodes;     /* 1 .. 2 n_blocks - 1; block i is node n_blocks + i */
+    double *k, *b;   /* leaves */
+    double x;
+} tree;
+
+static inline double at(double k, double b, double x)
+{
+    return b + k * x;
+}
+
+static void pull_block(tree *t, size_t v)
+{
+    node *const block = &t->nodes[v];
+    const double *k = t->k + (v - t->n_blocks) * BLOCK, *b = t->b + (v - t->n_blocks) * BLOCK;
+    double value = at(k[0], b[0], t->x), until = INFINITY;
+    int winner = 0;
+    for (int j = 1; j < BLOCK; j++) {
+        const double other = at(k[j], b[j], t->x);
+        const bool wins = other > value || (other == value && k[j] > k[winner]);
+        value = wins ? other : value;
+        winner = wins ? j : winner;
+    }
+    for (int j = 0; j < BLOCK; j++) {
+        const double rise = k[j] - k[winner];
+        const double crossing = (b[winner] - b[j]) / rise;
+        until = rise > 0 && crossing < until ? crossing : until;
+    }
+    *block = (node){k[winner], b[winner], until, 0};
+}
+
+static void pull(tree *t, size_t v)
+{
+    const node *l = &t->nodes[2 * v], *r = l + 1;
+    const double left = at(l->k, l->b, t->x), right = at(r->k, r->b, t->x);
+    const bool left_wins = left > right || (left == right && l->k >= r->k);
+    const node *w = left_wins ? l : r, *o = left_wins ? r : l;
+    double until = l->until < r->until ? l->until : r->until;
+    if (o->k > w->k) {
+        const double crossing = (w->b - o->b) / (o->k - w->k);
+        until = crossing < until ? crossing : until;
+    }
+    t->nodes[v] = (node){w->k, w->b, until, 0};
+}
+
+static void add_to_block(tree *t, size_t v, size_t first, size_t end, double amount)
+{
+    double *b = t->b + (v - t->n_blocks) * BLOCK;
+    for (size_t j = first; j < end; j++) {
+        b[j] += amount;
+    }
+}
+
+static void push(tree *t, size_t v)
+{
+    const double lazy = t->nodes[v].lazy;
+    if (lazy != 0) {
+        for (size_t child = 2 * v; child <= 2 * v + 1; child++) {
+            t->nodes[child].b += lazy;
+            t->nodes[child].lazy += lazy;
+        }
+        t->nodes[v].lazy = 0;
+    }
+}
+
+/* Brings node v to the present x. */
+static void advance(tree *t, size_t v)
+{
+    if (t->nodes[v].until > t->x) {
+        return;
+    }
+    if (v >= t->n_blocks) {
+        add_to_block(t, v, 0, BLOCK, t->nodes[v].lazy);
+        pull_block(t, v);
+        return;
+    }
+    push(t, v);
+    advance(t, 2 * v);
+    advance(t, 2 * v + 1);
+    pull(t, v);
+}
+
+/* Adds to all leaves from `from` on, and brings the nodes on the way to the present x. */
+static void add_from(tree *t, size_t from, double amount)
+{
+    size_t v = 1, half = t->n_blocks * BLOCK / 2, path[64], depth = 0;
+    while (v < t->n_blocks) {
+        push(t, v);
+        path[depth++] = v;
+        const bool right = from >= half;
+        const size_t other = 2 * v + !right;
+        if (right) {
+            from -= half;
+        } else {
+            t->nodes[other].b += amount;
+            t->nodes[other].lazy += amount;
+        }
+        advance(t, other);
+        v = 2 * v + right;
+        half /= 2;
+    }
+    add_to_block(t, v, 0, BLOCK, t->nodes[v].lazy);
+    add_to_block(t, v, from, BLOCK, amount);
+    pull_block(t, v);
+    while (depth > 0) {
+        pull(t, path[--depth]);
+    }
+}
+
+static void start(tree *t, size_t n, const double *y, double sign)
+{
+    for (size_t j = 0; j < t->n_blocks * BLOCK; j++) {
+        const bool real = j < n + (sign < 0);
+        t->k[j] = real ? -sign * (double)n * y[j] : 0;
+        t->b[j] = real ? 0 : -(double)INFINITY;
+    }
+    t->x = 0;
+    for (size_t v = 2 * t->n_blocks - 1; v > 0; v--) {
+        if (v >= t->n_blocks) {
+            pull_block(t, v);
+        } else {
+            pull(t, v);
+        }
+    }
+}
+
+/* sign 1: excess, evaluated after each insertion; -1: deficit, before. */
+static koksma_status walk(tree *t, size_t n, const double *x, const uint32_t *rank, const double *y, double sign,
+                          const koksma_run *run, double *best, size_t *best_at)
+{
+    *best = -INFINITY;
+    *best_at = 0;
+    start(t, n, y, sign);
+    for (size_t i = 0; i < n + (sign < 0); i++) {
+        if (i % CHECK_EVERY == 0 && !koksma__keep_going(run, ((double)i / (double)n + (sign < 0)) / 2)) {
+            return koksma__fail_interrupted();
+        }
+        t->x = i < n ? x[i] : 1;
+        if (sign > 0) {
+            add_from(t, rank[i], 1);
+        } else {
+            advance(t, 1);
+        }
+        const double value = at(t->nodes[1].k, t->nodes[1].b, t->x);
+        if (value > *best) {
+            *best = value;
+            *best_at = i;
+        }
+        if (sign < 0 && i < n) {
+            add_from(t, rank[i] + 1, -1);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *rank, const double *y,
+                                   const koksma_run *run, double best[2], size_t at_best[2])
+{
+    tree t = {.n_blocks = 1};
+    while (t.n_blocks * BLOCK < n + 2) {
+        t.n_blocks *= 2;
+    }
+    const size_t bytes = 2 * t.n_blocks * sizeof(node) + 2 * t.n_blocks * BLOCK * sizeof(double);
+    t.nodes = malloc(bytes);
+    if (!t.nodes) {
+        return koksma__fail_memory(bytes);
+    }
+    t.k = (double *)(t.nodes + 2 * t.n_blocks);
+    t.b = t.k + t.n_blocks * BLOCK;
+    koksma_status status = walk(&t, n, x, rank, y, 1, run, &best[0], &at_best[0]);
+    if (!status) {
+        status = walk(&t, n, x, rank, y, -1, run, &best[1], &at_best[1]);
+    }
+    free(t.nodes);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * star-lower: a lower bound of the star discrepancy, by a random search for a bad box. For many dimensions, where
+ * finding the worst box is NP-hard.
+ *
+ * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds over anchored boxes, see star.
+ * Source: Gnewuch, Wahlstrom and Winzen 2012. Known exactly: it never exceeds star, and in practice reaches it for
+ * a few hundred points in up to 5 dimensions.
+ * Limits: the witness proves the bound; how far below the supremum it is, is not known: upper is 1.
+ */
+#include "measures/measures.h"
+#include "measures/parts/star.h"
+
+static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
+{
+    const koksma_status status = koksma__star_search(points, args->run, (uint64_t)args->params[2],
+                                                     (size_t)args->params[0], (size_t)args->params[1], out);
+    out->exact = false;
+    out->lower = out->value;
+    out->upper = 1;
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"steps", "steps of a walk", 5000, 1, 1e9, NULL, true},
+    {"restarts", "walks for excess and for deficit", 5, 1, 1e6, NULL, true},
+    {"seed", "seed of the search", 1, 0, 9007199254740992.0, NULL, true},
+    {0},
+};
+
+const koksma_measure koksma__measure_star_lower = {
+    .name = "star-lower",
+    .title = "lower bound of the star discrepancy by threshold accepting",
+    .cite = "gnewuch2012",
+    .cost = "steps n d^2",
+    .min_dim = 1,
+    .max_dim = KOKSMA__STAR_MAX_DIM,
+    .params = params,
+    .eval = eval,
+};

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * halton: radical inverses of i in the first dim primes; a sequence. Scrambled on request:
+ *   scramble=affine  the digit a at each place of each base becomes u a + v modulo b, with random u > 0 and v, the
+ *                    zeros above the number included (for bases 2 and 3 these are all permutations; after Braaten &
+ *                    Weller 1979)
+ *   scramble=owen    Owen's nested uniform scrambling (1995): a permutation for each place and each row of digits
+ *                    before it, drawn exactly, by stochastic generation (Helmer, Christensen & Kensler 2021)
+ *
+ *     x_k(i) = phi_b(i), b the k-th prime: the digits of i in base b, mirrored at the radix point
+ *
+ * Source: Halton 1960. Every plain value is the double nearest to its fraction; scrambled ones have 53 bits.
+ * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.
+ */
+#include "core/random.h"
+#include "patterns/parts/columns.h"
+#include "patterns/parts/owen_digits.h"
+#include "patterns/parts/radical.h"
+#include "patterns/patterns.h"
+
+enum { NONE, AFFINE, OWEN };
+
+static void column(const void *context, int k, size_t first, size_t count, double *xs)
+{
+    const koksma__radicals *r = context;
+    koksma__radical_column(&r->columns[k], first, count, xs);
+}
+
+/* a -> u a + v modulo the base, with u from 1 and v from 0; one draw for each place. */
+static uint32_t affine(const void *context, uint32_t base, int j, uint32_t a)
+{
+    const uint64_t seed = *(const uint64_t *)context;
+    const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_SCRAMBLE, base, (uint32_t)j);
+    return ((1 + koksma__below(r.w[0], base - 1)) * a + koksma__below(r.w[1], base)) % base;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const int scramble = (int)args->params[0];
+    if (scramble == OWEN) {
+        return koksma__owen_digits(seed, args->run, out);
+    }
+    koksma__radicals r;
+    koksma_status status = koksma__radicals_init(&r, out->dim, out->n, scramble == AFFINE ? affine : NULL, &seed);
+    if (!status) {
+        status = koksma__fill_columns(args->run, out, column, &r);
+        koksma__radicals_fini(&r);
+    }
+    return status;
+}
+
+static const char *const scrambles[] = {"none", "affine", "owen", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none, affine (one map of the digits for each place) or owen (nested, exact)", NONE, NONE, OWEN,
+     scrambles, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_halton = {
+    .name = "halton",
+    .title = "radical inverses in the first primes",
+    .cite = "halton1960 braaten1979 owen1995 helmer2021",
+    .min_dim = 1,
+    .max_dim = KOKSMA_MAX_DIM,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/parts/columns.h"
+
+#include "core/parallel.h"
+
+enum { GROUP = 1 << 15, COLUMNS = 8 };
+
+typedef struct job {
+    koksma__block f;
+    const void *context;
+    koksma_points *out;
+} job;
+
+void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out)
+{
+    out += k;
+    for (size_t i = 0; i < count; i++, out += dim) {
+        *out = xs[i];
+    }
+}
+
+void koksma__store_pairs(size_t count, const double *restrict xs, const double *restrict ys, double *restrict out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[2 * i] = xs[i];
+        out[2 * i + 1] = ys[i];
+    }
+}
+
+static void block(const job *j, size_t first, size_t count)
+{
+    double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
+    const int dim = j->out->dim;
+    double *out = j->out->xs + first * (size_t)dim;
+    for (int k = 0; k < dim; k += COLUMNS) {
+        const int some = dim - k < COLUMNS ? dim - k : COLUMNS;
+        j->f(j->context, k, some, first, count, columns);
+        if (dim == 2) {
+            koksma__store_pairs(count, columns[0], columns[1], out);
+            return;
+        }
+        if (dim == 4) {
+            for (size_t i = 0; i < count; i++) {
+                for (size_t c = 0; c < 4; c++) {
+                    out[4 * i + c] = columns[c][i];
+                }
+            }
+            return;
+        }
+        for (size_t i = 0; i < count; i++) {
+            for (int c = 0; c < some; c++) {
+                out[i * (size_t)dim + (size_t)(k + c)] = columns[c][i];
+            }
+        }
+    }
+}
+
+static koksma_status group(void *context, size_t g)
+{
+    const job *j = context;
+    const size_t end = (g + 1) * GROUP < j->out->n ? (g + 1) * GROUP : j->out->n;
+    for (size_t first = g * GROUP; first < end; first += KOKSMA__COLUMN_BLOCK) {
+        block(j, first, end - first < KOKSMA__COLUMN_BLOCK ? end - first : KOKSMA__COLUMN_BLOCK);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context)
+{
+    job j = {f, context, out};
+    const size_t n_groups = (out->n + GROUP - 1) / GROUP;
+    return n_groups == 1 ? group(&j, 0) : koksma__parallel(run, n_groups, group, &j);
+}
+
+typedef struct single {
+    koksma__column f;
+    const void *context;
+} single;
+
+static void one_by_one(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+{
+    const single *s = context;
+    for (int c = 0; c < some; c++) {
+        s->f(s->context, k + c, first, count, xs[c]);
+    }
+}
+
+koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
+{
+    const single s = {f, context};
+    return koksma__fill_blocks(run, out, one_by_one, &s);
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/parts/grow.h"
+
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/parts/columns.h"
+
+enum { COLUMNS = 8, FEW = 256, WORDS = 1024, BLOCK = 1 << 16 };
+
+typedef struct growth {
+    uint64_t seed;
+    uint32_t purpose;
+    const uint32_t *partners;
+    int dim, k, level; /* dim columns beginning with coordinate k */
+    size_t n, count;   /* points in all; new ones at this level */
+    uint32_t *v;       /* dim columns of n fractions */
+} growth;
+
+static void grow_some(const growth *g, int c, size_t first, size_t count)
+{
+    const koksma__kernel_table *kernels = koksma__kernels();
+    const size_t start = (size_t)1 << g->level;
+    uint32_t word[WORDS + 8];
+    while (count) {
+        const size_t some = count < WORDS ? count : WORDS, skip = (start + first) % 4;
+        kernels->words(g->seed, g->purpose, (start + first) / 4, (uint32_t)(g->k + c), (skip + some + 3) / 4, word);
+        kernels->grow(g->v + (size_t)c * g->n, g->level, first, some, g->partners[32 * (g->k + c) + g->level],
+                      word + skip);
+        first += some;
+        count -= some;
+    }
+}
+
+static koksma_status grow_block(void *context, size_t block)
+{
+    const growth *g = context;
+    const size_t blocks = (g->count + BLOCK - 1) / BLOCK, first = block % blocks * BLOCK;
+    grow_some(g, (int)(block / blocks), first, g->count - first < BLOCK ? g->count - first : BLOCK);
+    return KOKSMA_OK;
+}
+
+static koksma_status grow_columns(growth *g, const koksma_run *run)
+{
+    koksma_status status = KOKSMA_OK;
+    for (int c = 0; c < g->dim; c++) {
+        uint32_t word[4];
+        koksma__kernels()->words(g->seed, g->purpose, 0, (uint32_t)(g->k + c), 1, word);
+        g->v[(size_t)c * g->n] = word[0];
+    }
+    for (g->level = 0; (size_t)1 << g->level < g->n && !status; g->level++) {
+        const size_t start = (size_t)1 << g->level;
+        g->count = g->n - start < start ? g->n - start : start;
+        if (g->count > BLOCK) {
+            status = koksma__parallel(run, (g->count + BLOCK - 1) / BLOCK * (size_t)g->dim, grow_block, g);
+            continue;
+        }
+        for (int c = 0; c < g->dim; c++) {
+            grow_some(g, c, 0, g->count);
+        }
+    }
+    return status;
+}
+
+static void store(const growth *g, const koksma_points *out, size_t first, size_t count)
+{
+    const koksma__kernel_table *kernels = koksma__kernels();
+    double xs[KOKSMA__COLUMN_BLOCK];
+    const size_t dim = (size_t)out->dim;
+    if (dim == 2) {
+        kernels->fraction_pairs(count, g->v + first, g->v + g->n + first, out->xs + 2 * first);
+        return;
+    }
+    for (int c = 0; c < g->dim; c++) {
+        kernels->fractions(count, g->v + (size_t)c * g->n + first, xs);
+        koksma__store_column(count, xs, out->dim, g->k + c, out->xs + first * dim);
+    }
+}
+
+koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                           koksma_points *out)
+{
+    uint32_t few[COLUMNS * FEW], *memory = NULL;
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n, .v = few};
+    if (out->n > FEW) {
+        const size_t bytes = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * out->n * sizeof *memory;
+        memory = g.v = malloc(bytes);
+        if (!memory) {
+            return koksma__fail_memory(bytes);
+        }
+    }
+    koksma_status status = KOKSMA_OK;
+    for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {
+        g.dim = out->dim - g.k < COLUMNS ? out->dim - g.k : COLUMNS;
+        status = grow_columns(&g, run);
+        for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
+            store(&g, out, first, out->n - first < KOKSMA__COLUMN_BLOCK ? out->n - first : KOKSMA__COLUMN_BLOCK);
+        }
+    }
+    free(memory);
+    return status;
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Stochastic generation (Helmer, Christensen & Kensler 2021): a digital sequence in base 2 with Owen's nested uniform
+ * scrambling, exact and without looking at a bit twice. Point 2^l + i goes into the empty half of the stratum of
+ * width 2^-l of an earlier point, i ^ partner, at a random place. The fraction of point p in coordinate k ends in the
+ * word p % 4 of koksma__random(seed, purpose, p / 4, k).
+ */
+#ifndef KOKSMA_PATTERNS_PARTS_GROW_H
+#define KOKSMA_PATTERNS_PARTS_GROW_H
+
+#include <koksma/koksma.h>
+
+/* partners[32 k + l] for coordinate k < dim and level l. */
+koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                           koksma_points *out);
+
+#endif

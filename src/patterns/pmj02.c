@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * pmj02: progressive multi-jittered points whose prefixes of 2^m are (0,m,2)-nets in base 2, with every other
+ * property of Christensen, Kensler & Kilpatrick (2018), by stochastic generation from the matrices of the Stirling
+ * numbers of the first kind modulo 2 and the same shifted by a row and a column (Helmer, Christensen & Kensler 2021).
+ *
+ *     x(2^l + i) is in the empty half of the stratum of width 2^-l of x(i ^ partner_l), at a random place
+ *
+ * koksma_pmj02_2d of koksma/sampler.h has the same points one by one.
+ */
+#include <koksma/sampler.h>
+
+#include "core/random.h"
+#include "patterns/parts/grow.h"
+#include "patterns/patterns.h"
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    uint32_t partners[2 * 32];
+    for (uint32_t l = 0; l < 32; l++) {
+        partners[l] = koksma_pmj02_partner(0, l);
+        partners[32 + l] = koksma_pmj02_partner(1, l);
+    }
+    return koksma__grow(seed, KOKSMA__PURPOSE_POINT, partners, args->run, out);
+}
+
+const koksma_pattern koksma__pattern_pmj02 = {
+    .name = "pmj02",
+    .title = "progressive multi-jittered points, (0,2) prefixes",
+    .cite = "christensen2018 helmer2021",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
+              KOKSMA_CLAIM_UNBIASED,
+    .generate = generate,
+};

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * sobol: the digital sequence of Sobol' (1967) with the direction numbers of Joe & Kuo (2008), or on request those of
+ * Bratley & Fox (1988) that GSL has. Point i is the sum modulo 2 of the columns V_b over the set bits b of i, in
+ * natural order. Dimensions 1 and 2 are a (0,2)-sequence in base 2. Coordinates are 32-bit fractions v 2^-32.
+ *   scramble=digital-shift  xor with one random word a dimension
+ *   scramble=lms            a random lower triangular matrix a dimension (Matousek 1998), and a digital shift. Not
+ * Owen's: pairs of points that share a bit prefix stay correlated scramble=owen           Owen's nested uniform
+ * scrambling (1995), exact, by stochastic generation (Helmer et al. 2021); the bits below the last that n
+ * distinguishes are random scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020,
+ * constants of Vegdahl 2021): random access, the same law but for the quality of the hash shuffle=1 with hash-owen:
+ * the order is scrambled in the same way; prefixes stay aligned blocks
+ *
+ * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
+ */
+#include <koksma/sampler.h>
+
+#include <stdlib.h>
+
+#include "core/random.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/parts/columns.h"
+#include "patterns/parts/grow.h"
+#include "patterns/parts/sobol_table.h"
+#include "patterns/patterns.h"
+
+enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
+
+typedef struct job {
+    uint64_t seed;
+    int scramble, old;
+    bool shuffle;
+    const uint32_t (*matrices)[32]; /* lms: the scrambled directions of all dimensions */
+} job;
+
+static const uint32_t *directions_of(const job *j, int k)
+{
+    return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->old);
+}
+
+/* Word k of what the seed gives to scrambling; word 3 is kept for the shuffle. */
+static uint32_t seed_of(const job *j, int k)
+{
+    const uint64_t at = (uint64_t)(k < 3 ? k : k + 1);
+    return koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, at / 4, 0).w[at % 4];
+}
+
+static uint32_t start_of(const uint32_t *directions, size_t first)
+{
+    uint32_t start = 0;
+    for (int b = 0; first; b++, first >>= 1) {
+        start ^= first & 1 ? directions[b] : 0;
+    }
+    return start;
+}
+
+static void digital(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+{
+    const job *j = context;
+    uint32_t v[KOKSMA__COLUMN_BLOCK];
+    for (int c = 0; c < some; c++) {
+        const uint32_t *directions = directions_of(j, k + c);
+        uint32_t start = start_of(directions, first);
+        if (j->scramble) {
+            start ^= seed_of(j, k + c);
+        }
+        koksma__kernels()->digital(count, directions, start, v);
+        koksma__kernels()->fractions(count, v, xs[c]);
+    }
+}
+
+static void hash_owen(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+{
+    const job *j = context;
+    const koksma__kernel_table *kernels = koksma__kernels();
+    uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK];
+    for (size_t i = 0; i < count; i++) {
+        index[i] = (uint32_t)(first + i);
+    }
+    if (j->shuffle) {
+        const uint32_t seed = koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, 0, 0).w[3];
+        kernels->owen_hash(count, index, true, true, seed, index);
+    }
+    for (int c = 0; c < some; c++) {
+        const uint32_t *directions = directions_of(j, k + c), seed = seed_of(j, k + c);
+        if (k + c == 0) {
+            kernels->owen_hash(count, index, false, true, seed, v);
+        } else if (k + c == 1) {
+            kernels->pascal(count, index, v);
+            kernels->owen_hash(count, v, false, true, seed, v);
+        } else if (j->shuffle) {
+            kernels->digital_at(count, index, directions, v);
+            kernels->owen_hash(count, v, true, true, seed, v);
+        } else {
+            kernels->digital(count, directions, start_of(directions, first), v);
+            kernels->owen_hash(count, v, true, true, seed, v);
+        }
+        kernels->fractions(count, v, xs[c]);
+    }
+}
+
+static koksma_status generate_owen(const job *j, const koksma_run *run, koksma_points *out)
+{
+    uint32_t few[8 * 32], *partners = few;
+    if (out->dim > 8) {
+        partners = malloc((size_t)out->dim * 32 * sizeof *partners);
+        if (!partners) {
+            return koksma__fail_memory((size_t)out->dim * 32 * sizeof *partners);
+        }
+    }
+    int levels = 1;
+    while ((size_t)1 << levels < out->n) {
+        levels++;
+    }
+    for (int k = 0; k < out->dim; k++) {
+        koksma__partners(directions_of(j, k), levels, partners + 32 * k);
+    }
+    const koksma_status status = koksma__grow(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, run, out);
+    if (partners != few) {
+        free(partners);
+    }
+    return status;
+}
+
+/* Each column times a random lower triangular matrix: output bit r gets the input bits above it that a random row
+   chooses, and bit r itself. */
+static void scramble_matrix(const job *j, int k, uint32_t *matrix)
+{
+    const uint32_t *directions = koksma__sobol_directions(k, j->old);
+    for (int b = 0; b < 32; b++) {
+        matrix[b] = 0;
+    }
+    for (int r = 0; r < 32; r++) {
+        const uint32_t own = 0x80000000u >> r;
+        const uint32_t word =
+            koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, (uint64_t)r / 4, 1 + (uint32_t)k).w[r % 4];
+        const uint32_t row = (word & ~(own | (own - 1))) | own;
+        for (int b = 0; b < 32; b++) {
+            matrix[b] |= __builtin_parity(directions[b] & row) ? own : 0;
+        }
+    }
+}
+
+static koksma_status generate_lms(job *j, const koksma_run *run, koksma_points *out)
+{
+    uint32_t few[8][32], (*matrices)[32] = few;
+    if (out->dim > 8) {
+        matrices = malloc((size_t)out->dim * sizeof *matrices);
+        if (!matrices) {
+            return koksma__fail_memory((size_t)out->dim * sizeof *matrices);
+        }
+    }
+    for (int k = 0; k < out->dim; k++) {
+        scramble_matrix(j, k, matrices[k]);
+    }
+    j->matrices = (const uint32_t(*)[32])matrices;
+    const koksma_status status = koksma__fill_blocks(run, out, digital, j);
+    if (matrices != few) {
+        free(matrices);
+    }
+    return status;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    job j = {
+        .seed = seed, .scramble = (int)args->params[0], .old = (int)args->params[1], .shuffle = args->params[2] != 0};
+    if (j.old && out->dim > KOKSMA__SOBOL_OLD_DIM) {
+        return koksma__fail(KOKSMA_DIM,
+                            "sobol: Bratley & Fox have numbers for %d dimensions, not %d; "
+                            "numbers=joe-kuo has %d",
+                            KOKSMA__SOBOL_OLD_DIM, out->dim, KOKSMA__SOBOL_DIM);
+    }
+    if (j.shuffle && j.scramble != HASH_OWEN) {
+        return koksma__fail(KOKSMA_ARGUMENT, "sobol: shuffle=1 goes with scramble=hash-owen only");
+    }
+    if (j.scramble == OWEN) {
+        return generate_owen(&j, args->run, out);
+    }
+    if (j.scramble == LMS) {
+        return generate_lms(&j, args->run, out);
+    }
+    return koksma__fill_blocks(args->run, out, j.scramble == HASH_OWEN ? hash_owen : digital, &j);
+}
+
+static const char *const scrambles[] = {"none", "digital-shift", "lms", "owen", "hash-owen", NULL};
+static const char *const numbers[] = {"joe-kuo", "bratley-fox", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none, digital-shift, lms (random matrix and shift), owen (exact) or hash-owen", NONE, NONE,
+     HASH_OWEN, scrambles, true},
+    {"numbers", "direction numbers: joe-kuo (1,111 dimensions) or bratley-fox (40, as in GSL)", 0, 0, 1, numbers,
+     true},
+    {"shuffle", "1: with hash-owen, the order is scrambled too", 0, 0, 1, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_sobol = {
+    .name = "sobol",
+    .title = "the digital sequence of Sobol', plain or scrambled",
+    .cite = "sobol1967 joe2008 bratley1988 owen1995 matousek1998 laine2011 burley2020 helmer2021",
+    .min_dim = 1,
+    .max_dim = KOKSMA__SOBOL_DIM,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,425 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The test of each claim, on one set of points. A check that does not apply to this n or dim returns. */
+#ifndef KOKSMA_TESTS_CLAIMS_H
+#define KOKSMA_TESTS_CLAIMS_H
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "patterns/parts/packing.h"
+#include "patterns/parts/radical.h"
+#include "test.h"
+
+typedef void (*claim_check)(const koksma_spec *spec, const koksma_points *points, uint64_t seed);
+
+#define fail_claim(spec, points, ...)                                                                                \
+    do {                                                                                                             \
+        char text_[KOKSMA_MAX_SPEC], why_[200];                                                                      \
+        koksma_spec_text(spec, text_);                                                                               \
+        snprintf(why_, sizeof why_, __VA_ARGS__);                                                                    \
+        fail_msg("%s, n = %zu, dim = %d: %s", text_, (points)->n, (points)->dim, why_);                              \
+    } while (0)
+
+static inline double param_of(const koksma_spec *spec, const char *name, double fallback)
+{
+    for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {
+        if (!strcmp(spec->pattern->params[k].name, name)) {
+            return spec->params[k];
+        }
+    }
+    return fallback;
+}
+
+/* The stratum of x among m, bounded by the doubles nearest to j/m. */
+static inline size_t stratum(double x, size_t m)
+{
+    size_t j = (size_t)(x * (double)m);
+    while (j > 0 && x < (double)j / (double)m) {
+        j--;
+    }
+    while (j + 1 < m && x >= (double)(j + 1) / (double)m) {
+        j++;
+    }
+    return j;
+}
+
+/* The first n points: one in each cell of a grid that has m[k] cells along coordinate use[k]. */
+static inline bool one_in_each(const koksma_points *points, size_t n, const int *use, const size_t *m, int count)
+{
+    unsigned char *seen = calloc(n, 1);
+    bool ok = true;
+    for (size_t i = 0; i < n && ok; i++) {
+        size_t cell = 0;
+        for (int k = 0; k < count; k++) {
+            cell = cell * m[k] + stratum(points->xs[i * (size_t)points->dim + (size_t)use[k]], m[k]);
+        }
+        ok = cell < n && !seen[cell];
+        seen[cell < n ? cell : 0] = 1;
+    }
+    free(seen);
+    return ok;
+}
+
+static inline size_t root_of(size_t n, int power)
+{
+    for (size_t m = 1;; m++) {
+        size_t product = 1;
+        for (int k = 0; k < power; k++) {
+            product *= m;
+        }
+        if (product >= n) {
+            return product == n ? m : 0;
+        }
+    }
+}
+
+static void check_deterministic(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    if (spec->pattern->params && param_of(spec, "scramble", 0) > 0) {
+        return;
+    }
+    koksma_points other;
+    assert_ok(koksma_points_init(&other, points->n, points->dim));
+    assert_ok(koksma_generate(spec, seed + 1, NULL, &other));
+    if (memcmp(other.xs, points->xs, points->n * (size_t)points->dim * sizeof *points->xs)) {
+        fail_claim(spec, points, "the seed matters");
+    }
+    koksma_points_fini(&other);
+}
+
+static void check_sequence(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    const size_t ks[] = {1, points->n / 2, points->n - 1};
+    for (int t = 0; t < 3; t++) {
+        koksma_points prefix;
+        if (ks[t] == 0) {
+            continue;
+        }
+        assert_ok(koksma_points_init(&prefix, ks[t], points->dim));
+        assert_ok(koksma_generate(spec, seed, NULL, &prefix));
+        if (memcmp(prefix.xs, points->xs, ks[t] * (size_t)points->dim * sizeof *points->xs)) {
+            fail_claim(spec, points, "its first %zu points are not the set of %zu", ks[t], ks[t]);
+        }
+        koksma_points_fini(&prefix);
+    }
+}
+
+static void check_any_n(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)spec, (void)points, (void)seed; /* the walk fails on a refusal */
+}
+
+static void check_stratified(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const size_t m = root_of(points->n, points->dim);
+    const bool centred = spec->pattern->claims & KOKSMA_CLAIM_CENTRED;
+    for (size_t i = 0; i < points->n && m; i++) {
+        size_t rest = i;
+        for (int k = points->dim - 1; k >= 0; k--, rest /= m) {
+            const double x = points->xs[i * (size_t)points->dim + (size_t)k];
+            const double place = x * (double)m - (double)(rest % m);
+            if (stratum(x, m) != rest % m || (centred && (place < 0.25 - 1e-6 || place > 0.75 + 1e-6))) {
+                fail_claim(spec, points, "point %zu is not in its cell", i);
+            }
+        }
+    }
+}
+
+static void check_latin(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    for (int k = 0; k < points->dim; k++) {
+        if (!one_in_each(points, points->n, &k, &points->n, 1)) {
+            fail_claim(spec, points, "coordinate %d is not Latin", k);
+        }
+    }
+}
+
+static void check_latin_prefixes(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    for (int k = 0; k < points->dim; k++) {
+        for (size_t m = 1; m <= points->n; m *= koksma__prime(k)) {
+            if (!one_in_each(points, m, &k, &m, 1)) {
+                fail_claim(spec, points, "the first %zu points are not Latin in coordinate %d", m, k);
+            }
+        }
+    }
+}
+
+static void check_grid(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const size_t m = root_of(points->n, 2), ms[2] = {m, m};
+    const int use[2] = {0, 1};
+    if (points->dim == 2 && m && !one_in_each(points, points->n, use, ms, 2)) {
+        fail_claim(spec, points, "not one point in each cell");
+    }
+}
+
+static inline bool is_net2(const koksma_points *points, size_t n)
+{
+    const int use[2] = {0, 1};
+    bool ok = true;
+    for (size_t a = 1; a <= n && ok; a *= 2) {
+        const size_t ms[2] = {a, n / a};
+        ok = one_in_each(points, n, use, ms, 2);
+    }
+    return ok;
+}
+
+static void check_net2(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    if (points->dim == 2 && !(points->n & (points->n - 1)) && !is_net2(points, points->n)) {
+        fail_claim(spec, points, "not a (0,m,2)-net in base 2");
+    }
+}
+
+static void check_net2_prefixes(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    for (size_t n = 1; points->dim == 2 && n <= points->n; n *= 2) {
+        if (!is_net2(points, n)) {
+            fail_claim(spec, points, "the first %zu points are not a (0,m,2)-net in base 2", n);
+        }
+    }
+}
+
+/* All ways of writing n = b^m as a product of powers of b along the coordinates. */
+static inline bool is_net(const koksma_points *points, size_t n, size_t b, int *use, size_t *ms, int k, size_t left)
+{
+    if (k == points->dim - 1) {
+        use[k] = k;
+        ms[k] = left;
+        return one_in_each(points, n, use, ms, points->dim);
+    }
+    bool ok = true;
+    for (size_t a = 1; a <= left && ok; a *= b) {
+        use[k] = k;
+        ms[k] = a;
+        ok = is_net(points, n, b, use, ms, k + 1, left / a);
+    }
+    return ok;
+}
+
+static void check_net_prefixes(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    int use[8];
+    size_t ms[8], b = 2;
+    if (points->dim > 7) {
+        return;
+    }
+    for (int k = 1; b < (size_t)points->dim; k++) {
+        b = koksma__prime(k);
+    }
+    for (size_t n = 1; n <= points->n; n *= b) {
+        if (!is_net(points, n, b, use, ms, 0, n)) {
+            fail_claim(spec, points, "the first %zu points are not a (0,m,%d)-net in base %zu", n, points->dim, b);
+        }
+    }
+}
+
+static void check_oa2(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const size_t s = root_of(points->n, 2), ms[2] = {s, s};
+    for (int a = 0; a < points->dim && s > 1 && param_of(spec, "strength", 2) == 2; a++) {
+        for (int b = 0; b < a; b++) {
+            const int use[2] = {a, b};
+            if (!one_in_each(points, points->n, use, ms, 2)) {
+                fail_claim(spec, points, "coordinates %d and %d do not have one point in each cell", b, a);
+            }
+        }
+    }
+}
+
+static void check_oa3(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const size_t s = root_of(points->n, 3), ms[3] = {s, s, s};
+    for (int a = 0; a < points->dim && s > 1 && param_of(spec, "strength", 2) == 3; a++) {
+        for (int b = 0; b < a; b++) {
+            for (int c = 0; c < b; c++) {
+                const int use[3] = {a, b, c};
+                if (!one_in_each(points, points->n, use, ms, 3)) {
+                    fail_claim(spec, points, "coordinates %d, %d and %d lack a cell", c, b, a);
+                }
+            }
+        }
+    }
+}
+
+static inline double gap(double a, double b, bool torus)
+{
+    const double t = fabs(a - b);
+    return torus && t > 0.5 ? 1 - t : t;
+}
+
+static inline double smallest_distance(const koksma_points *points, bool torus)
+{
+    double best = INFINITY;
+    const size_t dim = (size_t)points->dim;
+    for (size_t i = 0; i < points->n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < dim; k++) {
+                const double t = gap(points->xs[i * dim + k], points->xs[j * dim + k], torus);
+                sum += t * t;
+            }
+            best = sum < best ? sum : best;
+        }
+    }
+    return sqrt(best);
+}
+
+static void check_min_distance(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const double d = param_of(spec, "d", 0);
+    if (points->n > 1 && smallest_distance(points, param_of(spec, "torus", 1) != 0) < d * (1 - 1e-12)) {
+        fail_claim(spec, points, "two points are closer than %g", d);
+    }
+}
+
+static void check_fraction(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const double f = param_of(spec, "f", 0), densest = koksma__packing_distance(points->n, 2, true);
+    if (points->n > 1 && smallest_distance(points, true) < f * densest * (1 - 1e-12)) {
+        fail_claim(spec, points, "two points are closer than %g of the densest packing's distance", f);
+    }
+}
+
+/* The largest hole of the torus is at a corner of the Voronoi diagram; a fine grid of places, each allowed half of
+   the grid's diagonal, finds any hole that is worth the name. */
+static void check_maximal(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    enum { GRID = 150 };
+    if (points->n < 16) {
+        return;
+    }
+    const double d = smallest_distance(points, true);
+    for (int a = 0; a < GRID * GRID; a++) {
+        const double x = (a / GRID + 0.5) / GRID, y = (a % GRID + 0.5) / GRID;
+        double best = INFINITY;
+        for (size_t i = 0; i < points->n && best > d * d; i++) {
+            const double u = gap(points->xs[2 * i], x, true), v = gap(points->xs[2 * i + 1], y, true);
+            best = fmin(best, u * u + v * v);
+        }
+        if (best > d * d * (1 + 1e-9)) {
+            fail_claim(spec, points, "there is room at (%g, %g)", x, y);
+        }
+    }
+}
+
+static void check_lattice(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const size_t n = points->n, dim = (size_t)points->dim;
+    for (size_t i = 0; i < n && n <= 64; i++) {
+        for (size_t j = 0; j < n; j++) {
+            bool found = false;
+            for (size_t l = 0; l < n && !found; l++) {
+                found = true;
+                for (size_t k = 0; k < dim && found; k++) {
+                    const double t =
+                        points->xs[i * dim + k] + points->xs[j * dim + k] - points->xs[k] - points->xs[l * dim + k];
+                    found = fabs(t - floor(t + 0.5)) < 1e-9;
+                }
+            }
+            if (!found) {
+                fail_claim(spec, points, "points %zu and %zu do not add up to a point", i, j);
+            }
+        }
+    }
+}
+
+static void check_blue(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    (void)seed;
+    const double rho = smallest_distance(points, true) / koksma__packing_distance(points->n, 2, true);
+    if (points->dim == 2 && points->n >= 64 && !(rho > 0.5)) {
+        fail_claim(spec, points, "the smallest distance is %.3f of the densest packing's", rho);
+    }
+}
+
+/* Mean over sets of the fraction of points in a box, and of the first point's coordinate, in standard errors. */
+static void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only)
+{
+    enum { SETS = 120 };
+    const double side[2] = {0.37, 0.61};
+    double sum = 0, square = 0;
+    if (points->n > 32 || points->n < 4 || points->dim > 3 || seed != 0) {
+        return;
+    }
+    koksma_points other;
+    assert_ok(koksma_points_init(&other, points->n, points->dim));
+    for (uint64_t s = 0; s < SETS; s++) {
+        double inside = 0;
+        if (koksma_generate(spec, 1000 + s, NULL, &other)) {
+            fail_claim(spec, points, "seed %d: %s", (int)(1000 + s), koksma_error_text());
+        }
+        const size_t n = first_only ? 1 : other.n;
+        for (size_t i = 0; i < n; i++) {
+            bool in = true;
+            for (int k = 0; k < other.dim; k++) {
+                in = in && other.xs[i * (size_t)other.dim + (size_t)k] < side[k % 2];
+            }
+            inside += in ? 1.0 / (double)n : 0;
+        }
+        sum += inside;
+        square += inside * inside;
+    }
+    double volume = 1;
+    for (int k = 0; k < points->dim; k++) {
+        volume *= side[k % 2];
+    }
+    const double mean = sum / SETS, variance = fmax(square / SETS - mean * mean, 1e-6);
+    if (fabs(mean - volume) > 4.5 * sqrt(variance / SETS) + 1e-3) {
+        fail_claim(spec, points, "a box of volume %.4f holds %.4f of the points in the mean", volume, mean);
+    }
+    koksma_points_fini(&other);
+}
+
+static void check_unbiased(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    check_means(spec, points, seed, false);
+}
+
+static void check_exchangeable(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    check_means(spec, points, seed, true);
+}
+
+static const struct {
+    unsigned claim;
+    claim_check check;
+} claims[] = {
+    {KOKSMA_CLAIM_DETERMINISTIC, check_deterministic},
+    {KOKSMA_CLAIM_SEQUENCE, check_sequence},
+    {KOKSMA_CLAIM_ANY_N, check_any_n},
+    {KOKSMA_CLAIM_STRATIFIED, check_stratified},
+    {KOKSMA_CLAIM_LATIN, check_latin},
+    {KOKSMA_CLAIM_UNBIASED, check_unbiased},
+    {KOKSMA_CLAIM_EXCHANGEABLE, check_exchangeable},
+    {KOKSMA_CLAIM_MIN_DISTANCE, check_min_distance},
+    {KOKSMA_CLAIM_GRID, check_grid},
+    {KOKSMA_CLAIM_NET2, check_net2},
+    {KOKSMA_CLAIM_NET2_PREFIXES, check_net2_prefixes},
+    {KOKSMA_CLAIM_NET_PREFIXES, check_net_prefixes},
+    {KOKSMA_CLAIM_OA2, check_oa2},
+    {KOKSMA_CLAIM_OA3, check_oa3},
+    {KOKSMA_CLAIM_FRACTION, check_fraction},
+    {KOKSMA_CLAIM_MAXIMAL, check_maximal},
+    {KOKSMA_CLAIM_LATTICE, check_lattice},
+    {KOKSMA_CLAIM_BLUE, check_blue},
+    {KOKSMA_CLAIM_LATIN_PREFIXES, check_latin_prefixes},
+};
+
+enum { n_claims = sizeof claims / sizeof *claims };
+
+#endif

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Walks the table of patterns: the laws that all of them obey, then the test of each claim for every pattern that
+   makes it, for several n, dimensions and seeds. tests/claims/claims.h has the tests of single claims. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "claims/claims.h"
+#include "test.h"
+
+static const size_t counts[] = {1, 2, 3, 4, 7, 8, 9, 16, 17, 25, 27, 32, 49, 64, 121, 125, 128, 256, 625, 1024};
+enum { N_COUNTS = sizeof counts / sizeof *counts };
+static const int dims[] = {1, 2, 3, 4, 5, 7, 12, 40};
+enum { N_DIMS = sizeof dims / sizeof *dims, SEEDS = 2 };
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The specs to test of a pattern: with its defaults, and with each choice of its parameters. */
+static size_t specs_of(const koksma_pattern *p, koksma_spec *specs, size_t room)
+{
+    size_t count = 1;
+    assert_ok(koksma_pattern_spec(p->name, &specs[0]));
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        for (int c = 0; p->params[k].choices && p->params[k].choices[c] && count < room; c++) {
+            if (c != (int)p->params[k].fallback) {
+                specs[count] = specs[0];
+                specs[count++].params[k] = c;
+            }
+        }
+    }
+    return count;
+}
+
+static void assert_refusal(const koksma_spec *spec, koksma_status status)
+{
+    char text[KOKSMA_MAX_SPEC];
+    koksma_spec_text(spec, text);
+    const char *said = koksma_error_text();
+    if (status != KOKSMA_N && status != KOKSMA_IMPOSSIBLE && status != KOKSMA_ARGUMENT && status != KOKSMA_DIM) {
+        fail_msg("%s: status %d: %s", text, (int)status, said);
+    }
+    if (koksma_status_exit_code(status) != 2 || !strstr(said, spec->pattern->name) || strchr(said, '\n') ||
+        !strpbrk(said, "0123456789")) {
+        fail_msg("%s refused with '%s'", text, said);
+    }
+}
+
+static void assert_common(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    char text[KOKSMA_MAX_SPEC];
+    koksma_spec_text(spec, text);
+    const size_t count = points->n * (size_t)points->dim;
+    for (size_t i = 0; i < count; i++) {
+        if (!(points->xs[i] >= 0 && points->xs[i] < 1)) {
+            fail_msg("%s: n = %zu: coordinate %.17g", text, points->n, points->xs[i]);
+        }
+    }
+    koksma_points again;
+    const koksma_run run = {.threads = 3};
+    assert_ok(koksma_points_init(&again, points->n, points->dim));
+    memset(again.xs, 0x5a, count * sizeof *again.xs); /* what was there must not matter */
+    assert_ok(koksma_generate(spec, seed, &run, &again));
+    if (memcmp(again.xs, points->xs, count * sizeof *again.xs)) {
+        fail_msg("%s: n = %zu, dim = %d: the same seed gave other bits", text, points->n, points->dim);
+    }
+    koksma_points_fini(&again);
+}
+
+static void check_set(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    assert_common(spec, points, seed);
+    for (size_t c = 0; c < n_claims; c++) {
+        if (spec->pattern->claims & claims[c].claim) {
+            claims[c].check(spec, points, seed);
+        }
+    }
+}
+
+static bool walk(const koksma_spec *spec, int dim)
+{
+    bool served = false;
+    const double start = now_s();
+    for (size_t c = 0; c < N_COUNTS && now_s() - start < 0.3; c++) {
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
+            const koksma_run run = {.threads = 1};
+            koksma_points points;
+            assert_ok(koksma_points_init(&points, counts[c], dim));
+            const koksma_status status = koksma_generate(spec, seed * 977, &run, &points);
+            if (!status) {
+                served = true;
+                check_set(spec, &points, seed * 977);
+            } else {
+                assert_refusal(spec, status);
+                if (spec->pattern->claims & KOKSMA_CLAIM_ANY_N) {
+                    fail_msg("%s claims any n: %s", spec->pattern->name, koksma_error_text());
+                }
+            }
+            koksma_points_fini(&points);
+        }
+    }
+    return served;
+}
+
+static void patterns_keep_their_claims(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        koksma_spec specs[16];
+        if (p->takes_path || p->alias_of) {
+            continue;
+        }
+        const size_t n_specs = specs_of(p, specs, 16);
+        for (size_t s = 0; s < n_specs; s++) {
+            bool served = false;
+            for (size_t d = 0; d < N_DIMS; d++) {
+                if (dims[d] >= p->min_dim && dims[d] <= p->max_dim) {
+                    served |= walk(&specs[s], dims[d]);
+                }
+            }
+            if (!served) {
+                fail_msg("%s served no n at all: %s", p->name, koksma_error_text());
+            }
+        }
+    }
+}
+
+/* Sets large enough for several blocks, of the patterns that are fast enough. */
+static void large_sets_are_equal_on_any_threads(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        koksma_spec specs[16];
+        if (p->takes_path || p->alias_of) {
+            continue;
+        }
+        const size_t n_specs = specs_of(p, specs, 16);
+        for (size_t s = 0; s < n_specs; s++) {
+            const int dim = p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? 1 : 2;
+            koksma_points points;
+            const koksma_run run = {.threads = 1};
+            assert_ok(koksma_points_init(&points, 1024, dim));
+            const double start = now_s();
+            const koksma_status small = koksma_generate(&specs[s], 5, &run, &points);
+            koksma_points_fini(&points);
+            if (small || now_s() - start > 0.01) {
+                continue;
+            }
+            assert_ok(koksma_points_init(&points, 147456, dim)); /* 384^2 */
+            if (!koksma_generate(&specs[s], 5, &run, &points)) {
+                assert_common(&specs[s], &points, 5);
+            }
+            koksma_points_fini(&points);
+        }
+    }
+}
+
+static void shift_moves_all_points_alike(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        koksma_spec spec, shifted;
+        char text[KOKSMA_MAX_SPEC];
+        if (p->takes_path || p->alias_of) {
+            continue;
+        }
+        snprintf(text, sizeof text, "%s:shift=1", p->name);
+        assert_ok(koksma_pattern_spec(p->name, &spec));
+        assert_ok(koksma_pattern_spec(text, &shifted));
+        koksma_spec_text(&shifted, text);
+        assert_non_null(strstr(text, "shift=1"));
+        const int dim = p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? 1 : 2;
+        koksma_points a, b;
+        assert_ok(koksma_points_init(&a, 16, dim));
+        assert_ok(koksma_points_init(&b, 16, dim));
+        if (!koksma_generate(&spec, 3, NULL, &a)) {
+            assert_ok(koksma_generate(&shifted, 3, NULL, &b));
+            for (size_t j = 0; j < 16 * (size_t)dim; j++) {
+                const double u = b.xs[j] - a.xs[j] - (b.xs[j % (size_t)dim] - a.xs[j % (size_t)dim]);
+                assert_true(b.xs[j] >= 0 && b.xs[j] < 1);
+                assert_near(u - floor(u + 0.5), 0, 1e-12);
+            }
+        }
+        koksma_points_fini(&a);
+        koksma_points_fini(&b);
+    }
+}
+
+static void wrong_arguments_are_refused(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        koksma_spec spec;
+        koksma_points points;
+        char text[KOKSMA_MAX_SPEC];
+        if (p->takes_path) {
+            continue;
+        }
+        snprintf(text, sizeof text, "%s:nosuch=1", p->name);
+        assert_int_equal(koksma_pattern_spec(text, &spec), KOKSMA_ARGUMENT);
+        snprintf(text, sizeof text, "%s:shift=2", p->name);
+        assert_int_equal(koksma_pattern_spec(text, &spec), KOKSMA_ARGUMENT);
+        assert_ok(koksma_pattern_spec(p->name, &spec));
+        const int outside[] = {p->min_dim - 1, p->max_dim + 1};
+        for (int k = 0; k < 2; k++) {
+            if (outside[k] >= 1 && outside[k] <= KOKSMA_MAX_DIM) {
+                assert_ok(koksma_points_init(&points, 16, outside[k]));
+                const koksma_status status = koksma_generate(&spec, 0, NULL, &points);
+                assert_int_equal(status, KOKSMA_DIM);
+                assert_refusal(&spec, status);
+                koksma_points_fini(&points);
+            }
+        }
+        for (int k = 0; p->params && p->params[k].name; k++) {
+            const double bad[] = {p->params[k].min - 1, p->params[k].max + 1, NAN};
+            for (int b = 0; b < 3; b++) {
+                koksma_spec wrong = spec;
+                wrong.params[k] = bad[b];
+                assert_ok(koksma_points_init(&points, 16, p->min_dim));
+                assert_int_equal(koksma_generate(&wrong, 0, NULL, &points), KOKSMA_ARGUMENT);
+                koksma_points_fini(&points);
+            }
+        }
+    }
+}
+
+static void aliases_are_their_patterns(void **state)
+{
+    (void)state;
+    const koksma_pattern *p;
+    size_t aliases = 0;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        koksma_spec spec;
+        char text[KOKSMA_MAX_SPEC];
+        if (p->alias_of) {
+            aliases++;
+            assert_non_null(koksma_pattern_find(p->alias_of));
+            assert_ok(koksma_pattern_spec(p->name, &spec));
+            koksma_spec_text(&spec, text);
+            assert_string_equal(text, p->alias_of);
+            assert_int_equal(p->claims, koksma_pattern_find(p->alias_of)->claims);
+        }
+    }
+    assert_true(aliases >= 1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(patterns_keep_their_claims),   cmocka_unit_test(large_sets_are_equal_on_any_threads),
+        cmocka_unit_test(shift_moves_all_points_alike), cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(aliases_are_their_patterns),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

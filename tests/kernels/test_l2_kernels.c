@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The pair sums of the L2 discrepancies against their twin; the fast forms agree with each other bit for bit. */
+#include "kernels/kernels.h"
+#include "sets.h"
+
+enum { MAX = 300, DIM = 5 };
+
+static void pairs_equal_reference(void **state)
+{
+    (void)state;
+    double u[MAX * DIM], g[MAX * DIM], expected[2], got[2], first[2];
+    for (size_t i = 0; i < MAX * DIM; i++) {
+        u[i] = sets_unit(1, i);
+        g[i] = sets_unit(2, i) - 0.3;
+    }
+    for (size_t n = 1; n <= MAX; n += 1 + n / 6) {
+        const int dim = 1 + (int)(n % DIM);
+        koksma__kernels_find("ref")->l2_pairs(n / 3, n, n, dim, u, g, -0.75, 0.5, expected);
+        koksma__kernels_find("baseline")->l2_pairs(n / 3, n, n, dim, u, g, -0.75, 0.5, first);
+        assert_near(expected[0] + expected[1], first[0] + first[1], 1e-15 * (double)(n * n));
+        for (int isa = 0; isa < 2; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isa ? "avx2" : "avx512");
+            if (fast) {
+                fast->l2_pairs(n / 3, n, n, dim, u, g, -0.75, 0.5, got);
+                assert_memory_equal(first, got, sizeof got);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_equal_reference)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

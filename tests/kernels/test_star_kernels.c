@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The kernels of the star discrepancy against their twins: maxima of the same numbers, to rounding of the share. */
+#include "kernels/kernels.h"
+#include "sets.h"
+
+enum { MAX = 100 };
+
+static const char *const isas[] = {"baseline", "avx2", "avx512"};
+
+static void sweep_equals_reference(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    double x[MAX], y[MAX + 1], count[MAX + 1];
+    uint32_t rank[MAX];
+    for (size_t n = 1; n <= MAX; n++) {
+        koksma__random_permutation(n, 0, (uint32_t)n, rank);
+        for (size_t i = 0; i < n; i++) {
+            x[i] = ((double)i + sets_unit(n, i)) / (double)n;
+            y[i] = ((double)i + sets_unit(n, n + i)) / (double)n;
+        }
+        y[n] = 1;
+        double a[2], b[2];
+        size_t at_a[2], at_b[2];
+        ref->star_sweep(n, x, rank, y, count, a, at_a);
+        for (size_t isa = 0; isa < 3; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+            if (fast) {
+                fast->star_sweep(n, x, rank, y, count, b, at_b);
+                assert_memory_equal(a, b, sizeof a);
+                assert_memory_equal(at_a, at_b, sizeof at_a);
+            }
+        }
+    }
+}
+
+static void partition_equals_reference(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    double a[2][MAX], b[2][MAX], r[2][2 * MAX], f[2][2 * MAX];
+    for (size_t i = 0; i < 2 * MAX; i++) {
+        (i % 2 ? a : b)[0][i / 2] = sets_unit(1, i);
+        (i % 2 ? a : b)[1][i / 2] = sets_unit(2, i);
+    }
+    const double *const as[2] = {a[0], a[1]}, *const bs[2] = {b[0], b[1]};
+    for (size_t na = 1; na <= MAX; na += 1 + na / 4) {
+        for (size_t nb = 1; nb <= MAX; nb += 1 + nb / 7) {
+            double best_r[2], best_f[2];
+            ref->star_extremes(na, as, nb, bs, (double *const[]){r[0], r[1]});
+            ref->star_pairs(na, as, nb, bs, 300, 7, best_r);
+            for (size_t isa = 0; isa < 3; isa++) {
+                const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+                if (fast) {
+                    fast->star_extremes(na, as, nb, bs, (double *const[]){f[0], f[1]});
+                    assert_memory_equal(r[0], f[0], (na + nb - 1) * sizeof(double));
+                    assert_memory_equal(r[1], f[1], (na + nb - 1) * sizeof(double));
+                    fast->star_pairs(na, as, nb, bs, 300, 7, best_f);
+                    assert_near(best_r[0], best_f[0], 1e-15);
+                    assert_near(best_r[1], best_f[1], 1e-15);
+                }
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sweep_equals_reference),
+        cmocka_unit_test(partition_equals_reference),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The L2 discrepancies against their definitions, integrated cell by cell; their kernels against each other; the two
+   ways to compute them; digits at large n against 128-bit sums and a closed form; threads. */
+#include <string.h>
+
+#include "measures/parts/l2.h"
+#include "sets.h"
+
+__extension__ typedef __float128 quad;
+
+static const char *const names[KOKSMA__L2_KINDS] = {
+    [KOKSMA__L2_STAR] = "l2-star",         [KOKSMA__L2_EXTREME] = "l2-extreme",
+    [KOKSMA__L2_PERIODIC] = "l2-periodic", [KOKSMA__L2_WRAPAROUND] = "l2-wraparound",
+    [KOKSMA__L2_MODIFIED] = "l2-modified", [KOKSMA__L2_CENTERED] = "l2-centered",
+    [KOKSMA__L2_MIXTURE] = "l2-mixture",   [KOKSMA__L2_SYMMETRIC] = "l2-symmetric",
+};
+
+/* The kernels as the literature writes them. */
+static double kernel(int kind, double u, double v)
+{
+    const double t = fabs(u - v), h = fabs(u - 0.5), k = fabs(v - 0.5);
+    switch (kind) {
+    case KOKSMA__L2_STAR:
+        return 1 - fmax(u, v);
+    case KOKSMA__L2_EXTREME:
+        return (1 - fmax(u, v)) * fmin(u, v);
+    case KOKSMA__L2_PERIODIC:
+        return 0.5 - t + t * t;
+    case KOKSMA__L2_WRAPAROUND:
+        return 1.5 - t + t * t;
+    case KOKSMA__L2_MODIFIED:
+        return 2 - fmax(u, v);
+    case KOKSMA__L2_CENTERED:
+        return 1 + h / 2 + k / 2 - t / 2;
+    case KOKSMA__L2_MIXTURE:
+        return 15.0 / 8 - h / 4 - k / 4 - 0.75 * t + t * t / 2;
+    default:
+        return 2 * (1 - t);
+    }
+}
+
+/* Simpson's rule is exact on each piece: the kernels are quadratic between their kinks. */
+static double integral_of_kernel(int kind, double u)
+{
+    const double cuts[4] = {0, fmin(u, 0.5), fmax(u, 0.5), 1};
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        const double a = cuts[c], b = cuts[c + 1];
+        sum += (b - a) / 6 * (kernel(kind, u, a) + 4 * kernel(kind, u, (a + b) / 2) + kernel(kind, u, b));
+    }
+    return sum;
+}
+
+static void table_is_consistent(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KOKSMA__L2_KINDS; kind++) {
+        const koksma__l2_row *row = &koksma__l2_rows[kind];
+        double c = 0;
+        for (int i = 0; i <= 64; i++) {
+            const double u = i / 64.0, a = koksma__l2_polynomial(row->a24, u) / 24;
+            assert_near(a, integral_of_kernel(kind, u), 1e-15);
+            c += a * (i == 0 || i == 64 ? 1 : i % 2 ? 4 : 2) / 192;
+            for (int j = 0; j <= 64; j++) {
+                const double v = j / 64.0, t = fabs(u - v);
+                const double k =
+                    koksma__l2_polynomial(row->g, u) + koksma__l2_polynomial(row->g, v) + row->q * t + row->r * t * t;
+                assert_near(k, kernel(kind, u, v), 1e-15);
+            }
+        }
+        assert_near(c, row->c12 / 12, 4e-15);
+    }
+}
+
+/* A set of intervals with weights, which integrates quadratics in the ends exactly. */
+typedef struct intervals {
+    double lo[4096], hi[4096], weight[4096];
+    bool outside[4096]; /* the interval wraps around: it is all but [hi, lo) */
+    int count;
+} intervals;
+
+static const double gauss[2] = {0.21132486540518712, 0.78867513459481288};
+
+static void put(intervals *v, double lo, double hi, bool outside, double weight)
+{
+    v->lo[v->count] = lo;
+    v->hi[v->count] = hi;
+    v->outside[v->count] = outside;
+    v->weight[v->count++] = weight;
+}
+
+/* Kind star: [0, y); extreme: lo < hi; periodic: both ends uniform, wrapping; centered: from the nearest corner. */
+static void fill_intervals(intervals *v, int kind, const koksma_points *p, int k)
+{
+    double cuts[32] = {0, 0.5, 1};
+    int n = 3;
+    for (size_t i = 0; i < p->n; i++) {
+        int at = n++;
+        const double x = p->xs[i * (size_t)p->dim + (size_t)k];
+        for (; at > 0 && cuts[at - 1] > x; at--) {
+            cuts[at] = cuts[at - 1];
+        }
+        cuts[at] = x;
+    }
+    v->count = 0;
+    for (int a = 0; a + 1 < n; a++) {
+        const double at = cuts[a], width = cuts[a + 1] - at;
+        for (int s = 0; s < 4 && width > 0; s++) {
+            const double y = at + gauss[s % 2] * width;
+            if (kind == KOKSMA__L2_STAR && s < 2) {
+                put(v, 0, y, false, width / 2);
+            } else if (kind == KOKSMA__L2_CENTERED && s < 2) {
+                put(v, y > 0.5 ? y : 0, y > 0.5 ? 1 : y, false, width / 2);
+            } else if (kind == KOKSMA__L2_EXTREME || kind == KOKSMA__L2_PERIODIC) {
+                /* both ends in this cell: the triangle, by (s, s t) */
+                const double lo = at + gauss[s % 2] * gauss[s / 2] * width, w = width * width * gauss[s % 2] / 4;
+                put(v, lo, y, false, w);
+                if (kind == KOKSMA__L2_PERIODIC) {
+                    put(v, y, lo, true, w);
+                }
+                for (int b = a + 1; b + 1 < n; b++) {
+                    const double other = cuts[b + 1] - cuts[b], hi = cuts[b] + gauss[s / 2] * other;
+                    if (other > 0) {
+                        put(v, y, hi, false, width * other / 4);
+                        if (kind == KOKSMA__L2_PERIODIC) {
+                            put(v, hi, y, true, width * other / 4);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+static bool holds(const intervals *v, int i, double x)
+{
+    return v->outside[i] ? x < v->hi[i] || x >= v->lo[i] : x >= v->lo[i] && (x < v->hi[i] || v->hi[i] == 1);
+}
+
+static double length(const intervals *v, int i)
+{
+    return v->outside[i] ? 1 - (v->lo[i] - v->hi[i]) : v->hi[i] - v->lo[i];
+}
+
+/* The integral of (share - volume)^2 over products of intervals. */
+static double square_2d(int kind, const koksma_points *p)
+{
+    static intervals x, y;
+    fill_intervals(&x, kind, p, 0);
+    fill_intervals(&y, kind, p, 1);
+    double sum = 0;
+    for (int a = 0; a < x.count; a++) {
+        for (int b = 0; b < y.count; b++) {
+            double inside = 0;
+            for (size_t i = 0; i < p->n; i++) {
+                inside += holds(&x, a, p->xs[2 * i]) && holds(&y, b, p->xs[2 * i + 1]);
+            }
+            const double deviation = inside / (double)p->n - length(&x, a) * length(&y, b);
+            sum += x.weight[a] * y.weight[b] * deviation * deviation;
+        }
+    }
+    return sum;
+}
+
+static double square_1d(int kind, const koksma_points *p, int k)
+{
+    static intervals x;
+    fill_intervals(&x, kind, p, k);
+    double sum = 0;
+    for (int a = 0; a < x.count; a++) {
+        double inside = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            inside += holds(&x, a, p->xs[2 * i + (size_t)k]);
+        }
+        const double deviation = inside / (double)p->n - length(&x, a);
+        sum += x.weight[a] * deviation * deviation;
+    }
+    return sum;
+}
+
+static void values_are_the_integrals(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 180; s++) {
+        koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 5, 2, s % SETS_KINDS, (uint64_t)s);
+        const double star = square_2d(KOKSMA__L2_STAR, &p), extreme = square_2d(KOKSMA__L2_EXTREME, &p);
+        const double periodic = square_2d(KOKSMA__L2_PERIODIC, &p), centered = square_2d(KOKSMA__L2_CENTERED, &p);
+        double modified = star, wrap = periodic, all_centered = centered;
+        for (int k = 0; k < 2; k++) {
+            modified += square_1d(KOKSMA__L2_STAR, &p, k);
+            wrap += square_1d(KOKSMA__L2_PERIODIC, &p, k);
+            all_centered += square_1d(KOKSMA__L2_CENTERED, &p, k);
+        }
+        assert_near(test_measure("l2-star", &p).square, star, 1e-14);
+        assert_near(test_measure("l2-extreme", &p).square, extreme, 1e-14);
+        assert_near(test_measure("l2-periodic", &p).square, periodic, 1e-14);
+        assert_near(test_measure("l2-modified", &p).square, modified, 1e-14);
+        assert_near(test_measure("l2-wraparound", &p).square, wrap, 1e-14);
+        assert_near(test_measure("l2-centered", &p).square, all_centered, 1e-14);
+        double corners = 0;
+        for (int corner = 0; corner < 4; corner++) {
+            koksma_points q = sets_points(p.n, 2, s % SETS_KINDS, (uint64_t)s);
+            for (size_t i = 0; i < 2 * p.n; i++) {
+                q.xs[i] = corner >> i % 2 & 1 ? 1 - p.xs[i] : p.xs[i];
+            }
+            corners += test_measure("l2-star", &q).square;
+            koksma_points_fini(&q);
+        }
+        assert_near(test_measure("l2-symmetric", &p).square, 16 * corners / 4, 1e-14);
+        koksma_points_fini(&p);
+    }
+}
+
+/* The formula with the literature's kernels in long double; any dimension. */
+static double literal_square(int kind, const koksma_points *p)
+{
+    const double c = koksma__l2_rows[kind].c12 / 12;
+    long double linear = 0, pairs = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        long double a = 1;
+        for (int k = 0; k < p->dim; k++) {
+            a *= (long double)integral_of_kernel(kind, p->xs[i * (size_t)p->dim + (size_t)k]);
+        }
+        linear += a;
+        for (size_t j = 0; j < p->n; j++) {
+            long double product = 1;
+            for (size_t k = 0; k < (size_t)p->dim; k++) {
+                product *= (long double)kernel(kind, p->xs[i * (size_t)p->dim + k], p->xs[j * (size_t)p->dim + k]);
+            }
+            pairs += product;
+        }
+    }
+    const long double n = (long double)p->n;
+    return (double)(powl((long double)c, p->dim) - 2 * linear / n + pairs / n / n);
+}
+
+static void pairs_and_merging_equal_the_formula(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 4 * 6 * 8 * 12; s++) {
+        const int kind = s % KOKSMA__L2_KINDS, dim = 1 + s / 8 % 4;
+        koksma_points p = sets_points(1 + (size_t)s / 190 * 9, dim, s / 32 % SETS_KINDS, (uint64_t)s);
+        const double expected = literal_square(kind, &p), bound = 1e-15 * pow(4, dim);
+        double square;
+        assert_ok(koksma__l2_by_pairs(&koksma__l2_rows[kind], &p, NULL, &square));
+        assert_near(square, expected, bound);
+        if (dim <= 2) {
+            assert_ok(koksma__l2_by_merging(&koksma__l2_rows[kind], &p, NULL, &square));
+            assert_near(square, expected, bound);
+        }
+        koksma_points_fini(&p);
+    }
+}
+
+static void centre_has_known_values(void **state)
+{
+    (void)state;
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, 1, 2));
+    p.xs[0] = p.xs[1] = 0.5;
+    assert_near(test_measure("l2-star", &p).square, 23.0 / 288, 1e-16);
+    assert_near(test_measure("l2-extreme", &p).square, 11.0 / 288, 1e-16);
+    assert_near(test_measure("l2-periodic", &p).square, 5.0 / 36, 1e-16);
+    assert_near(test_measure("l2-centered", &p).square, 25.0 / 144, 1e-15);
+    assert_near(test_measure("l2-wraparound", &p).square, 17.0 / 36, 1e-15);
+    assert_near(test_measure("l2-symmetric", &p).square, 23.0 / 18, 2e-15);
+    p.dim = 1;
+    assert_near(test_measure("l2-modified", &p).square, 1.0 / 12, 1e-15);
+    assert_near(test_measure("l2-mixture", &p).square, 1.0 / 8, 1e-15);
+    p.dim = 2;
+    koksma_points_fini(&p);
+}
+
+static double radical_inverse(unsigned base, unsigned long i)
+{
+    double numerator = 0, denominator = 1;
+    for (; i; i /= base) {
+        numerator = numerator * base + (double)(i % base);
+        denominator *= base;
+    }
+    return numerator / denominator;
+}
+
+/* n^2 S^2 of Hammersley's 2^m points: Halton and Zaremba 1969 (Kritzer and Pillichshammer 2006, without a shift). */
+static void hammersley_keeps_its_digits(void **state)
+{
+    (void)state;
+    for (int m = 4; m <= 18; m += 2) {
+        const double n = exp2(m);
+        koksma_points p;
+        assert_ok(koksma_points_init(&p, (size_t)n, 2));
+        for (size_t i = 0; i < p.n; i++) {
+            p.xs[2 * i] = (double)i / n;
+            p.xs[2 * i + 1] = radical_inverse(2, i);
+        }
+        const double square = (m * m / 64.0 - 19 * m / 192.0 - m * m / 16.0 + m * m / 16.0 + m / 4.0 + 3.0 / 8 +
+                               m / (16 * n) - m / (8 * n) + 1 / (4 * n) - 1 / (72 * n * n)) /
+                              n / n;
+        assert_near(test_measure("l2-star", &p).value / sqrt(square), 1, 1e-13 + (n < 300 ? 1e-11 : 0));
+        koksma_points_fini(&p);
+    }
+}
+
+/* Warnock's formula in 128 bits, pair by pair. */
+static double quad_star(const koksma_points *p)
+{
+    quad linear = 0, pairs = 0;
+    const quad n = (quad)p->n;
+    for (size_t i = 0; i < p->n; i++) {
+        const quad x = p->xs[2 * i], y = p->xs[2 * i + 1];
+        linear += (1 - x * x) * (1 - y * y);
+        pairs += (1 - x) * (1 - y);
+        for (size_t j = 0; j < i; j++) {
+            const quad a = (quad)1 - (quad)fmax(p->xs[2 * i], p->xs[2 * j]);
+            pairs += 2 * a * ((quad)1 - (quad)fmax(p->xs[2 * i + 1], p->xs[2 * j + 1]));
+        }
+    }
+    return sqrt((double)((quad)1 / 9 - linear / (2 * n) + pairs / (n * n)));
+}
+
+static void halton_keeps_its_digits(void **state)
+{
+    (void)state;
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, 2500, 2));
+    for (size_t i = 0; i < p.n; i++) {
+        p.xs[2 * i] = radical_inverse(2, i);
+        p.xs[2 * i + 1] = radical_inverse(3, i);
+    }
+    assert_near(test_measure("l2-star", &p).value / quad_star(&p), 1, 1e-11);
+    koksma_points_fini(&p);
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < KOKSMA__L2_KINDS; kind++) {
+        for (int dim = 2; dim <= 3; dim++) {
+            koksma_points p = test_points("random", dim == 2 ? 40000 : 700, dim, 4);
+            koksma_spec spec;
+            koksma_value one, other;
+            assert_ok(koksma_measure_spec(names[kind], &spec));
+            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
+            for (int threads = 2; threads <= 8; threads += 3) {
+                assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
+                assert_true(one.value == other.value && one.square == other.square);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_is_consistent),
+        cmocka_unit_test(values_are_the_integrals),
+        cmocka_unit_test(pairs_and_merging_equal_the_formula),
+        cmocka_unit_test(centre_has_known_values),
+        cmocka_unit_test(hammersley_keeps_its_digits),
+        cmocka_unit_test(halton_keeps_its_digits),
+        cmocka_unit_test(threads_change_no_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The ways to the star discrepancy against each other, against brute force in four dimensions and against closed
+   forms; bounds when time is short; threads. */
+#include <string.h>
+
+#include "measures/parts/star.h"
+#include "sets.h"
+
+static double radical_inverse(unsigned base, unsigned long i)
+{
+    double numerator = 0, denominator = 1;
+    for (; i; i /= base) {
+        numerator = numerator * base + (double)(i % base);
+        denominator *= base;
+    }
+    return numerator / denominator;
+}
+
+static koksma_points hammersley(size_t n, int dim)
+{
+    static const unsigned primes[] = {2, 3, 5, 7};
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, n, dim));
+    for (size_t i = 0; i < n; i++) {
+        p.xs[i * (size_t)dim] = (double)i / (double)n;
+        for (int k = 1; k < dim; k++) {
+            p.xs[i * (size_t)dim + (size_t)k] = radical_inverse(primes[k - 1], i);
+        }
+    }
+    return p;
+}
+
+static void sweep_equals_kinetic_tree(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 3000; s++) {
+        const size_t n = 1 + (size_t)(s / SETS_KINDS) % 60;
+        koksma_points p = sets_points(n, 2, s % SETS_KINDS, (uint64_t)s);
+        koksma_value sweep = {.value = NAN}, tree = {.value = NAN};
+        assert_ok(koksma__star_2d_by(false, &p, NULL, &sweep));
+        assert_ok(koksma__star_2d_by(true, &p, NULL, &tree));
+        assert_near(sweep.value, tree.value, 1e-15);
+        koksma_points_fini(&p);
+    }
+    for (int kind = 0; kind < SETS_KINDS; kind++) {
+        koksma_points p = sets_points(3000, 2, kind, 5);
+        koksma_value sweep = {.value = NAN}, tree = {.value = NAN};
+        assert_ok(koksma__star_2d_by(false, &p, NULL, &sweep));
+        assert_ok(koksma__star_2d_by(true, &p, NULL, &tree));
+        assert_near(sweep.value, tree.value, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+/* De Clerck 1986: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) for n = 2^m, m >= 2. */
+static void hammersley_has_de_clercks_value(void **state)
+{
+    (void)state;
+    for (int m = 2; m <= 14; m++) {
+        const double n = exp2(m);
+        koksma_points p = hammersley((size_t)n, 2);
+        assert_near(test_measure("star", &p).value, (m / 3.0 + 13.0 / 9 - (m % 2 ? -1 : 1) * 4 / (9 * n)) / n, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+static double brute_4d(const koksma_points *p)
+{
+    double best = 0, n = (double)p->n;
+    const size_t m = p->n + 1;
+    for (size_t code = 0; code < m * m * m * m; code++) {
+        const size_t at[4] = {code % m, code / m % m, code / m / m % m, code / m / m / m};
+        double corner[4], volume = 1;
+        for (size_t k = 0; k < 4; k++) {
+            corner[k] = at[k] < p->n ? p->xs[4 * at[k] + k] : 1;
+            volume *= corner[k];
+        }
+        size_t open = 0, closed = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            bool in_open = true, in_closed = true;
+            for (size_t k = 0; k < 4; k++) {
+                in_open = in_open && p->xs[4 * i + k] < corner[k];
+                in_closed = in_closed && p->xs[4 * i + k] <= corner[k];
+            }
+            open += in_open;
+            closed += in_closed;
+        }
+        best = fmax(best, fmax((double)closed / n - volume, volume - (double)open / n));
+    }
+    return best;
+}
+
+static void four_dimensions_equal_brute_force(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 120; s++) {
+        koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 9, 4, s % SETS_KINDS, (uint64_t)s);
+        assert_near(test_measure("star", &p).value, brute_4d(&p), 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+/* The partition in two dimensions, which `star` does not use there, against the sweep. */
+static void partition_equals_sweep(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 1200; s++) {
+        koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 50, 2, s % SETS_KINDS, (uint64_t)s);
+        koksma_value v = {.value = -1};
+        bool complete;
+        assert_ok(koksma__star_partition(&p, NULL, INFINITY, &v, &complete));
+        assert_true(complete);
+        assert_near(v.value, test_measure("star", &p).value, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("random", 150, 3, 9);
+    koksma_spec spec;
+    koksma_value one, other;
+    assert_ok(koksma_measure_spec("star", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
+    for (int threads = 2; threads <= 8; threads++) {
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
+        assert_memory_equal(&one, &other, sizeof one);
+    }
+    koksma_points_fini(&p);
+}
+
+static void short_time_gives_bounds(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("random", 400, 4, 2);
+    koksma_spec spec;
+    koksma_value exact, cut;
+    assert_ok(koksma_measure_spec("star", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &exact));
+    assert_true(exact.exact && exact.lower == exact.value && exact.upper == exact.value);
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = 0.02}, &cut));
+    assert_true(cut.lower <= exact.value && cut.upper >= exact.value && cut.upper <= 1 && cut.value == cut.lower);
+    koksma_points_fini(&p);
+}
+
+static void search_is_a_lower_bound(void **state)
+{
+    (void)state;
+    int reached = 0;
+    for (int s = 0; s < 60; s++) {
+        koksma_points p = sets_points(1 + (size_t)s / 2, 2 + s % 2, s % SETS_KINDS, (uint64_t)s);
+        const double exact = test_measure("star", &p).value;
+        const koksma_value lower = test_measure("star-lower:steps=200,restarts=2", &p);
+        assert_true(lower.value <= exact && !lower.exact && lower.upper >= exact);
+        reached += lower.value >= exact - 1e-15;
+        koksma_points_fini(&p);
+    }
+    assert_true(reached >= 55);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sweep_equals_kinetic_tree),
+        cmocka_unit_test(hammersley_has_de_clercks_value),
+        cmocka_unit_test(four_dimensions_equal_brute_force),
+        cmocka_unit_test(partition_equals_sweep),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(short_time_gives_bounds),
+        cmocka_unit_test(search_is_a_lower_bound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
