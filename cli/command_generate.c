@@ -1,16 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include <koksma/verify.h>
+
 #include <stdio.h>
 
 #include "cli.h"
 
+/* With -n n points in a set of that size; without, all that the pattern has. */
 static int generate(const cli_arguments *arguments, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                     koksma_points *points)
 {
-    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 64];
-    koksma_status status = koksma_generate(spec, seed, run, points);
+    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
+    koksma_status status = points->n ? koksma_generate(spec, seed, run, points)
+                                     : koksma_generate_whole(spec, seed, run, points->dim, points);
     if (!status) {
         koksma_spec_text(spec, text);
-        snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+        int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+        double distance;
+        if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 && !spec->shift &&
+            !koksma_smallest_distance(points, true, run, &distance)) {
+            snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
+        }
         status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -25,19 +34,22 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2");
     }
-    if (!cli_text(arguments, "n", NULL)) {
-        return cli_usage_error(arguments, "-n N, the number of points, is missing");
-    }
     koksma_status status = koksma_pattern_spec(arguments->operands[0], &spec);
     if (status) {
         return cli_fail(arguments, status);
+    }
+    const bool counted = cli_text(arguments, "n", NULL) != NULL;
+    if (!counted && !spec.pattern->whole) {
+        return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
     if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
         !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
         return CLI_USAGE;
     }
-    status = koksma_points_init(&points, n, (int)dim);
+    const bool given = cli_text(arguments, "dim", NULL) || !spec.pattern->takes_path;
+    points = (koksma_points){.dim = given ? (int)dim : 0};
+    status = counted ? koksma_points_init(&points, n, (int)dim) : KOKSMA_OK;
     if (status) {
         return cli_fail(arguments, status);
     }
@@ -48,7 +60,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'n', "n", "N", "number of points"},
+    {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {'o', "output", "FILE", ".txt, .csv or .npy by its ending (default: text on stdout)"},

@@ -76,6 +76,12 @@ static int run(const cli_arguments *arguments)
     const koksma_status status = reproduce(arguments, arguments->operands[0], folder, trials, &work, rows, &summary);
     cli_work_end(&work);
     const int code = cli_rows_close(rows);
+    if (status == KOKSMA_INTERRUPTED) {
+        fprintf(stderr,
+                "koksma reproduce: interrupted; what is done is kept in %s, and the same command goes on there\n",
+                folder);
+        return koksma_status_exit_code(status);
+    }
     if (status) {
         return cli_fail(arguments, status);
     }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Sums over pairs of points that need an arc cosine, a logarithm or a root. Both functions are polynomials here, so
-   that whole vectors go through them and every instruction set gives the same bits; sums run in a fixed number of
-   lanes. */
+/* Disks on the torus. The arc cosine and the logarithm of their overlaps are polynomials here, so that whole vectors
+   go through them and every instruction set gives the same bits; sums run in a fixed number of lanes. */
 #include <math.h>
 #include <string.h>
 
@@ -11,8 +10,6 @@ enum { LANES = 8 };
 
 double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t count, const double *xs,
                                   const double *ys);
-size_t KERNEL_NAME(disk_count)(double r, double x, double y, size_t count, const double *xs, const double *ys);
-double KERNEL_NAME(distances)(int dim, const double *x, size_t count, size_t stride, const double *xs);
 
 /* (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4], to 2.4e-16: the Chebyshev fit of degree 11. */
 static inline double asin_series(double z)
@@ -123,35 +120,4 @@ double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t 
     default:
         return sum_overlaps(2, 4, r, x, y, count, xs, ys);
     }
-}
-
-size_t KERNEL_NAME(disk_count)(double r, double x, double y, size_t count, const double *xs, const double *ys)
-{
-    uint64_t inside = 0;
-    const double square = r * r;
-    for (size_t j = 0; j < count; j++) {
-        const double ax = fabs(x - xs[j]), ay = fabs(y - ys[j]), bx = 1 - ax, by = 1 - ay;
-        const double a = ax < bx ? ax : bx, b = ay < by ? ay : by;
-        inside += a * a + b * b <= square ? 1u : 0u;
-    }
-    return (size_t)inside;
-}
-
-double KERNEL_NAME(distances)(int dim, const double *x, size_t count, size_t stride, const double *xs)
-{
-    double lanes[LANES] = {0};
-    const double *ys = xs + stride, *zs = dim == 3 ? ys + stride : ys;
-    const double third = dim == 3 ? 1 : 0, z = dim == 3 ? x[2] : 0;
-    size_t j = 0;
-    for (; j + LANES <= count; j += LANES) {
-        for (size_t l = 0; l < LANES; l++) {
-            const double a = x[0] - xs[j + l], b = x[1] - ys[j + l], c = third * (z - zs[j + l]);
-            lanes[l] += sqrt(a * a + b * b + c * c);
-        }
-    }
-    for (; j < count; j++) {
-        const double a = x[0] - xs[j], b = x[1] - ys[j], c = third * (z - zs[j]);
-        lanes[j % LANES] += sqrt(a * a + b * b + c * c);
-    }
-    return sum_lanes(lanes);
 }

@@ -24,9 +24,7 @@ static inline block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint
 {
     block s;
     for (int c = 0; c < CHAINS; c++) {
-        for (int l = 0; l < LANES64; l++) {
-            s.w[0][c][l] = first + (uint64_t)(c * LANES64 + l);
-        }
+        s.w[0][c] = lanes64_count() + splat(first + (uint64_t)(c * LANES64));
         s.w[1][c] = s.w[0][c] >> 32;
         s.w[2][c] = splat(lane);
         s.w[3][c] = splat(purpose);
@@ -66,13 +64,13 @@ void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint3
         double pairs[2 * LANES];
         for (int c = 0; c < CHAINS; c++) {
             const lanes64_d x = unit(r.w[0][c], r.w[1][c]), y = unit(r.w[2][c], r.w[3][c]);
-            for (int l = 0; l < LANES64; l++) {
-                pairs[2 * (c * LANES64 + l)] = x[l];
-                pairs[2 * (c * LANES64 + l) + 1] = y[l];
-            }
+            lanes64_interleave(x, y, pairs + 2 * c * LANES64);
         }
-        const size_t kept = count - done < LANES ? count - done : LANES;
-        memcpy(out + 2 * done, pairs, 2 * kept * sizeof *out);
+        if (count - done >= LANES) {
+            memcpy(out + 2 * done, pairs, sizeof pairs);
+        } else {
+            memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
+        }
     }
 }
 
@@ -80,15 +78,17 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 {
     for (size_t done = 0; done < count; done += LANES) {
         const block r = philox(seed, purpose, first + done, lane);
-        uint32_t quads[4 * LANES];
+        double quads[2 * LANES]; /* as bits */
         for (int c = 0; c < CHAINS; c++) {
-            for (int l = 0; l < LANES64; l++) {
-                for (int k = 0; k < 4; k++) {
-                    quads[4 * (c * LANES64 + l) + k] = (uint32_t)r.w[k][c][l];
-                }
-            }
+            const lanes64_u low = splat(0xffffffffu);
+            const lanes64_u first_two = (r.w[0][c] & low) | (r.w[1][c] << 32); /* in the order of memory */
+            const lanes64_u last_two = (r.w[2][c] & low) | (r.w[3][c] << 32);
+            lanes64_interleave((lanes64_d)first_two, (lanes64_d)last_two, quads + 2 * c * LANES64);
         }
-        const size_t kept = count - done < LANES ? count - done : LANES;
-        memcpy(out + 4 * done, quads, 4 * kept * sizeof *out);
+        if (count - done >= LANES) {
+            memcpy(out + 4 * done, quads, sizeof quads);
+        } else {
+            memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
+        }
     }
 }

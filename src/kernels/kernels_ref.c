@@ -189,6 +189,124 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
     }
 }
 
+/* koksma__in_cell of patterns/parts/cells.h. */
+static double in_cell(double cell, double u, double m)
+{
+    const double x = (cell + u) / m, end = (cell + 1) / m;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    for (size_t i = 0; i < nx * ny; i++) {
+        xs[2 * i] = in_cell((double)(i / ny), start + width * xs[2 * i], (double)nx);
+        xs[2 * i + 1] = in_cell((double)(i % ny), start + width * xs[2 * i + 1], (double)ny);
+    }
+}
+
+void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs)
+{
+    for (size_t i = 0; i < n; i++) {
+        xs[2 * i] = in_cell((double)i, xs[2 * i], (double)n);
+        xs[2 * i + 1] = in_cell((double)rows[i], xs[2 * i + 1], (double)n);
+    }
+}
+
+bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = gx[r * stride + c] - x, b = gy[r * stride + c] - y;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2)
+{
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const double a = fabs(gx[r * stride + c] - x) + h, b = fabs(gy[r * stride + c] - y) + h;
+            if (a * a + b * b < d2) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
+                                 double excess[16], double deficit[16])
+{
+    for (int l = 0; l < 16; l++) {
+        double inside = 0, low = HUGE_VAL, low_open = 0, inside_open = 0;
+        excess[l] = deficit[l] = -1;
+        for (size_t i = 0; i <= count; i++) {
+            const double top = i < count ? y[i] : 1;
+            deficit[l] = fmax(deficit[l], sides[5][l] * top - inside_open - low_open);
+            if (i < count) {
+                low = fmin(low, inside - sides[2][l] * top);
+                inside += x[i] >= sides[0][l] && x[i] <= sides[1][l];
+                excess[l] = fmax(excess[l], inside - sides[2][l] * top - low);
+                inside_open += x[i] > sides[3][l] && x[i] < sides[4][l];
+                low_open = fmin(low_open, sides[5][l] * top - inside_open);
+            }
+        }
+    }
+}
+
+double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0)
+{
+    koksma__sum sum = {0};
+    for (size_t i = 0; i < n; i++) {
+        koksma__sum_add(&sum, sqrt((x[i] - x0) * (x[i] - x0) + (y[i] - y0) * (y[i] - y0)));
+    }
+    return koksma__sum_value(&sum);
+}
+
+void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
+                              const double c[16], double counts[16])
+{
+    for (int l = 0; l < 16; l++) {
+        counts[l] = 0;
+        for (size_t i = 0; i < n; i++) {
+            counts[l] += a[l] * x[i] + b[l] * y[i] <= c[l];
+        }
+    }
+}
+
+void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, double sums[8][16])
+{
+    for (size_t r = 0; r < 8; r++) {
+        for (size_t c = 0; c < 16; c++) {
+            for (size_t j = 0; j < count; j++) {
+                sums[r][c] += a[8 * j + r] * b[16 * j + c];
+            }
+        }
+    }
+}
+
+bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
+                            double *spare_im)
+{
+    for (size_t k = 0; k < n; k++) {
+        for (size_t l = 0; l < 16; l++) {
+            koksma__sum x = {0}, y = {0};
+            for (size_t j = 0; j < n; j++) {
+                const double c = twiddles[2 * (k * j % n)], s = -twiddles[2 * (k * j % n) + 1];
+                koksma__sum_add(&x, c * re[16 * j + l] - s * im[16 * j + l]);
+                koksma__sum_add(&y, c * im[16 * j + l] + s * re[16 * j + l]);
+            }
+            spare_re[16 * k + l] = koksma__sum_value(&x);
+            spare_im[16 * k + l] = koksma__sum_value(&y);
+        }
+    }
+    return true;
+}
+
 static double overlap(int law, double r, double distance)
 {
     const double h = distance / 2;
@@ -215,31 +333,6 @@ double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t 
             const double dx = x - xs[j] + image % 3 - 1, dy = y - ys[j] + image / 3 - 1;
             koksma__sum_add(&sum, overlap(law, r, sqrt(dx * dx + dy * dy)));
         }
-    }
-    return koksma__sum_value(&sum);
-}
-
-size_t KERNEL_NAME(disk_count)(double r, double x, double y, size_t count, const double *xs, const double *ys)
-{
-    size_t inside = 0;
-    for (size_t j = 0; j < count; j++) {
-        const double dx = fabs(x - xs[j]), dy = fabs(y - ys[j]);
-        const double a = dx < 1 - dx ? dx : 1 - dx, b = dy < 1 - dy ? dy : 1 - dy;
-        inside += a * a + b * b <= r * r;
-    }
-    return inside;
-}
-
-double KERNEL_NAME(distances)(int dim, const double *x, size_t count, size_t stride, const double *xs)
-{
-    koksma__sum sum = {0};
-    for (size_t j = 0; j < count; j++) {
-        double square = 0;
-        for (int k = 0; k < dim; k++) {
-            const double d = x[k] - xs[(size_t)k * stride + j];
-            square += d * d;
-        }
-        koksma__sum_add(&sum, sqrt(square));
     }
     return koksma__sum_value(&sum);
 }

@@ -5,6 +5,7 @@
 #define KOKSMA_KERNELS_LANES64_H
 
 #include <stdint.h>
+#include <string.h>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -42,5 +43,32 @@ static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
 /* The same lanes as unsigned integers and as doubles, for the operators of the compiler's vector types. */
 typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
+
+/* 0, 1, 2, ... */
+static inline lanes64_u lanes64_count(void)
+{
+#if defined(__AVX512F__)
+    return (lanes64_u){0, 1, 2, 3, 4, 5, 6, 7};
+#elif defined(__AVX2__)
+    return (lanes64_u){0, 1, 2, 3};
+#else
+    return (lanes64_u){0, 1};
+#endif
+}
+
+/* out = x[0], y[0], x[1], y[1], ... */
+static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
+{
+#if defined(__AVX512F__)
+    const lanes64_d low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
+    const lanes64_d high = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
+#elif defined(__AVX2__)
+    const lanes64_d low = __builtin_shufflevector(x, y, 0, 4, 1, 5), high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+#else
+    const lanes64_d low = __builtin_shufflevector(x, y, 0, 2), high = __builtin_shufflevector(x, y, 1, 3);
+#endif
+    memcpy(out, &low, sizeof low);
+    memcpy(out + LANES64, &high, sizeof high);
+}
 
 #endif

@@ -124,7 +124,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"r", "the largest radius", 0.25, 1e-6, 0.499, NULL, false},
+    {"r", "the largest radius", 0.25, 0.001, 0.499, NULL, false},
     {0},
 };
 

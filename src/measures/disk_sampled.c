@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk-sampled: l2-disk by Monte Carlo, as the second paper does it: the root mean square of the difference between
- * the share of points and the area over `disks` random disks on the torus.
+ * disk-sampled: l2-disk from random disks, as the second paper samples its measures.
  *
- * Formula: square = mean of (#{x_i within r_m of c_m}/n - pi r_m^2)^2 over m < disks, c_m uniform on the torus, r_m
- * by its law; value = sqrt(square), whose standard error is that of the mean over 2 value. Source: Mitchell 1992,
- * section 4 (10,000 disks; the law of the radius is not stated there). Known exactly: the mean of the square is the
- * square of l2-disk with the same law and radius. Limits: the error falls as 1/sqrt(disks), and the standard error is
- * itself estimated; a set whose deviation is the same for every disk seen has a standard error of 0. Equal seeds give
- * equal disks.
+ * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
+ * standard error is that of the mean of the squares over twice the value. Source: Mitchell 1992, section 4. Known
+ * exactly: E(square) is the square of l2-disk. Limits: a sampled value; equal seeds give equal bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,77 +12,87 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "kernels/kernels.h"
+#include "core/sum.h"
 #include "measures/measures.h"
-#include "measures/parts/sampled.h"
-#include "measures/parts/torus_disks.h"
+#include "measures/parts/disks.h"
 
-enum { BLOCK = 256, LANE_CENTRE = 16, LANE_RADIUS = 17 };
+enum { DISKS_PER_BLOCK = 256 };
 
-typedef struct sample {
-    koksma__torus_cells points;
+typedef struct job {
+    const koksma_points *points;
     koksma__disk_law law;
-    double r;
+    double r, *squares;
     uint64_t seed;
     size_t disks;
-    double *squares; /* a disk each */
-} sample;
+} job;
 
-static double radius(const sample *s, size_t index)
+static koksma_status sample_block(void *context, size_t block)
 {
-    double pair[2];
-    koksma__random_pair(s->seed, KOKSMA__PURPOSE_SEARCH, index, LANE_RADIUS, pair);
-    return s->law == KOKSMA__DISK_FIXED ? s->r : s->r * (s->law == KOKSMA__DISK_RADIUS ? pair[0] : sqrt(pair[0]));
-}
-
-static koksma_status block(void *context, size_t index)
-{
-    sample *s = context;
-    for (size_t m = index * BLOCK; m < s->disks && m < (index + 1) * BLOCK; m++) {
-        double centre[2];
-        koksma__random_pair(s->seed, KOKSMA__PURPOSE_SEARCH, m, LANE_CENTRE, centre);
-        const double r = radius(s, m);
-        const size_t inside =
-            koksma__kernels()->disk_count(r, centre[0], centre[1], s->points.n, s->points.xs, s->points.ys);
-        const double delta = (double)inside / (double)s->points.n - M_PI * r * r;
-        s->squares[m] = delta * delta;
+    const job *j = context;
+    const size_t n = j->points->n, first = block * DISKS_PER_BLOCK;
+    for (size_t d = first; d < j->disks && d < first + DISKS_PER_BLOCK; d++) {
+        double centre[2], u[2];
+        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 2, centre);
+        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 3, u);
+        const double r2 = j->r * j->r *
+                          (j->law == KOKSMA__DISKS_FIXED  ? 1
+                           : j->law == KOKSMA__DISKS_AREA ? u[0]
+                                                          : u[0] * u[0]);
+        double inside = 0;
+        for (size_t i = 0; i < n; i++) {
+            double dx = fabs(j->points->xs[2 * i] - centre[0]), dy = fabs(j->points->xs[2 * i + 1] - centre[1]);
+            dx = dx < 1 - dx ? dx : 1 - dx;
+            dy = dy < 1 - dy ? dy : 1 - dy;
+            inside += dx * dx + dy * dy <= r2 ? 1.0 : 0.0;
+        }
+        const double deviation = inside / (double)n - M_PI * r2;
+        j->squares[d] = deviation * deviation;
     }
     return KOKSMA_OK;
 }
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    sample s = {.law = (koksma__disk_law)(int)args->params[0], .disks = (size_t)args->params[2]};
-    s.r = koksma__disk_radius(s.law, args->params[1]);
-    s.seed = (uint64_t)args->params[3];
-    koksma_status status = koksma__torus_cells_init(&s.points, points, 1);
-    s.squares = malloc(s.disks * sizeof *s.squares);
-    if (!status && !s.squares) {
-        status = koksma__fail_memory(s.disks * sizeof *s.squares);
+    const size_t disks = (size_t)args->params[0];
+    job j = {.points = points, .law = (koksma__disk_law)args->params[2], .seed = (uint64_t)args->params[3]};
+    j.r = koksma__disk_radius(j.law, args->params[1]);
+    j.disks = disks;
+    j.squares = malloc(disks * sizeof *j.squares);
+    if (!j.squares) {
+        return koksma__fail_memory(disks * sizeof *j.squares);
     }
-    if (!status) {
-        status = koksma__parallel(args->run, (s.disks + BLOCK - 1) / BLOCK, block, &s);
+    const koksma_status status =
+        koksma__parallel(args->run, (disks + DISKS_PER_BLOCK - 1) / DISKS_PER_BLOCK, sample_block, &j);
+    koksma__sum sum = {0}, spread = {0};
+    const double count = (double)disks;
+    for (size_t i = 0; i < disks && !status; i++) {
+        koksma__sum_add(&sum, j.squares[i]);
     }
-    if (!status) {
-        koksma__sample_root(s.disks, s.squares, out);
+    out->square = koksma__sum_value(&sum) / count;
+    out->value = sqrt(out->square);
+    for (size_t i = 0; i < disks && !status; i++) {
+        koksma__sum_add(&spread, (j.squares[i] - out->square) * (j.squares[i] - out->square));
     }
-    free(s.squares);
-    koksma__torus_cells_fini(&s.points);
+    const double error = disks > 1 ? sqrt(koksma__sum_value(&spread) / count / (count - 1)) : (double)NAN;
+    out->standard_error = out->value > 0 ? error / (2 * out->value) : error;
+    out->exact = false;
+    free(j.squares);
     return status;
 }
 
 static const koksma_param params[] = {
-    KOKSMA__DISK_PARAMS,
-    {"disks", "how many random disks", 10000, 2, 1e8, NULL, true},
-    {"seed", "seed of the disks", 0, 0, 0x1p53, NULL, true},
+    {"disks", "random disks", 10000, 1, 1e8, NULL, true},
+    {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
+    {"law", "fixed radius, radius uniform, or area uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"seed", "seed of the disks", 1, 0, 9007199254740992.0, NULL, true},
     {0},
 };
 
 const koksma_measure koksma__measure_disk_sampled = {
     .name = "disk-sampled",
-    .title = "L2 discrepancy of disks on the torus, from random disks",
+    .title = "L2 discrepancy of disks on the torus from sampled disks",
     .cite = "mitchell1992",
-    .cost = "n * disks",
+    .cost = "disks n",
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

@@ -23,7 +23,8 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/parts/torus_disks.h"
+#include "measures/parts/disks.h"
+#include "measures/parts/torus_cells.h"
 
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 
@@ -82,8 +83,8 @@ static koksma_status block(void *context, size_t index)
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    pairs p = {.law = (int)args->params[0]};
-    p.r = koksma__disk_radius((koksma__disk_law)p.law, args->params[1]);
+    const koksma__disk_law law = (koksma__disk_law)(int)args->params[1];
+    pairs p = {.law = (int)law, .r = koksma__disk_radius(law, args->params[0])};
     const size_t n_blocks = (points->n + BLOCK - 1) / BLOCK;
     koksma_status status = koksma__torus_cells_init(&p.cells, points, 2 * p.r);
     p.blocks = calloc(n_blocks, sizeof *p.blocks);
@@ -94,16 +95,15 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         status = koksma__parallel(args->run, n_blocks, block, &p);
     }
     if (!status) {
-        static const double self[] = {1, 1.0 / 3, 0.5}, square[] = {1, 0.2, 1.0 / 3};
-        const double n = (double)points->n, area = M_PI * p.r * p.r;
+        const double n = (double)points->n;
         koksma__sum sum = {0}, total = {0};
         for (size_t b = 0; b < n_blocks; b++) {
             koksma__sum_add(&sum, p.blocks[b].total);
             koksma__sum_add(&sum, p.blocks[b].lost);
         }
-        koksma__sum_add(&total, self[p.law] * area / n);
+        koksma__sum_add(&total, koksma__disk_overlap(law, p.r, 0) / n);
         koksma__sum_add(&total, 2 * koksma__sum_value(&sum) / n / n);
-        koksma__sum_add(&total, -square[p.law] * area * area);
+        koksma__sum_add(&total, -koksma__disk_square(law, p.r));
         out->square = fmax(koksma__sum_value(&total), 0);
         out->value = sqrt(out->square);
     }
@@ -112,13 +112,17 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
-static const koksma_param params[] = {KOKSMA__DISK_PARAMS, {0}};
+static const koksma_param params[] = {
+    {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
+    {"law", "fixed radius, radius uniform, or area uniform", 0, 0, 2, koksma__disk_laws, true},
+    {0},
+};
 
 const koksma_measure koksma__measure_l2_disk = {
     .name = "l2-disk",
-    .title = "L2 discrepancy of disks on the torus",
+    .title = "L2 discrepancy of disks on the torus (root mean square over disks)",
     .cite = "mitchell1992",
-    .cost = "n^2; n * points within 2r for small r",
+    .cost = "n^2; n * points within 2r for r <= 1/8",
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

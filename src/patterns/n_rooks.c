@@ -14,6 +14,7 @@
 
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/cells.h"
 #include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
@@ -30,9 +31,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (!permutation) {
         return koksma__fail_memory(n * sizeof *permutation);
     }
-    for (size_t k = 0; k < dim; k++) {
+    if (dim == 2) {
+        koksma__fill_permutation(seed, 1, (uint32_t)n, permutation);
+        koksma__kernels()->rooks_2d(permutation, n, out->xs);
+    }
+    for (size_t k = 0; dim != 2 && k < dim; k++) {
         if (k) {
-            koksma__random_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
+            koksma__fill_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
         }
         for (size_t i = 0; i < n; i++) {
             double *x = &out->xs[i * dim + k];

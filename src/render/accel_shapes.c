@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Analytic shapes: no tree, every shape against every block of rays. */
+/*
+ * Analytic shapes: no tree, every shape against every block of rays. A flat shape shades nothing when all other
+ * shapes and all luminaires lie on one side of it, because that side is convex; a floor is left out of the shadows
+ * so.
+ */
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "render/intersect.h"
+#include "scene/vector.h"
 
 typedef struct shapes {
-    koksma__batch_shapes all;
+    koksma__batch_shapes all, occluders;
     const koksma__batch_table *batch;
     koksma__batch_shape list[];
 } shapes;
@@ -21,7 +26,7 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, i
 static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
 {
     const shapes *s = geometry->made;
-    s->batch->occlude(&s->all, hits, n, shadows);
+    s->batch->occlude(&s->occluders, hits, n, shadows);
 }
 
 static void release(koksma__geometry *geometry)
@@ -30,9 +35,50 @@ static void release(koksma__geometry *geometry)
     *geometry = (koksma__geometry){0};
 }
 
-static koksma__batch_shape in_floats(const koksma__shape *from)
+/* How far the shape or rectangle reaches below the plane of `flat`, seen from the side that `sign` picks; > 0: it
+ * does. */
+static double depth(const koksma__shape *flat, double sign, const double centre[3], const double reach_u[3],
+                    const double reach_v[3], double radius)
 {
-    koksma__batch_shape s = {.kind = (int)from->kind, .material = from->material};
+    double offset[3];
+    koksma__subtract(centre, flat->centre, offset);
+    return radius + fabs(koksma__dot(reach_u, flat->normal)) + fabs(koksma__dot(reach_v, flat->normal)) -
+           sign * koksma__dot(offset, flat->normal);
+}
+
+static double depth_of_rectangle(const koksma__shape *flat, double sign, const double centre[3], const double u[3],
+                                 const double v[3], const double half[2])
+{
+    double reach_u[3], reach_v[3];
+    for (int k = 0; k < 3; k++) {
+        reach_u[k] = half[0] * u[k];
+        reach_v[k] = half[1] * v[k];
+    }
+    return depth(flat, sign, centre, reach_u, reach_v, 0);
+}
+
+static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat, double sign)
+{
+    static const double none[3] = {0, 0, 0};
+    const double tiny = 1e-9;
+    bool all = flat->kind != KOKSMA__SHAPE_SPHERE;
+    for (size_t i = 0; all && i < scene->n_shapes; i++) {
+        const koksma__shape *s = &scene->shapes[i];
+        all = s == flat ||
+              (s->kind == KOKSMA__SHAPE_SPHERE && depth(flat, sign, s->centre, none, none, s->half[0]) < tiny) ||
+              ((s->kind == KOKSMA__SHAPE_RECTANGLE || s->kind == KOKSMA__SHAPE_DISK) &&
+               depth_of_rectangle(flat, sign, s->centre, s->axis_u, s->axis_v, s->half) < tiny);
+    }
+    for (size_t i = 0; all && i < scene->n_lights; i++) {
+        const koksma__light *l = &scene->lights[i];
+        all = depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny;
+    }
+    return all;
+}
+
+static koksma__batch_shape in_floats(const koksma__shape *from, size_t id)
+{
+    koksma__batch_shape s = {.kind = (int)from->kind, .id = (int32_t)id, .material = from->material};
     for (int k = 0; k < 3; k++) {
         s.centre[k] = (float)from->centre[k];
         s.normal[k] = (float)from->normal[k];
@@ -49,16 +95,21 @@ static koksma__batch_shape in_floats(const koksma__shape *from)
 
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out)
 {
-    const size_t size = sizeof(shapes) + scene->n_shapes * sizeof(koksma__batch_shape);
+    const size_t size = sizeof(shapes) + 2 * scene->n_shapes * sizeof(koksma__batch_shape);
     shapes *s = malloc(size);
     *out = (koksma__geometry){0};
     if (!s) {
         return koksma__fail_memory(size);
     }
-    for (size_t i = 0; i < scene->n_shapes; i++) {
-        s->list[i] = in_floats(&scene->shapes[i]);
-    }
     s->all = (koksma__batch_shapes){scene->n_shapes, s->list};
+    s->occluders = (koksma__batch_shapes){0, s->list + scene->n_shapes};
+    for (size_t i = 0; i < scene->n_shapes; i++) {
+        const koksma__shape *shape = &scene->shapes[i];
+        s->list[i] = in_floats(shape, i);
+        if (!all_on_one_side(scene, shape, 1) && !all_on_one_side(scene, shape, -1)) {
+            s->list[scene->n_shapes + s->occluders.n++] = s->list[i];
+        }
+    }
     s->batch = koksma__batch();
     *out = (koksma__geometry){s, closest, occlude, release};
     return KOKSMA_OK;

@@ -60,11 +60,12 @@ typedef struct koksma__batch_camera {
 /* n . p = offset on the plane; half as in koksma__shape, squared radius for a disk. */
 typedef struct koksma__batch_shape {
     int kind; /* koksma__shape_kind */
-    int32_t material;
+    int32_t id, material;
     float centre[3], normal[3], axis_u[3], axis_v[3];
     float half_u, half_v, radius2, inverse_radius;
 } koksma__batch_shape;
 
+/* For closest, shape i has the id i. */
 typedef struct koksma__batch_shapes {
     size_t n;
     const koksma__batch_shape *shapes;

@@ -50,14 +50,15 @@ static void albedo_checker(const koksma__batch_material *material, int32_t id, c
 
 void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__hits *hits, int n, float *albedo)
 {
-    int32_t most = -1, least = INT32_MAX;
+    int32_t most = -1;
+    uint32_t least = UINT32_MAX; /* -1 is the largest unsigned number */
     for (int i = 0; i < STEP(n); i++) {
         const int32_t m = hits->material[i];
         albedo[i] = 0;
         most = m > most ? m : most;
-        least = m >= 0 && m < least ? m : least;
+        least = (uint32_t)m < least ? (uint32_t)m : least;
     }
-    for (int32_t m = least; m <= most; m++) {
+    for (int32_t m = (int32_t)least; m >= 0 && m <= most; m++) {
         if (materials[m].checker) {
             albedo_checker(&materials[m], m, hits, n, albedo);
         } else {

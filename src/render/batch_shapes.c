@@ -20,32 +20,46 @@
 
 #define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1)) /* tells the compiler that there is no remainder */
 
+/* Functions that are compiled once for each value of their last argument. */
+#define INLINE static inline __attribute__((always_inline))
+
+typedef enum bounds { ENDLESS, IN_RECTANGLE, IN_DISK } bounds;
+
 /* A shadow ray ends this much short of the luminaire. */
 #define SHADOW_END (1 - 0x1p-16f)
 
-static void hit_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+INLINE int within(const koksma__batch_shape *s, float u, float v, bounds b)
 {
+    return b == ENDLESS        ? 1
+           : b == IN_RECTANGLE ? (fabsf(u) <= s->half_u) & (fabsf(v) <= s->half_v)
+                               : u * u + v * v <= s->radius2;
+}
+
+INLINE void hit_flat_in(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
+                        koksma__hits *restrict h, bounds b)
+{
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const int32_t id = s->id;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
     const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
     const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
-    const float half_u = s->half_u, half_v = s->half_v, radius2 = s->radius2;
     for (int i = 0; i < STEP(n); i++) {
         const float ex = r->ox[i] - cx, ey = r->oy[i] - cy, ez = r->oz[i] - cz;
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int hit =
-            (t > 0) & (t < h->t[i]) & (fabsf(u) <= half_u) & (fabsf(v) <= half_v) & (u * u + v * v <= radius2);
+        const int hit = (t > 0) & (t < h->t[i]) & within(s, u, v, b);
         h->t[i] = hit ? t : h->t[i];
         h->primitive[i] = hit ? id : h->primitive[i];
     }
 }
 
-static void hit_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+static void hit_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
+    const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
         const float ex = r->ox[i] - cx, ey = r->oy[i] - cy, ez = r->oz[i] - cz;
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
@@ -63,16 +77,18 @@ static void hit_sphere(const koksma__batch_shape *s, int32_t id, const koksma__r
     }
 }
 
-/* Place, normal and coordinates of the lanes that hit flat shape s. */
-static void finish_flat(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+/* Place, normal and coordinates of the lanes that hit flat shape s; all: every lane does. */
+INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h,
+                        bool all)
 {
+    const int32_t id = s->id;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
     const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
     const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
     const int32_t material = s->material;
     for (int i = 0; i < STEP(n); i++) {
-        const int hit = h->primitive[i] == id;
+        const int hit = all | (h->primitive[i] == id);
         const float t = h->t[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float px = r->ox[i] + t * dx, py = r->oy[i] + t * dy, pz = r->oz[i] + t * dz;
         const float qx = px - cx, qy = py - cy, qz = pz - cz;
@@ -90,12 +106,14 @@ static void finish_flat(const koksma__batch_shape *s, int32_t id, const koksma__
     }
 }
 
-static void finish_sphere(const koksma__batch_shape *s, int32_t id, const koksma__rays *r, int n, koksma__hits *h)
+INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
+                          koksma__hits *restrict h, bool all)
 {
+    const int32_t id = s->id;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], scale = s->inverse_radius;
     const int32_t material = s->material;
     for (int i = 0; i < STEP(n); i++) {
-        const int hit = h->primitive[i] == id;
+        const int hit = all | (h->primitive[i] == id);
         const float t = h->t[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float px = r->ox[i] + t * dx, py = r->oy[i] + t * dy, pz = r->oz[i] + t * dz;
         const float qx = (px - cx) * scale, qy = (py - cy) * scale, qz = (pz - cz) * scale;
@@ -106,6 +124,8 @@ static void finish_sphere(const koksma__batch_shape *s, int32_t id, const koksma
         h->nx[i] = hit ? side * qx : h->nx[i];
         h->ny[i] = hit ? side * qy : h->ny[i];
         h->nz[i] = hit ? side * qz : h->nz[i];
+        h->u[i] = hit ? 0 : h->u[i];
+        h->v[i] = hit ? 0 : h->v[i];
         h->material[i] = hit ? material : h->material[i];
     }
 }
@@ -119,66 +139,110 @@ static int count_hits(const koksma__hits *h, int32_t id, int n)
     return count;
 }
 
-int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, int n, koksma__hits *hits)
+static void hit_shape(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits)
+{
+    switch (s->kind) {
+    case KOKSMA__SHAPE_SPHERE:
+        hit_sphere(s, rays, n, hits);
+        return;
+    case KOKSMA__SHAPE_RECTANGLE:
+        hit_flat_in(s, rays, n, hits, IN_RECTANGLE);
+        return;
+    case KOKSMA__SHAPE_DISK:
+        hit_flat_in(s, rays, n, hits, IN_DISK);
+        return;
+    default:
+        hit_flat_in(s, rays, n, hits, ENDLESS);
+    }
+}
+
+static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all)
+{
+    if (s->kind == KOKSMA__SHAPE_SPHERE && all) {
+        finish_sphere(s, rays, n, hits, true);
+    } else if (s->kind == KOKSMA__SHAPE_SPHERE) {
+        finish_sphere(s, rays, n, hits, false);
+    } else if (all) {
+        finish_flat(s, rays, n, hits, true);
+    } else {
+        finish_flat(s, rays, n, hits, false);
+    }
+}
+
+static void clear(koksma__hits *hits, int n)
 {
     for (int i = 0; i < STEP(n); i++) {
-        hits->t[i] = INFINITY;
-        hits->primitive[i] = hits->material[i] = -1;
+        hits->material[i] = -1;
         hits->px[i] = hits->py[i] = hits->pz[i] = 0;
         hits->nx[i] = hits->ny[i] = hits->nz[i] = 0;
         hits->u[i] = hits->v[i] = 0;
     }
-    for (size_t k = 0; k < shapes->n; k++) {
-        const koksma__batch_shape *s = &shapes->shapes[k];
-        (s->kind == KOKSMA__SHAPE_SPHERE ? hit_sphere : hit_flat)(s, (int32_t)k, rays, n, hits);
+}
+
+int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, int n, koksma__hits *hits)
+{
+    for (int i = 0; i < STEP(n); i++) {
+        hits->t[i] = INFINITY;
+        hits->primitive[i] = -1;
     }
-    int missed = count_hits(hits, -1, n);
-    const int hit = STEP(n) - missed;
-    for (size_t k = 0; k < shapes->n && missed < STEP(n); k++) {
-        const koksma__batch_shape *s = &shapes->shapes[k];
-        const int count = count_hits(hits, (int32_t)k, n);
+    for (size_t k = 0; k < shapes->n; k++) {
+        hit_shape(&shapes->shapes[k], rays, n, hits);
+    }
+    int done = count_hits(hits, -1, n);
+    const int hit = STEP(n) - done;
+    if (hit && count_hits(hits, hits->primitive[0], n) == STEP(n)) {
+        finish_shape(&shapes->shapes[hits->primitive[0]], rays, n, hits, true);
+        return hit;
+    }
+    clear(hits, n);
+    for (size_t k = 0; k < shapes->n && done < STEP(n); k++) {
+        const int count = count_hits(hits, shapes->shapes[k].id, n);
         if (count) {
-            (s->kind == KOKSMA__SHAPE_SPHERE ? finish_sphere : finish_flat)(s, (int32_t)k, rays, n, hits);
+            finish_shape(&shapes->shapes[k], rays, n, hits, false);
         }
-        missed += count;
+        done += count;
     }
     return hit;
 }
 
-static void shade_flat(const koksma__batch_shape *s, int32_t id, const koksma__hits *h, int n, koksma__shadows *r)
+INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *restrict h, int n,
+                          koksma__shadows *restrict r, bounds b)
 {
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const int32_t id = s->id;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
     const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
     const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
     const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
-    const float half_u = s->half_u, half_v = s->half_v, radius2 = s->radius2;
     for (int i = 0; i < STEP(n); i++) {
         const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int hit = (h->primitive[i] != id) & (t > 0) & (t < SHADOW_END) & (fabsf(u) <= half_u) &
-                        (fabsf(v) <= half_v) & (u * u + v * v <= radius2);
-        r->light[i] = hit ? 0 : r->light[i];
+        const int hit = (h->primitive[i] != id) & (t > 0) & (t < SHADOW_END) & within(s, u, v, b);
+        r->light[i] *= hit ? 0.0f : 1.0f;
     }
 }
 
-static void shade_sphere(const koksma__batch_shape *s, int32_t id, const koksma__hits *h, int n, koksma__shadows *r)
+static void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, int n,
+                         koksma__shadows *restrict r)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
+    const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
         const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
-        const float c = h->primitive[i] == id ? 0 : ex * ex + ey * ey + ez * ez - radius2;
+        const float away = h->primitive[i] != id ? 1.0f : 0.0f;
+        const float c = away * (ex * ex + ey * ey + ez * ez - radius2);
         /* Has f(t) = a t^2 + 2 b t + c a root in (0, end)? By signs, without dividing: f(0) = c and f(end) tell which
            ends are inside; with both outside the vertex must lie between them and below 0. */
         const float at_end = (a * SHADOW_END + 2 * b) * SHADOW_END + c;
         const int enters = (c > 0) & (at_end < 0);
-        const int crosses = (c >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
+        const int crosses = (c >= 0) & (at_end >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
         const int leaves = (c < 0) & (at_end > 0);
-        r->light[i] = enters | crosses | leaves ? 0 : r->light[i];
+        r->light[i] *= enters | crosses | leaves ? 0.0f : 1.0f;
     }
 }
 
@@ -187,6 +251,18 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
 {
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
-        (s->kind == KOKSMA__SHAPE_SPHERE ? shade_sphere : shade_flat)(s, (int32_t)k, hits, n, shadows);
+        switch (s->kind) {
+        case KOKSMA__SHAPE_SPHERE:
+            shade_sphere(s, hits, n, shadows);
+            break;
+        case KOKSMA__SHAPE_RECTANGLE:
+            shade_flat_in(s, hits, n, shadows, IN_RECTANGLE);
+            break;
+        case KOKSMA__SHAPE_DISK:
+            shade_flat_in(s, hits, n, shadows, IN_DISK);
+            break;
+        default:
+            shade_flat_in(s, hits, n, shadows, ENDLESS);
+        }
     }
 }

@@ -32,7 +32,7 @@ koksma_status koksma__pixel_samples_init(koksma__pixel_samples *samples, const k
         return koksma__fail_memory(2 * (size_t)options->spp * sizeof *samples->fixed);
     }
     const koksma_status status = generate(options, options->seed, samples->fixed);
-    if (status || !(claims & KOKSMA_CLAIM_DETERMINISTIC)) {
+    if (status || options->pattern.shift || !(claims & KOKSMA_CLAIM_DETERMINISTIC)) {
         koksma__pixel_samples_fini(samples);
     }
     return status;

@@ -129,19 +129,17 @@ koksma_status koksma__reference_image(koksma_study *study, const koksma__study_s
     *out = (koksma_image){0};
     reference_path(study, scene, reference, path, sizeof path);
     koksma__reference_name(reference, name);
-    koksma_status status = koksma__store_reference(study->store, scene->name, scene->hash, name, &error);
-    if (status) {
-        return status;
-    }
-    /* A run may have been killed after the picture and before its row. */
-    if (!stat(path, &info) && (reference->replicates < 2 || !isnan(error))) {
+    if (!stat(path, &info)) {
         return koksma_image_read(path, out);
     }
-    status = render_reference(scene, reference, run, out, &error);
+    koksma_status status = render_reference(scene, reference, run, out, &error);
     if (!status) {
         status = koksma__store_put_reference(study->store, scene->name, scene->hash, name, error);
     }
     if (!status) {
+        status = koksma__store_commit(study->store);
+    }
+    if (!status) { /* the picture last: where it is, the row is */
         status = koksma_image_write(path, out, name);
     }
     if (status) {

@@ -199,7 +199,8 @@ static koksma_status get_references(job_list *list, const koksma__image_block *b
     return status;
 }
 
-static koksma_status make_list(job_list *list, const koksma_run *run, koksma_study_summary *summary)
+/* Lists the jobs of the image blocks that are not done, with the references that they need. */
+static koksma_status list_image_blocks(job_list *list, const koksma_run *run, koksma_study_summary *summary)
 {
     const koksma__plan *plan = &list->study->plan;
     koksma_status status = KOKSMA_OK;
@@ -210,9 +211,6 @@ static koksma_status make_list(job_list *list, const koksma_run *run, koksma_stu
     list->references = calloc(list->n_references + 1, sizeof *list->references);
     if (!list->references) {
         return koksma__fail_memory(list->n_references * sizeof *list->references);
-    }
-    for (size_t b = 0; !status && b < plan->n_discrepancies; b++) {
-        status = list_discrepancies(list, &plan->discrepancies[b], summary);
     }
     for (size_t b = 0; b < plan->n_images; b++) {
         const koksma__image_block *block = &plan->images[b];
@@ -229,18 +227,40 @@ static koksma_status make_list(job_list *list, const koksma_run *run, koksma_stu
     return status;
 }
 
+static koksma_status run_discrepancies(job_list *list, const koksma_run *run, koksma_study_summary *summary)
+{
+    const koksma__plan *plan = &list->study->plan;
+    koksma_status status = KOKSMA_OK;
+    for (size_t b = 0; !status && b < plan->n_discrepancies; b++) {
+        status = list_discrepancies(list, &plan->discrepancies[b], summary);
+    }
+    if (!status) {
+        status = koksma__parallel(run, list->n, do_job, list);
+    }
+    summary->done_now += status ? 0 : list->n;
+    list->n = 0;
+    return status;
+}
+
+static koksma_status run_images(job_list *list, const koksma_run *run, koksma_study_summary *summary)
+{
+    koksma_status status = list_image_blocks(list, run, summary);
+    if (!status) {
+        status = koksma__parallel(run, list->n, do_job, list);
+    }
+    summary->done_now += status ? 0 : list->n;
+    return status;
+}
+
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
 {
     koksma_study_summary unused;
     job_list list = {.study = study};
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
-    koksma_status status = make_list(&list, run, summary);
+    koksma_status status = run_discrepancies(&list, run, summary);
     if (!status) {
-        status = koksma__parallel(run, list.n, do_job, &list);
-    }
-    if (!status) {
-        summary->done_now = list.n;
+        status = run_images(&list, run, summary);
     }
     for (size_t r = 0; r < list.n_references; r++) {
         koksma_image_fini(&list.references[r]);

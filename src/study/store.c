@@ -135,24 +135,12 @@ static koksma_status prepare(koksma__store *store, const char *plan_name)
     /* One writer: a second run on the same folder is told so instead of doing the same work. */
     koksma_status status =
         execute(store, "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
-    if (!status) {
-        status = begin(store);
-    }
-    if (!status) {
-        status = execute(store, koksma__schema_sql);
-    }
-    if (!status) {
-        status = check_meta(store, "schema", SCHEMA_VERSION);
-    }
-    if (!status) {
-        status = check_meta(store, "version", koksma_version());
-    }
-    if (!status) {
-        status = check_meta(store, "plan", plan_name);
-    }
-    if (!status) {
-        status = commit(store);
-    }
+    status = status ? status : begin(store);
+    status = status ? status : execute(store, koksma__schema_sql);
+    status = status ? status : check_meta(store, "schema", SCHEMA_VERSION);
+    status = status ? status : check_meta(store, "version", koksma_version());
+    status = status ? status : check_meta(store, "plan", plan_name);
+    status = status ? status : commit(store);
     for (int i = 0; !status && i < N_STATEMENTS; i++) {
         if (sqlite3_prepare_v2(store->database, statements[i], -1, &store->prepared[i], NULL) != SQLITE_OK) {
             status = fail(store);
@@ -290,7 +278,13 @@ static koksma_status step_rows(koksma__store *store, sqlite3_stmt *s, size_t wid
     return status;
 }
 
-/* ---- The calls ----------------------------------------------------------------------------------------- */
+koksma_status koksma__store_commit(koksma__store *store)
+{
+    pthread_mutex_lock(&store->lock);
+    const koksma_status status = commit(store);
+    pthread_mutex_unlock(&store->lock);
+    return status;
+}
 
 koksma_status koksma__store_has_discrepancy(koksma__store *store, const koksma__discrepancy_key *key, bool *has)
 {

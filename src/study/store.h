@@ -23,6 +23,9 @@ typedef struct koksma__image_key {
 koksma_status koksma__store_open(const char *path, const char *plan_name, koksma__store **store);
 koksma_status koksma__store_close(koksma__store *store);
 
+/* Puts everything so far on disk. */
+koksma_status koksma__store_commit(koksma__store *store);
+
 /* Whether the row exists. */
 koksma_status koksma__store_has_discrepancy(koksma__store *store, const koksma__discrepancy_key *key, bool *has);
 koksma_status koksma__store_has_image(koksma__store *store, const koksma__image_key *key, bool *has);

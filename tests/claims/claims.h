@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The test of each claim, on one set of points. A check that does not apply to this n or dim returns. */
+/* The test of each claim, on one set of points. A check that does not apply to this n or dim returns.
+   Long because it has a test for every claim, and they belong side by side. */
 #ifndef KOKSMA_TESTS_CLAIMS_H
 #define KOKSMA_TESTS_CLAIMS_H
 

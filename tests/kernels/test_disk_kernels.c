@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The kernels of disks and distances against their plain twins, and the bits of the instruction sets against each
+/* The kernels of disks against their plain twins, and the bits of the instruction sets against each
    other. */
 #include "kernels/kernels.h"
 #include "sets.h"
@@ -34,8 +34,6 @@ static void overlaps_agree(void **state)
                 const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
                 if (fast) {
                     assert_true(fast->disk_overlaps(c % 3, r, x, y, count, xs, xs + MAX) == one);
-                    assert_int_equal(fast->disk_count(r, x, y, count, xs, xs + MAX),
-                                     ref->disk_count(r, x, y, count, xs, xs + MAX));
                 }
             }
         }
@@ -56,31 +54,11 @@ static void functions_agree(void **state)
     }
 }
 
-static void distances_agree(void **state)
-{
-    (void)state;
-    const koksma__kernel_table *ref = koksma__kernels_find("ref"), *base = koksma__kernels_find("baseline");
-    for (size_t count = 0; count <= MAX; count += 1 + count / 5) {
-        fill(count);
-        for (int dim = 2; dim <= 3; dim++) {
-            const double x[3] = {xs[0], 0.25, -0.5}, one = base->distances(dim, x, count, MAX, xs);
-            assert_near(one, ref->distances(dim, x, count, MAX, xs), 1e-15 * (double)count);
-            for (size_t isa = 0; isa < 3; isa++) {
-                const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
-                if (fast) {
-                    assert_true(fast->distances(dim, x, count, MAX, xs) == one);
-                }
-            }
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(overlaps_agree),
         cmocka_unit_test(functions_agree),
-        cmocka_unit_test(distances_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "kernels/kernels.h"
+#include "patterns/parts/cells.h"
 #include "test.h"
 
 enum { MAX = 200 };
@@ -40,6 +41,53 @@ static void words_equal_reference(void **state)
     }
 }
 
+static void cells_equal_reference(void **state)
+{
+    (void)state;
+    static const size_t sizes[][2] = {{1, 1}, {4, 4}, {8, 8}, {3, 5}, {7, 2}, {16, 3}, {5, 16}, {13, 13}};
+    for (size_t isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        for (size_t s = 0; fast && s < sizeof sizes / sizeof *sizes; s++) {
+            const size_t nx = sizes[s][0], ny = sizes[s][1];
+            double a[2 * 169], b[2 * 169], c[2 * 169];
+            koksma__kernels_find("ref")->uniform(s, 3, 0, 0, nx * ny, a);
+            a[1] = 1 - 0x1p-53; /* must not round into the next cell */
+            memcpy(b, a, sizeof b);
+            memcpy(c, a, sizeof c);
+            koksma__kernels_find("ref")->cells_2d(0.25, 0.5, nx, ny, a);
+            fast->cells_2d(0.25, 0.5, nx, ny, b);
+            assert_memory_equal(a, b, 2 * nx * ny * sizeof *a);
+            memcpy(b, c, sizeof b);
+            fast->cells_2d(0, 1, nx, ny, b);
+            for (size_t i = 0; i < nx * ny; i++) {
+                assert_near(b[2 * i], koksma__in_cell((double)(i / ny), c[2 * i], (double)nx), 0);
+                assert_near(b[2 * i + 1], koksma__in_cell((double)(i % ny), c[2 * i + 1], (double)ny), 0);
+            }
+        }
+    }
+}
+
+static void rooks_equal_reference(void **state)
+{
+    (void)state;
+    for (size_t isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        for (size_t n = 1; fast && n <= MAX; n += 1 + n / 7) {
+            double a[2 * MAX], b[2 * MAX];
+            uint32_t rows[MAX];
+            for (size_t i = 0; i < n; i++) {
+                rows[i] = (uint32_t)(n - 1 - i);
+            }
+            koksma__kernels_find("ref")->uniform(n, 3, 0, 0, n, a);
+            a[0] = 1 - 0x1p-53;
+            memcpy(b, a, sizeof b);
+            koksma__kernels_find("ref")->rooks_2d(rows, n, a);
+            fast->rooks_2d(rows, n, b);
+            assert_memory_equal(a, b, 2 * n * sizeof *a);
+        }
+    }
+}
+
 /* Random123's known-answer vector for philox4x32-10 with counter and key of all ones. */
 static void philox_known_answer(void **state)
 {
@@ -52,8 +100,8 @@ static void philox_known_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_equals_reference),
-        cmocka_unit_test(words_equal_reference),
+        cmocka_unit_test(uniform_equals_reference), cmocka_unit_test(words_equal_reference),
+        cmocka_unit_test(cells_equal_reference),    cmocka_unit_test(rooks_equal_reference),
         cmocka_unit_test(philox_known_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

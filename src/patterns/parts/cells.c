@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/fill.h"
 
 /* m^dim, or SIZE_MAX when that is too large for any set. */
@@ -38,7 +39,7 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
         *along_rest = n / c;
         return KOKSMA_OK;
     }
-    size_t m = (size_t)pow((double)n, 1.0 / out->dim);
+    size_t m = (size_t)(out->dim == 2 ? sqrt((double)n) : pow((double)n, 1.0 / out->dim));
     while (power(m + 1, out->dim) <= n) {
         m++;
     }
@@ -89,6 +90,10 @@ koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_a
     }
     const double start = (1 - width) / 2, m_x = (double)along_x, m_rest = (double)along_rest;
     double *x = out->xs;
+    if (out->dim == 2) {
+        koksma__kernels()->cells_2d(start, width, along_x, along_rest, x);
+        return KOKSMA_OK;
+    }
     size_t cell[KOKSMA_MAX_DIM] = {0};
     for (size_t i = 0; i < out->n; i++) {
         x[0] = koksma__in_cell((double)cell[0], start + width * x[0], m_x);

@@ -69,7 +69,7 @@ static void fill_table(koksma__radical *r)
         r->tail += place * digit_of(r, j, 0);
     }
     const double grid = exp2(floor(52 - log2(r->whole))); /* every sum of numerators and tail is exact */
-    r->tail = floor(r->tail * grid) / grid;
+    r->tail = floor(r->tail * grid + 0.5) / grid;
 }
 
 koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, koksma__digit digit,

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Million points a second of each pattern, on one thread, beside the fastest public code of its kind. A bar is the
+ * best median that was measured for that program on one core of a server processor with AVX-512 (GCC 12, -O3
+ * -march=native, points in memory, no text). Each figure here is the median of several repeats. With GSL its
+ * generator is timed in the same run.
+ */
+#include <koksma/koksma.h>
+#include <koksma/sampler.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#ifdef HAVE_GSL
+#include <gsl/gsl_qrng.h>
+#endif
+
+typedef struct bar {
+    const char *pattern;
+    int dim;
+    size_t n; /* 0: as many as the pattern has by itself */
+    double million_per_s;
+    double goal; /* times the bar */
+    const char *source;
+} bar;
+
+static const bar bars[] = {
+    {"random", 2, 1024, 53, 1, "UTK Whitenoise"},
+    {"random", 2, 65536, 210, 1, "UTK Whitenoise"},
+    {"random", 2, 1048576, 222, 1, "UTK Whitenoise"},
+    {"jittered", 2, 1024, 41, 1, "UTK Stratified"},
+    {"jittered", 2, 65536, 174, 1, "UTK Stratified"},
+    {"jittered", 2, 1048576, 149, 1, "UTK Stratified"},
+    {"n-rooks", 2, 1024, 51, 2, "UTK NRooks"},
+    {"n-rooks", 2, 65536, 193, 2, "UTK NRooks"},
+    {"n-rooks", 2, 1048576, 31, 2, "UTK NRooks"},
+    {"hammersley", 2, 1024, 591, 1, "UTK Hammersley"},
+    {"hammersley", 2, 65536, 446, 1, "UTK Hammersley"},
+    {"hammersley", 2, 1048576, 563, 1, "UTK Hammersley"},
+    {"halton", 2, 1024, 138, 2, "UTK Halton"},
+    {"halton", 2, 65536, 81, 2, "UTK Halton"},
+    {"halton", 2, 1048576, 44, 2, "UTK Halton"},
+    {"halton", 4, 1048576, 15.7, 2, "UTK Halton"},
+    {"halton:scramble=owen", 2, 1024, 67, 1, "Helmer, stochastic Halton (correlated swaps)"},
+    {"halton:scramble=owen", 2, 65536, 66, 1, "Helmer, stochastic Halton (correlated swaps)"},
+    {"halton:scramble=owen", 2, 1048576, 57, 1, "Helmer, stochastic Halton (correlated swaps)"},
+    {"halton:scramble=owen", 4, 1048576, 31, 1, "Helmer, stochastic Halton (correlated swaps)"},
+    {"halton:scramble=affine", 2, 65536, 66, 1, "Helmer, stochastic Halton (correlated swaps)"},
+    {"sobol", 2, 65536, 266, 2, "scipy 1.10"},
+    {"sobol", 2, 1048576, 192, 2, "GSL 2.7"},
+    {"sobol", 4, 65536, 218, 2, "scipy 1.10"},
+    {"sobol", 4, 1048576, 239, 2, "GSL 2.7"},
+    {"sobol:scramble=owen", 2, 1024, 176, 2, "Helmer, stochastic Sobol'"},
+    {"sobol:scramble=owen", 2, 65536, 176, 2, "Helmer, stochastic Sobol'"},
+    {"sobol:scramble=owen", 2, 1048576, 149, 2, "Helmer, stochastic Sobol'"},
+    {"sobol:scramble=owen", 4, 65536, 94, 2, "Helmer, stochastic Sobol'"},
+    {"sobol:scramble=owen", 4, 1048576, 49, 2, "Helmer, stochastic Sobol'"},
+    {"sobol:scramble=hash-owen,shuffle=1", 2, 65536, 86, 2, "OpenQMC Sobol', AVX"},
+    {"sobol:scramble=hash-owen,shuffle=1", 2, 1048576, 83, 2, "OpenQMC Sobol', AVX"},
+    {"sobol:scramble=hash-owen,shuffle=1", 4, 65536, 40, 2, "OpenQMC Sobol', AVX"},
+    {"sobol:scramble=hash-owen,shuffle=1", 4, 1048576, 41, 2, "OpenQMC Sobol', AVX"},
+    {"pmj02", 2, 1024, 323, 1, "Helmer, stochastic PMJ02"},
+    {"pmj02", 2, 65536, 325, 1, "Helmer, stochastic PMJ02"},
+    {"pmj02", 2, 1048576, 171, 1, "Helmer, stochastic PMJ02"},
+    {"pmj02bn:candidates=100", 2, 4096, 0.32, 1, "Helmer, stochastic PMJ02BN, 100 candidates"},
+    {"dart-throwing", 2, 1024, 0.033, 2, "UTK Dart throwing, relaxed (f = 0.675)"},
+    {"dart-throwing", 2, 4096, 0.0088, 2, "UTK Dart throwing, relaxed"},
+    {"dart-throwing", 2, 16384, 0.0030, 2, "UTK Dart throwing, relaxed"},
+    {"poisson-disk-maximal:d=0.0223", 2, 0, 1.1, 2, "BoundarySampler (biased), 1,400 points"},
+    {"poisson-disk-maximal:d=0.00276", 2, 0, 1.0, 2, "BoundarySampler (biased), 91,000 points"},
+    {"poisson-disk-maximal:d=0.00137", 2, 0, 0.96, 2, "BoundarySampler (biased), 370,000 points"},
+    {"poisson-disk-maximal", 2, 1000, 0.2, 1, "the goal for an exact number of points"},
+    {"poisson-disk-maximal", 2, 1048576, 0, 1, "-"},
+    {"best-candidate", 2, 1024, 0, 1, "-"},
+    {"gaussian-blue-noise", 2, 1024, 0, 1, "-"},
+    {"sample-elimination", 2, 1024, 0, 1, "-"},
+    {"correlated-multi-jittered", 2, 65536, 0, 1, "-"},
+    {"r-sequence", 2, 65536, 0, 1, "-"},
+    {"zaremba", 2, 65536, 0, 1, "-"},
+    {"sobol:scramble=owen", 2, 16, 0, 1, "-"},
+    {"random", 2, 16, 0, 1, "-"},
+};
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum { REPEATS = 9 };
+
+static double median(double *values)
+{
+    qsort(values, REPEATS, sizeof *values, compare);
+    return values[REPEATS / 2];
+}
+
+/* Seconds for one set; sets that take less than a millisecond are made in batches. */
+static double time_pattern(const koksma_spec *spec, koksma_points *points, size_t n, int dim)
+{
+    const koksma_run run = {.threads = 1};
+    double values[REPEATS];
+    size_t batch = 1;
+    for (int r = -1; r < REPEATS; r++) {
+        const double start = now_s();
+        for (size_t b = 0; b < batch; b++) {
+            koksma_status status;
+            if (n) {
+                status = koksma_generate(spec, (uint64_t)(r + 1) * 1000 + b, &run, points);
+            } else {
+                koksma_points_fini(points);
+                status = koksma_generate_whole(spec, (uint64_t)(r + 1), &run, dim, points);
+            }
+            if (status) {
+                fprintf(stderr, "%s\n", koksma_error_text());
+                exit(1);
+            }
+        }
+        const double seconds = (now_s() - start) / (double)batch;
+        if (r < 0) {
+            batch = seconds < 1e-3 ? (size_t)(1e-3 / seconds) + 1 : 1;
+        } else {
+            values[r] = seconds;
+        }
+        if (seconds > 1.5) {
+            return seconds;
+        }
+    }
+    return median(values);
+}
+
+static void put(const char *what, int dim, size_t n, double rate, const bar *b)
+{
+    char mark[32] = "", against[32] = "-";
+    if (b && b->million_per_s > 0) {
+        const double times = rate / b->million_per_s;
+        snprintf(against, sizeof against, "%.4g", b->million_per_s);
+        snprintf(mark, sizeof mark, "%.2fx%s", times, times < 1 ? " BEHIND" : times < b->goal ? " below goal" : "");
+    }
+    printf("%-36s %dD %8zu %10.4g %8s  %-16s %s\n", what, dim, n, rate, against, mark, b ? b->source : "this run");
+    fflush(stdout);
+}
+
+#ifdef HAVE_GSL
+static void time_gsl(int dim, size_t n)
+{
+    double values[REPEATS], *xs = malloc(n * (size_t)dim * sizeof *xs);
+    gsl_qrng *q = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dim);
+    for (int r = 0; r < REPEATS && xs && q; r++) {
+        const double start = now_s();
+        gsl_qrng_init(q);
+        for (size_t i = 0; i < n; i++) {
+            gsl_qrng_get(q, xs + i * (size_t)dim);
+        }
+        values[r] = now_s() - start;
+    }
+    put("(GSL sobol)", dim, n, (double)n / median(values) * 1e-6, NULL);
+    gsl_qrng_free(q);
+    free(xs);
+}
+#endif
+
+/* Random access by sampler.h: one pixel's domain, many indices. */
+static void time_sampler(void)
+{
+    enum { N = 65536 };
+    static double xs[2 * N];
+    double values[REPEATS];
+    for (int r = 0; r < REPEATS; r++) {
+        const koksma_domain domain = koksma_domain_of_pixel(1, (uint32_t)r, 7);
+        const double start = now_s();
+        for (uint32_t i = 0; i < N; i++) {
+            koksma_sobol_2d(domain, i * 2654435761u, xs + 2 * (size_t)i);
+        }
+        values[r] = now_s() - start;
+    }
+    const bar b = {.million_per_s = 86, .goal = 1, .source = "OpenQMC Sobol', AVX (this: scalar C, sampler.h)"};
+    put("sampler.h koksma_sobol_2d", 2, N, N / median(values) * 1e-6, &b);
+}
+
+int main(int argc, char **argv)
+{
+    printf("%-36s %3s %8s %10s %8s  %-16s %s\n", "pattern", "dim", "n", "Mpoints/s", "bar", "", "bar is");
+    for (size_t i = 0; i < sizeof bars / sizeof *bars; i++) {
+        const bar *b = &bars[i];
+        koksma_spec spec;
+        koksma_points points = {0};
+        if (argc > 1 && !strstr(b->pattern, argv[1])) {
+            continue;
+        }
+        if (koksma_pattern_spec(b->pattern, &spec) || (b->n && koksma_points_init(&points, b->n, b->dim))) {
+            fprintf(stderr, "%s\n", koksma_error_text());
+            return 1;
+        }
+        const double seconds = time_pattern(&spec, &points, b->n, b->dim);
+        put(b->pattern, b->dim, points.n, (double)points.n / seconds * 1e-6, b);
+        koksma_points_fini(&points);
+    }
+    time_sampler();
+#ifdef HAVE_GSL
+    time_gsl(2, 65536);
+    time_gsl(2, 1048576);
+    time_gsl(4, 1048576);
+#endif
+    return 0;
+}

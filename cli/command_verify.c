@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <koksma/verify.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+/* Reads a file, or generates for SPEC@N and SPEC@N@DIM (also with "pattern:" before it). */
+static koksma_status get_points(const char *source, uint64_t seed, const koksma_run *run, koksma_points *points)
+{
+    char text[KOKSMA_MAX_SPEC];
+    unsigned long long n = 0;
+    int dim = 2, used = 0;
+    const bool named = !strncmp(source, "pattern:", 8);
+    snprintf(text, sizeof text, "%s", source + (named ? 8 : 0));
+    char *at = strchr(text, '@');
+    if (!at || sscanf(at, "@%llu%n@%d%n", &n, &used, &dim, &used) < 1 || at[used]) {
+        return koksma_points_read(source, points);
+    }
+    *at = '\0';
+    koksma_spec spec;
+    koksma_status status = koksma_pattern_spec(text, &spec);
+    if (!status) {
+        status = koksma_points_init(points, (size_t)n, dim);
+    }
+    return status ? status : koksma_generate(&spec, seed, run, points);
+}
+
+static void put_rows(cli_rows *rows, const char *source, const koksma_points *points, const koksma_findings *findings)
+{
+    for (size_t i = 0; i < findings->count; i++) {
+        const koksma_finding *f = &findings->items[i];
+        cli_row_text(rows, "source", source);
+        cli_row_whole(rows, "n", points->n);
+        cli_row_whole(rows, "dim", (uint64_t)points->dim);
+        cli_row_text(rows, "property", f->property);
+        cli_row_text(rows, "subject", f->subject);
+        cli_row_flag(rows, "holds", f->holds);
+        cli_row_number(rows, "value", f->value);
+        cli_row_text(rows, "detail", f->detail);
+        cli_row_end(rows);
+    }
+}
+
+/* Whether a property of the list fails, or was not looked at. */
+static bool disappoints(const char *list, const koksma_findings *findings)
+{
+    char name[64];
+    for (size_t i = 0; cli_list_item(list, i, name, sizeof name); i++) {
+        bool seen = false;
+        for (size_t j = 0; j < findings->count; j++) {
+            if (!strcmp(findings->items[j].property, name)) {
+                seen = true;
+                if (!findings->items[j].holds) {
+                    return true;
+                }
+            }
+        }
+        if (!seen) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    uint64_t seed;
+    cli_work work;
+    if (arguments->n_operands == 0) {
+        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
+    }
+    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "verifying", &work)) {
+        return CLI_USAGE;
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    int code = rows ? CLI_YES : 4;
+    for (int i = 0; i < arguments->n_operands && code <= CLI_NO; i++) {
+        koksma_points points = {0};
+        koksma_findings findings = {0};
+        koksma_status status = get_points(arguments->operands[i], seed, &work.run, &points);
+        if (!status) {
+            status = koksma_verify(&points, &work.run, &findings);
+        }
+        cli_work_end(&work);
+        if (status) {
+            code = cli_fail(arguments, status);
+        } else {
+            put_rows(rows, arguments->operands[i], &points, &findings);
+            code = disappoints(cli_text(arguments, "expect", ""), &findings) ? CLI_NO : code;
+        }
+        koksma_findings_fini(&findings);
+        koksma_points_fini(&points);
+    }
+    const int rows_code = cli_rows_close(rows);
+    return code ? code : rows_code;
+}
+
+static const cli_option options[] = {
+    {'e', "expect", "NAMES", "exit with 1 unless these properties, separated by commas, all hold"},
+    {'s', "seed", "S", "seed for SPEC sources (default: 0)"},
+    CLI_ROW_OPTIONS,
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_verify = {
+    .name = "verify",
+    .summary = "find out which properties points really have",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e NAME,NAME...] [--json]",
+    .details =
+        "net-base-2, -3, -5: the worst t of the (t,m,s)-nets that prefixes are, for all pairs of coordinates; "
+        "stratified\n"
+        "and latin: one point in each stratum; distance-square and -torus, also relative to the densest packing;\n"
+        "repeated points; origin-missing and -repeated; rounds-to-one as a float; progressive: even prefixes.",
+    .options = options,
+    .run = run,
+};

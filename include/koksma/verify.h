@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which properties do these points really have? Findings about a set, whoever made it: nets, strata, distances,
+ * repeated points, a lost origin, coordinates that a float rounds to 1, and whether the order is progressive.
+ */
+#ifndef KOKSMA_VERIFY_H
+#define KOKSMA_VERIFY_H
+
+#include <koksma/koksma.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What was found. The properties:
+     net-base-2, -3, -5  subject: two coordinates, or "all". value: the worst t of the (t,m,s)-nets that the prefixes
+   of b^m points are; detail: t for each m. Holds when t = 0 for all stratified          subject: m x k cells in
+   coordinates 0 and 1, or m^dim: one point in each. value: empty cells latin               subject: a coordinate: one
+   point in each of n strata. value: empty strata distance-square, distance-torus   value: the smallest distance;
+   detail: as a fraction of the densest packing's (2D torus and small squares exactly, else of an upper bound). Holds
+   when above 0 repeated            value: points that are equal to another. Holds when 0 origin-repeated     value:
+   points at the origin. Holds when at most 1 origin-missing      holds unless all points lie on a grid of 2^-m with
+   2^m > n, as an unscrambled sequence does, and none is the origin; value: points at the origin rounds-to-one value:
+   coordinates that become 1 as a float. Holds when 0 progressive         value: the largest L2 star discrepancy of a
+   prefix of 2^j >= 16 points over that of as many random points (root mean square). Holds when at most 2 */
+typedef struct koksma_finding {
+    const char *property;
+    char subject[48];
+    bool holds;
+    double value;
+    char detail[200];
+} koksma_finding;
+
+typedef struct koksma_findings {
+    size_t count, room;
+    koksma_finding *items;
+} koksma_findings;
+
+/* Looks for all of them; the findings are freed by koksma_findings_fini. Projections are of the first 32 coordinates.
+   What would take too long for so many points or dimensions is left out. run may be NULL. Errors: ARGUMENT (a
+   coordinate outside [0,1]), MEMORY, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
+KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
+
+/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: MEMORY,
+ * INTERRUPTED. */
+KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
+                                                  double *distance);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Points into the cells of a grid, both coordinates of several points at once. A quotient by a power of two is a
+   product by its reciprocal, to the bit; the reference divides. */
+#include <math.h>
+
+#include "kernels/kernels.h"
+#include "kernels/lanes64.h"
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs);
+void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs);
+
+enum { POINTS = LANES64 / 2 };
+
+/* Numbers of cells along x and y; the lanes alternate. exact: both are powers of two. */
+typedef struct grid {
+    double m[2];
+    lanes64_d ms, inverses;
+    bool exact;
+} grid;
+
+static grid make_grid(size_t nx, size_t ny)
+{
+    grid g = {.m = {(double)nx, (double)ny}, .exact = (nx & (nx - 1)) == 0 && (ny & (ny - 1)) == 0};
+    for (int l = 0; l < LANES64; l++) {
+        g.ms[l] = g.m[l % 2];
+        g.inverses[l] = 1 / g.m[l % 2];
+    }
+    return g;
+}
+
+/* koksma__in_cell, which takes the quotient if it is below the cell's end, else the double before the end. */
+static inline lanes64_d in_cells(const grid *g, lanes64_d cells, lanes64_d u, bool exact)
+{
+    const lanes64_d places = cells + u, ends = cells + 1;
+    const lanes64_d x = exact ? places * g->inverses : places / g->ms;
+    const lanes64_d last = (exact ? ends * g->inverses : ends / g->ms) * (1 - 0x1p-53);
+    const lanes64_u below = (lanes64_u)(x < last);
+    return (lanes64_d)(((lanes64_u)x & below) | ((lanes64_u)last & ~below));
+}
+
+static double in_cell(const grid *g, int k, double cell, double u)
+{
+    const double x = (cell + u) / g->m[k], end = (cell + 1) / g->m[k];
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
+static inline __attribute__((always_inline)) void place_cells(const grid *g, double start, double width, bool exact,
+                                                              size_t nx, size_t ny, double *xs)
+{
+    lanes64_d first, next, along_x;
+    for (int l = 0; l < LANES64; l++) {
+        first[l] = l % 2 ? l / 2 : 0;
+        next[l] = l % 2 ? POINTS : 0;
+        along_x[l] = l % 2 ? 0 : 1;
+    }
+    for (size_t i = 0; i < nx; i++, first += along_x) {
+        size_t j = 0;
+        lanes64_d cells = first;
+        for (; j + POINTS <= ny; j += POINTS, xs += LANES64, cells += next) {
+            lanes64_d u;
+            memcpy(&u, xs, sizeof u);
+            u = in_cells(g, cells, start + width * u, exact);
+            memcpy(xs, &u, sizeof u);
+        }
+        for (; j < ny; j++, xs += 2) {
+            xs[0] = in_cell(g, 0, (double)i, start + width * xs[0]);
+            xs[1] = in_cell(g, 1, (double)j, start + width * xs[1]);
+        }
+    }
+}
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    const grid g = make_grid(nx, ny);
+    if (g.exact) {
+        place_cells(&g, start, width, true, nx, ny, xs);
+    } else {
+        place_cells(&g, start, width, false, nx, ny, xs);
+    }
+}
+
+static inline __attribute__((always_inline)) void place_rooks(const grid *g, bool exact, const uint32_t *rows,
+                                                              size_t n, double *xs)
+{
+    size_t i = 0;
+    for (; i + POINTS <= n; i += POINTS, xs += LANES64) {
+        lanes64_d u, cells;
+        for (int l = 0; l < LANES64; l += 2) {
+            cells[l] = (double)(int64_t)(i + (size_t)l / 2);
+            cells[l + 1] = (double)(int64_t)rows[i + (size_t)l / 2];
+        }
+        memcpy(&u, xs, sizeof u);
+        u = in_cells(g, cells, u, exact);
+        memcpy(xs, &u, sizeof u);
+    }
+    for (; i < n; i++, xs += 2) {
+        xs[0] = in_cell(g, 0, (double)i, xs[0]);
+        xs[1] = in_cell(g, 1, (double)rows[i], xs[1]);
+    }
+}
+
+void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs)
+{
+    const grid g = make_grid(n, n);
+    if (g.exact) {
+        place_rooks(&g, true, rows, n, xs);
+    } else {
+        place_rooks(&g, false, rows, n, xs);
+    }
+}

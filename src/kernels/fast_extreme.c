@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Best boxes of 16 strips at once: points outside a strip change nothing but its candidates for sides, which are then
+   no worse than true ones. */
+#include <math.h>
+
+#include "kernels/kernels.h"
+
+enum { LANES = 16 };
+
+void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
+                                 double excess[16], double deficit[16]);
+
+void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
+                                 double excess[16], double deficit[16])
+{
+    double inside[LANES], low[LANES], best[LANES], inside_open[LANES], low_open[LANES], best_open[LANES];
+    double lo[LANES], hi[LANES], width[LANES], lo_open[LANES], hi_open[LANES], width_open[LANES];
+    for (int l = 0; l < LANES; l++) {
+        inside[l] = inside_open[l] = low_open[l] = 0;
+        low[l] = INFINITY;
+        best[l] = best_open[l] = -1;
+        lo[l] = sides[0][l];
+        hi[l] = sides[1][l];
+        width[l] = sides[2][l];
+        lo_open[l] = sides[3][l];
+        hi_open[l] = sides[4][l];
+        width_open[l] = sides[5][l];
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double at = x[i], height = y[i];
+        for (int l = 0; l < LANES; l++) {
+            const double area = width[l] * height, start = inside[l] - area;
+            low[l] = start < low[l] ? start : low[l];
+            inside[l] += (at >= lo[l]) & (at <= hi[l]) ? 1.0 : 0.0;
+            const double value = inside[l] - area - low[l];
+            best[l] = value > best[l] ? value : best[l];
+        }
+        for (int l = 0; l < LANES; l++) {
+            const double area = width_open[l] * height, value = area - inside_open[l] - low_open[l];
+            best_open[l] = value > best_open[l] ? value : best_open[l];
+            inside_open[l] += (at > lo_open[l]) & (at < hi_open[l]) ? 1.0 : 0.0;
+            const double start = area - inside_open[l];
+            low_open[l] = start < low_open[l] ? start : low_open[l];
+        }
+    }
+    for (int l = 0; l < LANES; l++) {
+        const double value = width_open[l] - inside_open[l] - low_open[l];
+        excess[l] = best[l];
+        deficit[l] = value > best_open[l] ? value : best_open[l];
+    }
+}

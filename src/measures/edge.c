@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * edge: the largest difference, over all half-planes, between the share of points in the half-plane and its area of
+ * the unit square. The quantity that the second paper announces as David Dobkin's: how badly an edge through a pixel
+ * can come out.
+ *
+ * Formula: sup over half-planes H of |#{x_i in H}/n - area of H in the square|. Turning a line about a point changes
+ * the area on a side by (r1^2 - r2^2)/2 per radian, r1 and r2 being its lengths to either side. So the supremum is
+ * reached on a line through two points, on the line through a point that this point bisects (it cuts the triangle of
+ * area 2uv off a corner at distances u and v), or on a side. Closed half-planes for excess, open ones for deficit.
+ * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here each point is
+ * a pivot, about which a line turns past the others in order of angle: O(n^2 log n). Known exactly: one point
+ * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact for
+ * all doubles; areas are rounded: errors of a few 1e-16.
+ */
+#include "measures/measures.h"
+#include "measures/parts/edge_sweep.h"
+#include "measures/parts/lines.h"
+
+/* From (2x - ex, ey) to (ex, 2y - ey), e the corner next to p. */
+static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
+{
+    chords[0] = (koksma__chord){{p[0] < 0.5 ? 0 : 1, p[0]}, {p[1], p[1] < 0.5 ? 0 : 1}};
+}
+
+/* Lines along the sides: the points on a side in no area. */
+static void try_sides(const koksma_points *points, koksma_value *out)
+{
+    static const double sides[4][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, -1}, {0, -1, -1}};
+    for (int s = 0; s < 4; s++) {
+        size_t count = 0;
+        for (size_t i = 0; i < points->n; i++) {
+            count += points->xs[2 * i + (size_t)(s % 2)] == (s < 2 ? 0 : 1);
+        }
+        const double value = (double)count / (double)points->n;
+        if (count > 0 && value > out->value) {
+            out->value = value;
+            out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_HALF_PLANE,
+                                            .dim = 2,
+                                            .closed = true,
+                                            .count = count,
+                                            .lo = {sides[s][0], sides[s][1]},
+                                            .hi = {sides[s][2]}};
+        }
+    }
+}
+
+static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
+{
+    static const koksma__domain square = {koksma__area_below_through, chords_of_square};
+    const koksma_status status = koksma__edge_sweep(&square, points->n, points->xs, args->run, out);
+    if (!status) {
+        try_sides(points, out);
+    }
+    return status;
+}
+
+const koksma_measure koksma__measure_edge = {
+    .name = "edge",
+    .title = "L-infinity discrepancy of half-planes",
+    .cite = "mitchell1992 dobkin1993 dobkin1996",
+    .cost = "n^2 log n",
+    .min_dim = 2,
+    .max_dim = 2,
+    .eval = eval,
+};

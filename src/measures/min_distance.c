@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * min-distance: the smallest distance between two points. Larger is more even, unlike the discrepancies.
+ *
+ * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in the plane.
+ * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
+ * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m.
+ * Limits: one point has no distance: null. Exact to rounding.
+ */
+#include <math.h>
+
+#include "measures/measures.h"
+#include "measures/parts/neighbours.h"
+
+static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
+{
+    return koksma__min_distance(points, args->params[0] > 0, &out->value);
+}
+
+static const koksma_param params[] = {
+    {"torus", "1: on the unit torus, 0: in the plane", 1, 0, 1, NULL, true},
+    {0},
+};
+
+const koksma_measure koksma__measure_min_distance = {
+    .name = "min-distance",
+    .title = "smallest distance between two points (larger is better)",
+    .cite = "lagae2008",
+    .cost = "n",
+    .min_dim = 2,
+    .max_dim = 2,
+    .params = params,
+    .eval = eval,
+};

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Disks on the unit torus and the laws of their radius. */
+#ifndef KOKSMA_MEASURES_PARTS_DISKS_H
+#define KOKSMA_MEASURES_PARTS_DISKS_H
+
+#include <koksma/koksma.h>
+
+/* FIXED: the radius is r. RADIUS: uniform in (0, r). AREA: the area is uniform in (0, pi r^2). */
+typedef enum koksma__disk_law { KOKSMA__DISKS_FIXED, KOKSMA__DISKS_RADIUS, KOKSMA__DISKS_AREA } koksma__disk_law;
+
+extern const char *const koksma__disk_laws[]; /* the words for a parameter */
+
+/* A parameter r of 0 means 1/4 for a fixed radius and 1/2 for the other laws. */
+double koksma__disk_radius(koksma__disk_law law, double r);
+
+/* The mean over the law of the area that two disks share whose centres are sqrt(distance2) apart; 0 from 2r on. */
+double koksma__disk_overlap(koksma__disk_law law, double r, double distance2);
+
+/* The mean over the law of the area's square. */
+double koksma__disk_square(koksma__disk_law law, double r);
+
+#endif

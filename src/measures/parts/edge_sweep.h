@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_MEASURES_PARTS_EDGE_SWEEP_H
+#define KOKSMA_MEASURES_PARTS_EDGE_SWEEP_H
+
+#include <koksma/koksma.h>
+
+enum { KOKSMA__MAX_CHORDS = 3 };
+
+/* The direction (across[0] - across[1], up[0] - up[1]) of a chord, exactly; 0 if there is none. */
+typedef struct koksma__chord {
+    double across[2], up[2];
+} koksma__chord;
+
+/* A convex domain of the plane with the uniform measure of mass 1. */
+typedef struct koksma__domain {
+    /* the mass where a x + b y <= a p[0] + b p[1] */
+    double (*area_below_through)(double a, double b, const double p[2]);
+    /* the chords that p bisects: there the mass on a side is stationary when a line turns about p */
+    void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
+} koksma__domain;
+
+/* The largest |#/n - mass| over half-planes whose line goes through a point, with its witness.
+   Errors: N, MEMORY, INTERRUPTED. */
+koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
+                                 koksma_value *out);
+
+#endif

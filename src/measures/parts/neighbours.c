@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/parts/neighbours.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/spectrum.h>
+
+#include "core/status.h"
+
+typedef struct grid {
+    size_t m;      /* cells a side, each at least r wide; 1 or 2: every cell is a neighbour */
+    size_t *first; /* points of cell c: first[c] .. first[c + 1] - 1 */
+    double *xs;    /* in order of the cells */
+} grid;
+
+static size_t cell_of(double x, size_t m)
+{
+    const size_t c = (size_t)(x * (double)m);
+    return c < m ? c : m - 1;
+}
+
+static koksma_status open_grid(const koksma_points *p, double r, grid *g)
+{
+    const size_t most = (size_t)sqrt((double)p->n) + 1, wanted = r > 0 ? (size_t)fmin(1 / r, 1e6) : most;
+    g->m = wanted < most ? wanted : most;
+    g->m = g->m > 0 ? g->m : 1;
+    const size_t cells = g->m * g->m, bytes = (cells + 2) * sizeof(size_t) + 2 * p->n * sizeof(double);
+    g->first = calloc(1, bytes);
+    if (!g->first) {
+        return koksma__fail_memory(bytes);
+    }
+    g->xs = (double *)(g->first + cells + 2);
+    for (size_t i = 0; i < p->n; i++) {
+        g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 2]++;
+    }
+    for (size_t c = 2; c < cells + 2; c++) {
+        g->first[c] += g->first[c - 1];
+    }
+    for (size_t i = 0; i < p->n; i++) {
+        const size_t at = g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 1]++;
+        memcpy(g->xs + 2 * at, p->xs + 2 * i, 2 * sizeof(double));
+    }
+    return KOKSMA_OK;
+}
+
+static double distance2(const double *a, const double *b, bool torus)
+{
+    double dx = fabs(a[0] - b[0]), dy = fabs(a[1] - b[1]);
+    if (torus) {
+        dx = dx < 1 - dx ? dx : 1 - dx;
+        dy = dy < 1 - dy ? dy : 1 - dy;
+    }
+    return dx * dx + dy * dy;
+}
+
+/* Points of cell c with those of cell d that come later. */
+static void pairs_of_cells(const grid *g, size_t c, size_t d, double r2, bool torus,
+                           void (*f)(void *context, double distance2), void *context)
+{
+    for (size_t i = g->first[c]; i < g->first[c + 1]; i++) {
+        for (size_t j = d == c ? i + 1 : g->first[d]; j < g->first[d + 1]; j++) {
+            const double d2 = distance2(g->xs + 2 * i, g->xs + 2 * j, torus);
+            if (d2 < r2) {
+                f(context, d2);
+            }
+        }
+    }
+}
+
+koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus,
+                                 void (*f)(void *context, double distance2), void *context)
+{
+    grid g;
+    const koksma_status status = open_grid(points, r, &g);
+    const size_t m = status ? 0 : g.m;
+    for (size_t c = 0; c < m * m; c++) {
+        size_t seen[9], n_seen = 0;
+        for (int k = 0; k < 9; k++) { /* the neighbours, each once, that do not come before */
+            const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
+            const size_t d = y * m + x;
+            bool new = d >= c;
+            for (size_t i = 0; i < n_seen; i++) {
+                new = new &&seen[i] != d;
+            }
+            if (new) {
+                seen[n_seen++] = d;
+                pairs_of_cells(&g, c, d, r * r, torus, f, context);
+            }
+        }
+    }
+    if (!status) {
+        free(g.first);
+    }
+    return status;
+}
+
+static void keep_least(void *context, double d2)
+{
+    double *least = context;
+    *least = d2 < *least ? d2 : *least;
+}
+
+koksma_status koksma__min_distance(const koksma_points *points, bool torus, double *distance)
+{
+    double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
+    koksma_status status = KOKSMA_OK;
+    if (points->n < 16) {
+        for (size_t i = 0; i < points->n; i++) {
+            for (size_t j = 0; j < i; j++) {
+                keep_least(&least, distance2(points->xs + 2 * i, points->xs + 2 * j, torus));
+            }
+        }
+    } else {
+        r = torus ? r : fmin(1.5 * r, 0.5);
+        status = koksma__near_pairs(points, r, torus, keep_least, &least);
+    }
+    *distance = sqrt(least);
+    return status;
+}
+
+typedef struct histogram {
+    double scale;
+    size_t bins;
+    double *counts;
+} histogram;
+
+static void count_pair(void *context, double d2)
+{
+    const histogram *h = context;
+    const size_t bin = (size_t)(sqrt(d2) * h->scale);
+    h->counts[bin < h->bins ? bin : h->bins - 1] += 1;
+}
+
+koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, double *values)
+{
+    if (points->dim != 2) {
+        return koksma__fail(KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2", points->dim);
+    }
+    if (!(r_max > 0 && r_max <= 0.5) || bins == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins",
+                            r_max);
+    }
+    histogram h = {(double)bins / r_max, bins, values};
+    memset(values, 0, bins * sizeof *values);
+    const koksma_status status = koksma__near_pairs(points, r_max, true, count_pair, &h);
+    const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
+    for (size_t b = 0; b < bins && !status; b++) {
+        const double share = M_PI * width * width * (2 * (double)b + 1);
+        values[b] = pairs > 0 ? values[b] / (pairs * share) : 0;
+    }
+    return status;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * relative-radius: the smallest distance between two points over that of the densest packing of n points. Larger is
+ * more even; good Poisson disk patterns have 0.65 to 0.85, 1 is the hexagonal lattice.
+ *
+ * Formula: min-distance / sqrt(2/(sqrt(3) n)), on the unit torus or (torus=0) in the plane.
+ * Source: Lagae and Dutre 2008. Known exactly: m x m centres sqrt(sqrt(3)/2) = 0.9306.
+ * Limits: as min-distance.
+ */
+#include <math.h>
+
+#include "measures/measures.h"
+#include "measures/parts/neighbours.h"
+
+static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
+{
+    const koksma_status status = koksma__min_distance(points, args->params[0] > 0, &out->value);
+    out->value /= sqrt(2 / (sqrt(3) * (double)points->n));
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"torus", "1: on the unit torus, 0: in the plane", 1, 0, 1, NULL, true},
+    {0},
+};
+
+const koksma_measure koksma__measure_relative_radius = {
+    .name = "relative-radius",
+    .title = "smallest distance over that of the densest packing (larger is better)",
+    .cite = "lagae2008",
+    .cost = "n",
+    .min_dim = 2,
+    .max_dim = 2,
+    .params = params,
+    .eval = eval,
+};

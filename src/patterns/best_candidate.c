@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * best-candidate: each point is the best of some uniform candidates: the one furthest from the points before it, on
+ * the torus. Point k has candidates * k + 1 of them, at most `most`. A sequence.
+ *
+ * Source: Mitchell 1991.
+ */
+#include <math.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "patterns/parts/torus_grid.h"
+#include "patterns/patterns.h"
+
+enum { MAX_DIM = 8 };
+
+/* The square of the distance to the nearest of the points, or any value at most `enough`. */
+static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
+{
+    double best = 1;
+    for (size_t i = 0; i < placed && best > enough; i++) {
+        double sum = 0;
+        for (int k = 0; k < out->dim; k++) {
+            const double t = koksma__way(x[k], out->xs[i * (size_t)out->dim + (size_t)k]);
+            sum += t * t;
+        }
+        best = fmin(best, sum);
+    }
+    return best;
+}
+
+static void choose(uint64_t seed, size_t placed, size_t candidates, const koksma__torus_grid *grid,
+                   koksma_points *out)
+{
+    double best = -1, dart[MAX_DIM];
+    double *point = out->xs + placed * (size_t)out->dim;
+    for (size_t c = 0; c < candidates; c++) {
+        for (int k = 0; k < out->dim; k += 2) {
+            koksma__random_pair(seed, KOKSMA__PURPOSE_DART, (uint64_t)placed << 24 | c, (uint32_t)k / 2, dart + k);
+        }
+        const double d = grid ? koksma__torus_grid_nearest(grid, dart[0], dart[1], KOKSMA__NO_POINT, best)
+                              : nearest(out, placed, dart, best);
+        if (d > best) {
+            best = d;
+            for (int k = 0; k < out->dim; k++) {
+                point[k] = dart[k];
+            }
+        }
+    }
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const bool gridded = out->dim == 2 && out->n > 64;
+    koksma__torus_grid grid = {0};
+    koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;
+    for (size_t i = 0; i < out->n && !status; i++) {
+        const double wanted = args->params[0] * (double)i + 1;
+        choose(seed, i, (size_t)fmin(wanted, args->params[1]), gridded && i > 16 ? &grid : NULL, out);
+        if (gridded) {
+            koksma__torus_grid_add(&grid, (uint32_t)i);
+        }
+        if (i % 256 == 255 && !koksma__keep_going(args->run, (double)i / (double)out->n)) {
+            status = koksma__fail_interrupted();
+        }
+    }
+    koksma__torus_grid_fini(&grid);
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"candidates", "candidates for each point that there is already", 1, 1, 100, NULL, true},
+    {"most", "at most as many candidates", 1000, 1, 1 << 20, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_best_candidate = {
+    .name = "best-candidate",
+    .title = "each point the furthest of some random candidates",
+    .cite = "mitchell1991",
+    .min_dim = 1,
+    .max_dim = MAX_DIM,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
+    .params = params,
+    .generate = generate,
+};

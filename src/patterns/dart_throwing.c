@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * dart-throwing: exactly n points by dart throwing on the torus, no two closer than a fraction f of the distance of
+ * the densest packing, the hexagonal one:
+ *
+ *     d = f sqrt(2 / (sqrt 3 n))
+ *
+ * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
+ * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
+ * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/dart_cover.h tells how.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "patterns/parts/dart_cover.h"
+#include "patterns/parts/packing.h"
+#include "patterns/patterns.h"
+
+enum { RESTARTS = 200 };
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const double f = args->params[0], densest = koksma__packing_distance(out->n, 2, true);
+    const double d = out->n == 1 ? 0.5 : f * densest;
+    size_t most = 0;
+    for (uint32_t restart = 0; restart < RESTARTS; restart++) {
+        koksma__disks disks;
+        const uint64_t own = restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed;
+        koksma_status status = koksma__disks_init(&disks, own, d);
+        if (!status) {
+            status = koksma__disks_fill(&disks, out->n, args->run);
+        }
+        const bool done = !status && disks.n == out->n;
+        if (done) {
+            memcpy(out->xs, disks.xs, 2 * out->n * sizeof *out->xs);
+        }
+        most = disks.n > most ? disks.n : most;
+        koksma__disks_fini(&disks);
+        if (status || done) {
+            return status;
+        }
+        if (restart >= 5 && (double)most < 0.97 * (double)out->n - 1) {
+            break; /* hopeless */
+        }
+    }
+    return koksma__fail(KOKSMA_IMPOSSIBLE,
+                        "dart-throwing: f=%g jams at %zu of %zu points; dart throwing gets to about f=%.2g", f, most,
+                        out->n, out->n < 100 ? 0.7 : 0.76);
+}
+
+static const koksma_param params[] = {
+    {"f", "smallest distance as a fraction of the densest packing's", 0.75, 0.01, 1, NULL, false},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_dart_throwing = {
+    .name = "dart-throwing",
+    .title = "dart throwing on the torus, exactly n points",
+    .cite = "mitchell1992 cook1986 ebeida2012",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_FRACTION | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/parts/verify.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+enum { MOST = 32, PREFIX_MOST = 4096 };
+
+koksma_finding *koksma__finding(koksma_findings *findings, const char *property)
+{
+    if (findings->count == findings->room) {
+        const size_t room = findings->room ? 2 * findings->room : 64;
+        koksma_finding *items = realloc(findings->items, room * sizeof *items);
+        if (!items) {
+            koksma__fail_memory(room * sizeof *items);
+            return NULL;
+        }
+        findings->items = items;
+        findings->room = room;
+    }
+    koksma_finding *f = &findings->items[findings->count++];
+    *f = (koksma_finding){.property = property, .subject = "-", .detail = "-"};
+    return f;
+}
+
+void koksma_findings_fini(koksma_findings *findings)
+{
+    if (findings) {
+        free(findings->items);
+        *findings = (koksma_findings){0};
+    }
+}
+
+static koksma_status add_strata(const koksma_points *points, const int *use, const size_t *m, int dim,
+                                const char *subject, uint32_t *counts, koksma_findings *findings)
+{
+    koksma_finding *f = koksma__finding(findings, dim == 1 ? "latin" : "stratified");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    koksma__wrong_cells(points, points->n, use, m, dim, 1, 1, counts);
+    size_t empty = 0;
+    for (size_t c = 0; c < points->n; c++) {
+        empty += counts[c] == 0;
+    }
+    snprintf(f->subject, sizeof f->subject, "%s", subject);
+    snprintf(f->detail, sizeof f->detail, "%zu of %zu strata are empty", empty, points->n);
+    f->value = (double)empty;
+    f->holds = empty == 0;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__verify_strata(const koksma_points *points, uint32_t *counts, koksma_findings *findings)
+{
+    const size_t n = points->n;
+    char subject[48];
+    koksma_status status = KOKSMA_OK;
+    for (int k = 0; k < points->dim && k < MOST && !status; k++) {
+        snprintf(subject, sizeof subject, "%d", k);
+        status = add_strata(points, &k, &n, 1, subject, counts, findings);
+    }
+    const int use[4] = {0, 1, 2, 3};
+    for (size_t m = 2; points->dim >= 2 && m * m <= n && !status; m++) {
+        const size_t sides[2] = {m, n / m}, other[2] = {n / m, m};
+        if (n % m) {
+            continue;
+        }
+        snprintf(subject, sizeof subject, "%zu x %zu", m, n / m);
+        status = add_strata(points, use, sides, 2, subject, counts, findings);
+        if (m * m < n && !status) {
+            snprintf(subject, sizeof subject, "%zu x %zu", n / m, m);
+            status = add_strata(points, use, other, 2, subject, counts, findings);
+        }
+    }
+    if (points->dim == 3 || points->dim == 4) {
+        const size_t m = (size_t)(pow((double)n, 1.0 / points->dim) + 0.5), sides[4] = {m, m, m, m};
+        if (m >= 2 && (points->dim == 3 ? m * m * m : m * m * m * m) == n && !status) {
+            snprintf(subject, sizeof subject, "%zu^%d", m, points->dim);
+            status = add_strata(points, use, sides, points->dim, subject, counts, findings);
+        }
+    }
+    return status;
+}
+
+static size_t at_origin(const koksma_points *points)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < points->n; i++) {
+        bool zero = true;
+        for (int k = 0; k < points->dim; k++) {
+            zero = zero && points->xs[i * (size_t)points->dim + (size_t)k] == 0;
+        }
+        count += zero;
+    }
+    return count;
+}
+
+static bool on_dyadic_grid(const koksma_points *points)
+{
+    double cells = 1;
+    while (cells <= (double)points->n) {
+        cells *= 2;
+    }
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        const double place = points->xs[i] * cells;
+        if (place != floor(place)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static koksma_status verify_origin(const koksma_points *points, koksma_findings *findings)
+{
+    const size_t count = at_origin(points);
+    koksma_finding *f = koksma__finding(findings, "origin-repeated");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count <= 1;
+    f = koksma__finding(findings, "origin-missing");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count > 0 || !on_dyadic_grid(points);
+    if (!f->holds) {
+        snprintf(f->detail, sizeof f->detail,
+                 "all points lie on a dyadic grid: an unscrambled sequence without its first");
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status verify_floats(const koksma_points *points, koksma_findings *findings)
+{
+    size_t count = 0, first = 0;
+    for (size_t i = points->n * (size_t)points->dim; i-- > 0;) {
+        if ((float)points->xs[i] >= 1) {
+            count++;
+            first = i / (size_t)points->dim;
+        }
+    }
+    koksma_finding *f = koksma__finding(findings, "rounds-to-one");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count == 0;
+    if (count) {
+        snprintf(f->detail, sizeof f->detail, "first: point %zu", first);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status verify_progress(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+{
+    size_t worst = 0;
+    double value = 0;
+    koksma_spec l2_star;
+    koksma_status status = koksma_measure_spec("l2-star", &l2_star);
+    for (size_t n = 16; n <= points->n && n <= PREFIX_MOST && points->dim <= 12 && !status; n *= 2) {
+        const koksma_points prefix = {n, points->dim, points->xs};
+        const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
+        koksma_value found;
+        status = koksma_evaluate(&l2_star, &prefix, run, &found);
+        const double ratio = status ? 0 : found.value / sqrt(random);
+        if (ratio > value) {
+            value = ratio;
+            worst = n;
+        }
+    }
+    if (status || worst == 0) {
+        return status;
+    }
+    koksma_finding *f = koksma__finding(findings, "progressive");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = value;
+    f->holds = value <= 2;
+    snprintf(f->detail, sizeof f->detail, "the worst prefix has %zu points", worst);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+{
+    *findings = (koksma_findings){0};
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
+                                i / (size_t)points->dim, points->xs[i]);
+        }
+    }
+    uint32_t *counts = malloc((points->n + 1) * sizeof *counts);
+    koksma_status status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);
+    if (!status) {
+        status = koksma__verify_nets(points, run, counts, findings);
+    }
+    if (!status) {
+        status = koksma__verify_strata(points, counts, findings);
+    }
+    free(counts);
+    if (!status) {
+        status = koksma__verify_distances(points, run, findings);
+    }
+    if (!status) {
+        status = verify_origin(points, findings);
+    }
+    if (!status) {
+        status = verify_floats(points, findings);
+    }
+    if (!status) {
+        status = verify_progress(points, run, findings);
+    }
+    if (status) {
+        koksma_findings_fini(findings);
+    }
+    return status;
+}

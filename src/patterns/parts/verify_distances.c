@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Smallest distances, by a grid in 2D and by a sweep along the first coordinate in other dimensions; and equal
+ * points. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "patterns/parts/packing.h"
+#include "patterns/parts/torus_grid.h"
+#include "patterns/parts/verify.h"
+
+typedef struct point {
+    const double *xs;
+    int dim;
+} point;
+
+static int compare(const void *a, const void *b)
+{
+    const point *p = a, *q = b;
+    for (int k = 0; k < p->dim; k++) {
+        if (p->xs[k] != q->xs[k]) {
+            return p->xs[k] < q->xs[k] ? -1 : 1;
+        }
+    }
+    return p->xs < q->xs ? -1 : p->xs > q->xs;
+}
+
+static double square_of(const point *p, const point *q, bool torus)
+{
+    double sum = 0;
+    for (int k = 0; k < p->dim; k++) {
+        const double t = torus ? koksma__way(p->xs[k], q->xs[k]) : p->xs[k] - q->xs[k];
+        sum += t * t;
+    }
+    return sum;
+}
+
+/* Over points sorted by their first coordinate: only those nearer along it than the best so far are looked at. */
+static double sweep(const point *sorted, size_t n, bool torus)
+{
+    double best = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t step = 1; step < n; step++) {
+            const size_t j = i + step;
+            if (j >= n && !torus) {
+                break;
+            }
+            const double along = sorted[j % n].xs[0] - sorted[i].xs[0] + (j >= n);
+            if (along * along >= best || along > 0.5 + !torus) {
+                break;
+            }
+            best = fmin(best, square_of(&sorted[i], &sorted[j % n], torus));
+        }
+    }
+    return sqrt(best);
+}
+
+static koksma_status grid_distance(const koksma_points *points, const koksma_run *run, double *distance)
+{
+    koksma__torus_grid grid;
+    koksma_status status = koksma__torus_grid_init(&grid, points->n, points->xs);
+    if (status) {
+        return status;
+    }
+    for (size_t i = 0; i < points->n; i++) {
+        koksma__torus_grid_add(&grid, (uint32_t)i);
+    }
+    double best = 1;
+    for (size_t i = 0; i < points->n && !status; i++) {
+        const double *x = points->xs + 2 * i;
+        best = fmin(best, koksma__torus_grid_nearest(&grid, x[0], x[1], (uint32_t)i, 0));
+        if (i % 65536 == 65535 && !koksma__keep_going(run, (double)i / (double)points->n)) {
+            status = koksma__fail_interrupted();
+        }
+    }
+    *distance = sqrt(best);
+    koksma__torus_grid_fini(&grid);
+    return status;
+}
+
+static koksma_status add_distance(const koksma_points *points, bool torus, double distance, koksma_findings *findings)
+{
+    koksma_finding *f = koksma__finding(findings, torus ? "distance-torus" : "distance-square");
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = distance;
+    f->holds = distance > 0;
+    snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
+             distance / koksma__packing_distance(points->n, points->dim, torus));
+    return KOKSMA_OK;
+}
+
+static point *sort_points(const koksma_points *points)
+{
+    point *sorted = malloc(points->n * sizeof *sorted);
+    for (size_t i = 0; i < points->n && sorted; i++) {
+        sorted[i] = (point){points->xs + i * (size_t)points->dim, points->dim};
+    }
+    if (sorted) {
+        qsort(sorted, points->n, sizeof *sorted, compare);
+    } else {
+        koksma__fail_memory(points->n * sizeof *sorted);
+    }
+    return sorted;
+}
+
+koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
+                                       double *distance)
+{
+    if (points->n == 1) {
+        *distance = INFINITY;
+        return KOKSMA_OK;
+    }
+    if (torus && points->dim == 2) {
+        return grid_distance(points, run, distance);
+    }
+    point *sorted = sort_points(points);
+    if (!sorted) {
+        return KOKSMA_MEMORY;
+    }
+    *distance = sweep(sorted, points->n, torus);
+    free(sorted);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__verify_distances(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+{
+    const size_t n = points->n;
+    point *sorted = sort_points(points);
+    if (!sorted) {
+        return KOKSMA_MEMORY;
+    }
+    size_t repeated = 0;
+    for (size_t i = 1; i < n; i++) {
+        repeated += !memcmp(sorted[i].xs, sorted[i - 1].xs, (size_t)points->dim * sizeof(double));
+    }
+    free(sorted);
+    koksma_finding *f = koksma__finding(findings, "repeated");
+    koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
+    if (!status) {
+        f->value = (double)repeated;
+        f->holds = repeated == 0;
+    }
+    for (int torus = 0; torus < 2 && n > 1 && !status && (points->dim == 2 || n <= 20000); torus++) {
+        double distance;
+        status = koksma_smallest_distance(points, torus, run, &distance);
+        if (!status) {
+            status = add_distance(points, torus, distance, findings);
+        }
+    }
+    return status;
+}

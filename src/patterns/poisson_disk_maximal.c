@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * poisson-disk-maximal: dart throwing on the torus until no point can be added: no two points closer than d, and no
+ * place further than d from all of them.
+ *
+ *     by distance, d=D: the number of points follows (about 0.6965 / D^2); asking for another is refused
+ *     by number, d=0: darts at a distance that leaves a few points to come; then the distance shrinks, and room that
+ * opens is filled by darts, until exactly n points leave no room (a bisection: room opens one place at a time)
+ *
+ * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the room that is left; the law is
+ * that of dart throwing, so the points are unbiased. Room narrower than 2^-30 counts as none. About n log n time.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "core/status.h"
+#include "patterns/parts/dart_cover.h"
+#include "patterns/patterns.h"
+
+enum { TRIES = 100 };
+
+/* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there would be more,
+   and disks->d. */
+static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
+{
+    double high = disks->d, low = 0, step = 0.25 * (double)(n - disks->n) / (double)n;
+    size_t kept = disks->n;
+    koksma_status status = KOKSMA_OK;
+    for (int try = 0; try < TRIES && !status; try++) {
+        const double d = low > 0 ? (low + high) / 2 : high * (1 - fmin(step, 0.3));
+        status = koksma__disks_shrink(disks, kept, d);
+        if (!status) {
+            status = koksma__disks_fill(disks, n + 1, run);
+        }
+        if (status || disks->n == n) {
+            return status;
+        }
+        if (disks->n > n) {
+            low = d;
+        } else {
+            high = d;
+            kept = disks->n;
+            step *= 1.5;
+        }
+    }
+    return status
+               ? status
+               : koksma__fail(KOKSMA_IMPOSSIBLE,
+                              "poisson-disk-maximal: the search for %zu points ended with %zu; another seed would do",
+                              n, kept);
+}
+
+static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, koksma__disks *disks)
+{
+    const double few = fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9);
+    double d = fmin(sqrt(0.6965 / few), 0.72);
+    koksma_status status = KOKSMA_OK;
+    for (uint32_t try = 0; try < TRIES && !status; try++) {
+        status = koksma__disks_init(disks, koksma__random_seed(seed, try, KOKSMA__PURPOSE_DART), d);
+        if (!status) {
+            status = koksma__disks_fill(disks, n + 1, run);
+        }
+        if (status || disks->n <= n) {
+            break;
+        }
+        koksma__disks_fini(disks);
+        d = fmin(d * (1 + 0.3 / sqrt((double)n)), 0.72);
+    }
+    return status || disks->n >= n ? status : shrink_to(disks, n, run);
+}
+
+static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run, koksma__disks *disks)
+{
+    koksma_status status = koksma__disks_init(disks, seed, d);
+    return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const double d = args->params[0];
+    koksma__disks disks = {0};
+    koksma_status status =
+        d > 0 ? by_distance(seed, d, args->run, &disks) : by_number(seed, out->n, args->run, &disks);
+    if (!status && disks.n != out->n) {
+        status = koksma__fail(KOKSMA_N,
+                              "poisson-disk-maximal: d=%g with this seed has %zu points, not %zu; n = %zu, or no d, "
+                              "would do",
+                              d, disks.n, out->n, disks.n);
+    }
+    if (!status) {
+        memcpy(out->xs, disks.xs, 2 * out->n * sizeof *out->xs);
+    }
+    koksma__disks_fini(&disks);
+    return status;
+}
+
+static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    if (args->params[0] <= 0) {
+        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: without d= the number of points is missing");
+    }
+    koksma__disks disks = {0};
+    koksma_status status = by_distance(seed, args->params[0], args->run, &disks);
+    if (!status) {
+        out->n = disks.n;
+        out->xs = disks.xs;
+        disks.xs = NULL;
+    }
+    koksma__disks_fini(&disks);
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"d", "smallest distance; 0: whichever gives n points", 0, 0, 0.7, NULL, false},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_poisson_disk_maximal = {
+    .name = "poisson-disk-maximal",
+    .title = "dart throwing on the torus until nothing fits",
+    .cite = "ebeida2012 cook1986",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_MIN_DISTANCE | KOKSMA_CLAIM_MAXIMAL | KOKSMA_CLAIM_BLUE |
+              KOKSMA_CLAIM_UNBIASED,
+    .params = params,
+    .generate = generate,
+    .whole = whole,
+};

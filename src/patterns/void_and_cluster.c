@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * void-and-cluster: the centres of a mask's pixels in order of their ranks: a progressive blue-noise set of up to
+ * size^2 points.
+ *
+ *     x = (column + 1/2) / size, y = (row + 1/2) / size of the pixel of rank i
+ *
+ * Source: Ulichney 1993. koksma/mask.h has the mask itself.
+ */
+#include <koksma/mask.h>
+
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "patterns/patterns.h"
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const size_t size = (size_t)args->params[0], pixels = size * size;
+    if (out->n > pixels) {
+        return koksma__fail(KOKSMA_N, "void-and-cluster: size=%zu has %zu pixels, not %zu; n = %zu or less would do",
+                            size, pixels, out->n, pixels);
+    }
+    uint32_t *ranks = malloc(pixels * sizeof *ranks);
+    if (!ranks) {
+        return koksma__fail_memory(pixels * sizeof *ranks);
+    }
+    const koksma_status status = koksma_mask_void_and_cluster((int)size, seed, args->run, ranks);
+    for (size_t p = 0; p < pixels && !status; p++) {
+        if (ranks[p] < out->n) {
+            double *x = out->xs + 2 * (size_t)ranks[p];
+            x[0] = ((double)(p % size) + 0.5) / (double)size;
+            x[1] = ((double)(p / size) + 0.5) / (double)size;
+        }
+    }
+    free(ranks);
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"size", "of the mask, in pixels a side", 64, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_void_and_cluster = {
+    .name = "void-and-cluster",
+    .title = "the pixels of a void-and-cluster mask by rank",
+    .cite = "ulichney1993",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_BLUE,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * z-sampler: the points of all pixels of a square image, pixel after pixel: each pixel has its block of one
+ * hash-Owen-scrambled (0,2)-sequence, the blocks being given out along a Z-curve whose quadrants are in random order
+ * at each node. Neighbours share well-spread points, so their errors differ.
+ *
+ *     point s of pixel (x, y) = sequence(rank(x, y) spp + s),   n = width^2 spp
+ *
+ * Source: Ahmed & Wonka 2020. The set of all points, and with spp = 2^k that of each pixel, is a (0,m,2)-net in
+ * base 2.
+ */
+#include <koksma/sampler.h>
+
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/patterns.h"
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    int levels = 0;
+    const uint32_t width = (uint32_t)args->params[0];
+    while (1u << levels < width) {
+        levels++;
+    }
+    const size_t pixels = (size_t)width * width;
+    if (1u << levels != width) {
+        return koksma__fail(KOKSMA_ARGUMENT, "z-sampler: width=%u is not a power of two; width=%u or %u would do",
+                            width, 1u << (levels - 1), 1u << levels);
+    }
+    if (out->n % pixels) {
+        return koksma__fail(KOKSMA_N, "z-sampler: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n,
+                            pixels, (out->n / pixels + 1) * pixels);
+    }
+    const size_t spp = out->n / pixels;
+    const koksma_domain domain = {seed};
+    double *xy = out->xs;
+    for (size_t p = 0; p < pixels; p++) {
+        const uint32_t rank = koksma_z_rank(domain, (uint32_t)p % width, (uint32_t)p / width, levels);
+        for (size_t s = 0; s < spp; s++, xy += 2) {
+            koksma_sobol_2d(domain, (uint32_t)(rank * spp + s), xy);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static const koksma_param params[] = {
+    {"width", "pixels a side, a power of two", 4, 1, 8192, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_z_sampler = {
+    .name = "z-sampler",
+    .title = "one (0,2)-sequence over an image, along a Z-curve",
+    .cite = "ahmed2020",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_NET2,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The kernels of patterns against their twins, bit for bit, for odd counts. */
+#include <string.h>
+
+#include "core/random.h"
+#include "kernels/kernels.h"
+#include "patterns/parts/sobol_table.h"
+#include "test.h"
+
+enum { MAX = 300 };
+
+static const char *const isas[] = {"baseline", "avx2", "avx512"};
+
+static uint32_t words[4 * MAX];
+static double units[2 * MAX];
+
+static int setup(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    ref->words(5, KOKSMA__PURPOSE_TEST, 0, 0, MAX, words);
+    ref->uniform(6, KOKSMA__PURPOSE_TEST, 0, 0, MAX, units);
+    words[0] = 0;
+    words[1] = UINT32_MAX;
+    return 0;
+}
+
+typedef void (*compare)(const koksma__kernel_table *table, size_t count, void *out);
+
+static void assert_equal_to_reference(compare f, size_t most)
+{
+    static unsigned char a[32 * MAX], b[32 * MAX];
+    for (size_t isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        for (size_t count = 0; fast && count <= most; count += 1 + count / 7) {
+            memset(a, 0, sizeof a);
+            memset(b, 0, sizeof b);
+            f(koksma__kernels_find("ref"), count, a);
+            f(fast, count, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
+    }
+}
+
+static void quotients(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->quotients(count, units, 0.37, 3.1, out);
+}
+
+static void steps(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->steps(count, 12345678, 0.25, 1234567890, out);
+}
+
+static void fractions(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->fractions(count, words, out);
+}
+
+static void fraction_pairs(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->fraction_pairs(count, words, words + 7, out);
+}
+
+static void digital(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->digital(count, koksma__sobol_directions(5, 0), 0x12345678, out);
+}
+
+static void digital_at(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->digital_at(count, words, koksma__sobol_directions(9, 1), out);
+}
+
+static void owen_hash(const koksma__kernel_table *t, size_t count, void *out)
+{
+    uint32_t *v = out;
+    t->owen_hash(count, words, true, true, 0xdeadbeef, v);
+    t->owen_hash(count, words, false, true, 0x1234, v + MAX);
+    t->owen_hash(count, words, true, false, 0, v + 2 * MAX);
+    t->owen_hash(count, words, false, false, 77, v + 3 * MAX);
+}
+
+static void pascal(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->pascal(count, words, out);
+}
+
+static void grow(const koksma__kernel_table *t, size_t count, void *out)
+{
+    uint32_t *v = out;
+    memcpy(v, words, 256 * sizeof *v);
+    for (size_t first = 0; first < 2; first++) {
+        t->grow(v, 8, first, count < 255 ? count : 255, 0x5b, words + 300);
+    }
+}
+
+static void near(const koksma__kernel_table *t, size_t count, void *out)
+{
+    bool *found = out;
+    for (size_t i = 0; i < count; i++) {
+        const double d2 = 0.02 * units[i] * units[i];
+        found[2 * i] = t->near(units + i, units + 200, 9, units[i + 1], units[i + 9], d2);
+        found[2 * i + 1] = t->covers(units + i, units + 200, 9, units[i + 1], units[i + 9], 0.01, d2);
+    }
+}
+
+#define TEST(name, most)                                                                                             \
+    static void name##_equals_reference(void **state)                                                                \
+    {                                                                                                                \
+        (void)state;                                                                                                 \
+        assert_equal_to_reference(name, most);                                                                       \
+    }
+
+TEST(quotients, MAX)
+TEST(steps, MAX)
+TEST(fractions, MAX)
+TEST(fraction_pairs, MAX)
+TEST(digital, MAX)
+TEST(digital_at, MAX)
+TEST(owen_hash, MAX)
+TEST(pascal, MAX)
+TEST(grow, MAX)
+TEST(near, 250)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quotients_equals_reference), cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference), cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(digital_equals_reference),   cmocka_unit_test(digital_at_equals_reference),
+        cmocka_unit_test(owen_hash_equals_reference), cmocka_unit_test(pascal_equals_reference),
+        cmocka_unit_test(grow_equals_reference),      cmocka_unit_test(near_equals_reference),
+    };
+    return cmocka_run_group_tests(tests, setup, NULL);
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Few samples a pixel give the right image in the mean: for the patterns that claim it the mean over seeds is that of
+   many samples, for the whole image and pixel by pixel, within standard errors. */
+#include <stdlib.h>
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, SEEDS = 120 };
+
+typedef struct moments {
+    double mean[PIXELS], square_error[PIXELS]; /* of the mean */
+    double image_mean, image_square_error;
+} moments;
+
+static void measure(const koksma_scene *scene, const char *pattern, int spp, int seeds, uint64_t first, moments *out)
+{
+    static double sum[PIXELS], squares[PIXELS];
+    double image_sum = 0, image_squares = 0;
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene);
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.spp = spp;
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    for (int i = 0; i < PIXELS; i++) {
+        sum[i] = squares[i] = 0;
+    }
+    for (int s = 0; s < seeds; s++) {
+        koksma_image image;
+        double total = 0;
+        options.seed = first + (uint64_t)s;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (int i = 0; i < PIXELS; i++) {
+            const double value = (double)image.pixels[i];
+            sum[i] += value;
+            squares[i] += value * value;
+            total += value / PIXELS;
+        }
+        image_sum += total;
+        image_squares += total * total;
+        koksma_image_fini(&image);
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        out->mean[i] = sum[i] / seeds;
+        out->square_error[i] = fmax(squares[i] / seeds - out->mean[i] * out->mean[i], 0) / (seeds - 1);
+    }
+    out->image_mean = image_sum / seeds;
+    out->image_square_error = fmax(image_squares / seeds - out->image_mean * out->image_mean, 0) / (seeds - 1);
+}
+
+static void compare(const char *name, const char *pattern, int spp, const moments *reference, const moments *few)
+{
+    const double z =
+        (few->image_mean - reference->image_mean) / sqrt(few->image_square_error + reference->image_square_error);
+    if (!(fabs(z) < 4)) {
+        fail_msg("%s, %s at %d: the mean is %.2f standard errors off", name, pattern, spp, z);
+    }
+    int used = 0, far = 0;
+    double sum = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double variance = few->square_error[i] + reference->square_error[i];
+        const double difference = few->mean[i] - reference->mean[i];
+        if (variance > 1e-12) { /* the background has none */
+            used++;
+            sum += difference * difference / variance;
+            far += difference * difference > 25 * variance;
+        } else {
+            assert_near(difference, 0, 1e-4);
+        }
+    }
+    assert_true(used > PIXELS / 4);
+    /* Squared deviations have mean 1; their own spread over so many pixels is below 0.15. */
+    if (!(sum / used < 1.5) || far > 4) {
+        fail_msg("%s, %s at %d: mean square deviation %.2f of %d pixels, %d beyond 5", name, pattern, spp, sum / used,
+                 used, far);
+    }
+}
+
+static void few_samples_are_right_in_the_mean(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"ball", "checker-45"};
+    static const struct {
+        const char *pattern;
+        int spp;
+    } cases[] = {{"random", 2}, {"jittered", 4}, {"n-rooks", 3}, {"jittered", 16}};
+    for (size_t s = 0; s < 2; s++) {
+        koksma_scene *scene;
+        static moments reference, few;
+        assert_ok(koksma_scene_open(scenes[s], &scene));
+        measure(scene, "jittered", 400, 12, 1000, &reference);
+        for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+            measure(scene, cases[c].pattern, cases[c].spp, SEEDS, 1 + 5000 * c, &few);
+            compare(scenes[s], cases[c].pattern, cases[c].spp, &reference, &few);
+        }
+        koksma_scene_close(scene);
+    }
+}
+
+/* Shirley's finding on all three scenes: of random, jittered and n-rooks with 16 samples, n-rooks errs least and
+   random most. Aligned pairing ties lights to places in the pixel and costs accuracy. */
+static double mean_error(const char *name, const char *pattern, koksma_pairing pairing)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image reference, image;
+    koksma_image_error error;
+    double sum = 0;
+    assert_ok(koksma_scene_open(name, &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = 64;
+    options.height = 48;
+    options.spp = 400;
+    options.seed = 77;
+    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &reference));
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    options.spp = 16;
+    options.pairing = pairing;
+    for (options.seed = 0; options.seed < 4; options.seed++) {
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        assert_ok(koksma_image_compare(&image, &reference, &error));
+        sum += error.mean / 4;
+        koksma_image_fini(&image);
+    }
+    koksma_image_fini(&reference);
+    koksma_scene_close(scene);
+    return sum;
+}
+
+static void better_patterns_err_less(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"checker", "checker-45", "ball"};
+    for (size_t s = 0; s < 3; s++) {
+        const double random = mean_error(scenes[s], "random", KOKSMA_PAIRING_SHUFFLED);
+        const double jittered = mean_error(scenes[s], "jittered", KOKSMA_PAIRING_SHUFFLED);
+        const double n_rooks = mean_error(scenes[s], "n-rooks", KOKSMA_PAIRING_SHUFFLED);
+        if (!(n_rooks < 0.95 * jittered && jittered < 0.85 * random)) {
+            fail_msg("%s: n-rooks %.5f, jittered %.5f, random %.5f", scenes[s], n_rooks, jittered, random);
+        }
+    }
+    assert_true(mean_error("ball", "jittered", KOKSMA_PAIRING_ALIGNED) !=
+                mean_error("ball", "jittered", KOKSMA_PAIRING_SHUFFLED));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(few_samples_are_right_in_the_mean),
+        cmocka_unit_test(better_patterns_err_less),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Maximal Poisson disk sets: exactly n points, for many n and seeds, and by distance; files and specs as patterns. */
+#include <koksma/verify.h>
+
+#include <string.h>
+
+#include "patterns/parts/packing.h"
+#include "test.h"
+
+static void exactly_n_points(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 2, 3, 4, 5, 6, 7, 10, 13, 33, 100, 317, 1000, 1001};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        for (uint64_t seed = 0; seed < 8; seed++) {
+            koksma_points p = test_points("poisson-disk-maximal", counts[c], 2, seed);
+            double d = 0;
+            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+            if (counts[c] > 3) {
+                const double rho = d / koksma__packing_distance(counts[c], 2, true);
+                assert_true(rho > 0.6 && rho < 1);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+static void by_distance(void **state)
+{
+    (void)state;
+    static const double distances[] = {0.5, 0.3, 0.1, 0.05, 0.02};
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
+        char text[64];
+        koksma_spec spec;
+        koksma_points p;
+        double d;
+        snprintf(text, sizeof text, "poisson-disk-maximal:d=%g", distances[i]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        assert_ok(koksma_generate_whole(&spec, 3, NULL, 2, &p));
+        assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+        assert_true(d >= distances[i] * (1 - 1e-12));
+        const double expected = 0.6965 / distances[i] / distances[i];
+        assert_near((double)p.n, expected, 1.5 + 1.5 * sqrt(expected));
+        koksma_points same = test_points(text, p.n, 2, 3);
+        assert_memory_equal(same.xs, p.xs, 2 * p.n * sizeof *p.xs);
+        koksma_points_fini(&same);
+        assert_ok(koksma_points_init(&same, p.n + 1, 2));
+        assert_int_equal(koksma_generate(&spec, 3, NULL, &same), KOKSMA_N);
+        koksma_points_fini(&same);
+        koksma_points_fini(&p);
+    }
+    koksma_spec spec;
+    koksma_points p;
+    assert_ok(koksma_pattern_spec("poisson-disk-maximal", &spec));
+    assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
+    assert_ok(koksma_pattern_spec("random", &spec));
+    assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
+}
+
+static void files_are_patterns(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {"txt", "csv", "npy"};
+    koksma_points p = test_points("random", 20, 3, 1);
+    for (int e = 0; e < 3; e++) {
+        char path[64], spec_text[80], back[KOKSMA_MAX_SPEC];
+        koksma_spec spec;
+        snprintf(path, sizeof path, "test_disks_points.%s", endings[e]);
+        snprintf(spec_text, sizeof spec_text, "file:%s", path);
+        assert_ok(koksma_points_write(path, &p, NULL));
+        koksma_points some = test_points(spec_text, 12, 3, 7), all;
+        assert_memory_equal(some.xs, p.xs, 12 * 3 * sizeof *p.xs);
+        koksma_points_fini(&some);
+        assert_ok(koksma_pattern_spec(spec_text, &spec));
+        koksma_spec_text(&spec, back);
+        assert_string_equal(back, spec_text);
+        assert_ok(koksma_generate_whole(&spec, 0, NULL, 0, &all));
+        assert_int_equal(all.n, 20);
+        assert_int_equal(all.dim, 3);
+        koksma_points_fini(&all);
+        assert_ok(koksma_points_init(&some, 21, 3));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_N);
+        assert_non_null(strstr(koksma_error_text(), "20 points"));
+        koksma_points_fini(&some);
+        assert_ok(koksma_points_init(&some, 5, 2));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_DIM);
+        koksma_points_fini(&some);
+        snprintf(spec_text, sizeof spec_text, "file:%s,shift=1", path);
+        some = test_points(spec_text, 12, 3, 7);
+        assert_true(some.xs[0] != p.xs[0]);
+        koksma_points_fini(&some);
+        remove(path);
+        assert_ok(koksma_points_init(&some, 5, 3));
+        assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_MISSING);
+        koksma_points_fini(&some);
+    }
+    p.xs[4] = 1;
+    assert_ok(koksma_points_write("test_disks_points.txt", &p, NULL));
+    koksma_spec spec;
+    koksma_points some;
+    assert_ok(koksma_pattern_spec("file:test_disks_points.txt", &spec));
+    assert_ok(koksma_points_init(&some, 5, 3));
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_MALFORMED);
+    koksma_points_fini(&some);
+    remove("test_disks_points.txt");
+    koksma_points_fini(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exactly_n_points),
+        cmocka_unit_test(by_distance),
+        cmocka_unit_test(files_are_patterns),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Branch and bound for boxes in the plane against the plain search and a published value; its kernel against the
+   twin; bounds when time is short; threads. */
+#include <string.h>
+
+#include "kernels/kernels.h"
+#include "measures/parts/extreme.h"
+#include "sets.h"
+
+static void plane_equals_plain_search(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 36; s++) {
+        koksma_points p = sets_points(20 + 2 * (size_t)s, 2, s % SETS_KINDS, (uint64_t)s);
+        koksma_value plain = {.value = NAN};
+        assert_ok(koksma__extreme_small(&p, NULL, &plain));
+        assert_near(test_measure("extreme", &p).value, plain.value, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
+static void hammersley_has_its_value(void **state)
+{
+    (void)state;
+    koksma_points p;
+    assert_ok(koksma_points_init(&p, 1024, 2));
+    for (size_t i = 0; i < p.n; i++) {
+        p.xs[2 * i] = ((double)i + 0.5) / 1024;
+        for (int bit = 0; bit < 10; bit++) {
+            p.xs[2 * i + 1] += (double)(i >> bit & 1) * exp2(-1 - bit);
+        }
+    }
+    assert_near(test_measure("extreme", &p).value, 0.006079674, 5e-10);
+    koksma_points_fini(&p);
+}
+
+static void strips_equal_reference(void **state)
+{
+    (void)state;
+    double x[200], y[200], sides[6][16], a[2][16], b[2][16];
+    for (size_t i = 0; i < 200; i++) {
+        x[i] = sets_unit(1, i);
+        y[i] = ((double)i + sets_unit(2, i)) / 200;
+    }
+    for (size_t count = 0; count <= 200; count += 1 + count / 3) {
+        for (size_t l = 0; l < 16; l++) {
+            sides[0][l] = sides[3][l] = 0.5 * sets_unit(3, l + count);
+            sides[1][l] = sides[4][l] = 0.5 + 0.5 * sets_unit(4, l + count);
+            sides[2][l] = 190 * (sides[1][l] - sides[0][l]);
+            sides[5][l] = 210 * (sides[1][l] - sides[0][l]);
+        }
+        koksma__kernels_find("ref")->extreme_strips(count, x, y, (const double(*)[16])sides, a[0], a[1]);
+        static const char *const isas[] = {"baseline", "avx2", "avx512"};
+        for (int isa = 0; isa < 3; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+            if (fast) {
+                fast->extreme_strips(count, x, y, (const double(*)[16])sides, b[0], b[1]);
+                assert_memory_equal(a, b, sizeof a);
+            }
+        }
+    }
+}
+
+static void short_time_gives_bounds(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("jittered", 256, 2, 3);
+    koksma_spec spec;
+    koksma_value exact, cut;
+    assert_ok(koksma_measure_spec("extreme", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, NULL, &exact));
+    assert_true(exact.exact && exact.upper == exact.value && exact.lower == exact.value);
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 1e-6}, &cut));
+    assert_true(cut.lower <= exact.value + 1e-15 && cut.upper >= exact.value - 1e-15);
+    koksma_points_fini(&p);
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("random", 200, 2, 9);
+    koksma_spec spec;
+    koksma_value one, other;
+    assert_ok(koksma_measure_spec("extreme", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
+    for (int threads = 2; threads <= 8; threads++) {
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = threads}, &other));
+        assert_memory_equal(&one, &other, sizeof one);
+    }
+    koksma_points_fini(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(hammersley_has_its_value),
+        cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
+        cmocka_unit_test(threads_change_no_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

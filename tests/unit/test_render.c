@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Renders as a whole: bits, light in closed form, shadows, errors. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+static koksma_image render(const koksma_scene *scene, const char *pattern, int spp, int threads, uint64_t seed)
+{
+    koksma_render_options options;
+    koksma_image image;
+    const koksma_run run = {.threads = threads};
+    koksma_render_options_init(&options, scene);
+    options.width = 45; /* no multiple of anything */
+    options.height = 34;
+    options.spp = spp;
+    options.seed = seed;
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    assert_ok(koksma_render(scene, &options, &run, &image));
+    return image;
+}
+
+static void same_bits_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"random", "jittered", "n-rooks", "regular"};
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("ball", &scene));
+    for (size_t p = 0; p < 4; p++) {
+        static const int spps[] = {1, 4, 25, 100};
+        koksma_image one = render(scene, patterns[p], spps[p], 1, 7);
+        for (int threads = 2; threads <= 5; threads += 3) {
+            koksma_image many = render(scene, patterns[p], spps[p], threads, 7);
+            assert_memory_equal(one.pixels, many.pixels, 45 * 34 * sizeof(float));
+            koksma_image_fini(&many);
+        }
+        koksma_image other = render(scene, patterns[p], spps[p], 1, 8);
+        assert_true(memcmp(one.pixels, other.pixels, 45 * 34 * sizeof(float)) != 0);
+        koksma_image_fini(&other);
+        koksma_image_fini(&one);
+    }
+    koksma_scene_close(scene);
+}
+
+static koksma_scene *scene_of(const char *text)
+{
+    koksma_scene *scene;
+    FILE *file = fopen("test_render.json", "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    assert_ok(koksma_scene_open("test_render.json", &scene));
+    unlink("test_render.json");
+    return scene;
+}
+
+static double pixel(const koksma_scene *scene, const char *pattern, int spp)
+{
+    koksma_render_options options;
+    koksma_image image;
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = 1;
+    options.spp = spp;
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &image));
+    const double value = (double)image.pixels[0];
+    koksma_image_fini(&image);
+    return value;
+}
+
+/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
+   (Howell's catalogue, B-3). */
+static double corner_factor(double a, double b)
+{
+    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
+    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
+}
+
+#define PATCH                                                                                                        \
+    "\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                    \
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
+#define FLOOR "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}"
+#define LAMP(x)                                                                                                      \
+    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [" x ", 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 0.5],"  \
+    "\"radiance\": 2}]"
+
+/* Reflected radiance is albedo x radiance x form factor. 64 x 64 strata make the error about 1e-5. */
+static void light_is_its_form_factor(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{" PATCH "\"shapes\": [" FLOOR "]," LAMP("0") "}");
+    const double centred = 4 * corner_factor(0.5, 0.25);
+    assert_near(pixel(scene, "jittered", 4096), 0.9 * 2 * centred, 1e-4);
+    assert_near(pixel(scene, "regular", 4096), 0.9 * 2 * centred, 1e-4);
+    koksma_scene_close(scene);
+    scene = scene_of("{" PATCH "\"shapes\": [" FLOOR "]," LAMP("3") "}");
+    const double aside = 2 * (corner_factor(2, 0.25) - corner_factor(1, 0.25));
+    assert_near(pixel(scene, "jittered", 4096), 0.9 * 2 * aside, 1e-4);
+    koksma_scene_close(scene);
+}
+
+/* A screen over half of the lamp takes half of its light; over all of it, all; a ball around the patch too. */
+static void shadows_take_light(void **state)
+{
+    (void)state;
+    const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
+    static const struct {
+        const char *shape;
+        double left;
+    } screens[] = {
+        {"{\"kind\": \"rectangle\", \"centre\": [1, 1.5, 0], \"normal\": [0, 1, 0], \"half\": [1, 1]", 0.5},
+        {"{\"kind\": \"rectangle\", \"centre\": [0, 1.5, 0], \"normal\": [0, 1, 0], \"half\": [2, 2]", 0},
+        {"{\"kind\": \"disk\", \"centre\": [0, 1.5, 0], \"normal\": [0, -1, 0], \"radius\": 2", 0},
+        {"{\"kind\": \"sphere\", \"centre\": [0, 1, 0], \"radius\": 0.9", 0},
+        {"{\"kind\": \"sphere\", \"centre\": [0, 3, 0], \"radius\": 0.9", 1},
+        {"{\"kind\": \"plane\", \"centre\": [0, 2.5, 0], \"normal\": [0, 1, 0]", 1},
+    };
+    for (size_t i = 0; i < sizeof screens / sizeof *screens; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, "{" PATCH "\"shapes\": [" FLOOR ", %s, \"material\": \"m\"}]," LAMP("0") "}",
+                 screens[i].shape);
+        /* seen from where the sphere does not stand in the way */
+        char *eye = strstr(text, "[0, 1, 4]");
+        memcpy(eye, "[5, 1, 9]", 9);
+        koksma_scene *scene = scene_of(text);
+        assert_near(pixel(scene, "jittered", 4096), screens[i].left * full, 2e-3);
+        koksma_scene_close(scene);
+    }
+}
+
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+static void errors_are_said(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    options.spp = 0;
+    assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);
+    options.spp = KOKSMA_MAX_SPP + 1;
+    assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);
+    options.spp = 17;
+    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
+    assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_N);
+    assert_non_null(strstr(koksma_error_text(), "n = 16 or 25 would do"));
+    assert_ok(koksma_pattern_spec("poisson-disk:d=0.9", &options.pattern));
+    assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_IMPOSSIBLE);
+    assert_ok(koksma_pattern_spec("n-rooks", &options.pattern));
+    options.width = 0;
+    assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);
+    options.width = 8;
+    const koksma_run run = {.keep_going = stop_at_once};
+    assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
+    assert_null(image.pixels);
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_bits_for_any_number_of_threads),
+        cmocka_unit_test(light_is_its_form_factor),
+        cmocka_unit_test(shadows_take_light),
+        cmocka_unit_test(errors_are_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

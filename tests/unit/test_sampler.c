@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* koksma/sampler.h gives the bits of the library's bulk generators. */
+#include <koksma/mask.h>
+#include <koksma/sampler.h>
+
+#include <string.h>
+
+#include "core/random.h"
+#include "test.h"
+
+enum { N = 1000 };
+
+static void words_are_the_librarys(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 100; i++) {
+        uint32_t words[4];
+        const uint64_t key = 0x123456789abcdefu * i;
+        koksma_words(key, i % 7, (uint64_t)i << 33 | i, 5 * i, words);
+        const koksma__words expected = koksma__random(key, i % 7, (uint64_t)i << 33 | i, 5 * i);
+        assert_memory_equal(words, expected.w, sizeof words);
+    }
+    assert_int_equal(KOKSMA_FOR_POINT, KOKSMA__PURPOSE_POINT);
+    assert_int_equal(KOKSMA_FOR_SHUFFLE, KOKSMA__PURPOSE_SHUFFLE);
+    assert_int_equal(KOKSMA_FOR_SHIFT, KOKSMA__PURPOSE_SHIFT);
+    assert_int_equal(KOKSMA_FOR_SCRAMBLE, KOKSMA__PURPOSE_SCRAMBLE);
+}
+
+static void sobol(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_sobol_2d(domain, i, xs);
+}
+
+static void sobol4(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_sobol_4d(domain, i, xs);
+}
+
+static void pmj02(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_pmj02_2d(domain, i, xs);
+}
+
+static void cmj(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_cmj_2d(domain, i, 25, N / 25, xs);
+}
+
+static void r(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_r_2d(domain, i, xs);
+}
+
+static void samples_are_the_librarys(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *pattern;
+        int dim;
+        void (*f)(koksma_domain domain, uint32_t i, double *xs);
+    } pairs[] = {
+        {"sobol:scramble=hash-owen,shuffle=1", 2, sobol},
+        {"sobol:scramble=hash-owen,shuffle=1", 4, sobol4},
+        {"pmj02", 2, pmj02},
+        {"correlated-multi-jittered:columns=25", 2, cmj},
+        {"r-sequence:shift=1", 2, r},
+    };
+    for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
+        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(9, 3, 4), (uint32_t)p);
+        koksma_points points = test_points(pairs[p].pattern, N, pairs[p].dim, domain.key);
+        for (uint32_t i = 0; i < N; i++) {
+            double xs[4];
+            pairs[p].f(domain, i, xs);
+            if (memcmp(xs, points.xs + i * (size_t)pairs[p].dim, (size_t)pairs[p].dim * sizeof *xs)) {
+                fail_msg("%s: point %u", pairs[p].pattern, i);
+            }
+        }
+        koksma_points_fini(&points);
+    }
+}
+
+static void z_ranks_are_a_permutation(void **state)
+{
+    (void)state;
+    unsigned char seen[32 * 32] = {0};
+    const koksma_domain domain = {77};
+    for (uint32_t y = 0; y < 32; y++) {
+        for (uint32_t x = 0; x < 32; x++) {
+            const uint32_t rank = koksma_z_rank(domain, x, y, 5);
+            assert_true(rank < 32 * 32 && !seen[rank]);
+            seen[rank] = 1;
+            assert_int_equal(rank / 4, koksma_z_rank(domain, x ^ 1, y ^ 1, 5) / 4); /* a quad is consecutive */
+        }
+    }
+}
+
+static void permutations_are_permutations(void **state)
+{
+    (void)state;
+    for (uint32_t n = 1; n < 300; n += 1 + n / 8) {
+        unsigned char seen[300] = {0};
+        for (uint32_t i = 0; i < n; i++) {
+            const uint32_t j = koksma_permute(i, n, 0x9e3779b97f4a7c15u * n);
+            assert_true(j < n && !seen[j]);
+            seen[j] = 1;
+        }
+    }
+    /* and random ones: where 0 goes, and who is next to it */
+    enum { KEYS = 12000, SIZE = 6 };
+    int place[SIZE] = {0}, second[SIZE] = {0};
+    for (uint32_t key = 0; key < KEYS; key++) {
+        const koksma__words w = koksma__random(key, KOKSMA__PURPOSE_TEST, 0, 0);
+        const uint64_t k = (uint64_t)w.w[0] << 32 | w.w[1];
+        const uint32_t a = koksma_permute(0, SIZE, k), b = koksma_permute(1, SIZE, k);
+        place[a]++;
+        second[(b + SIZE - a) % SIZE]++;
+    }
+    for (int i = 0; i < SIZE; i++) {
+        assert_near(place[i], KEYS / (double)SIZE, 5 * sqrt(KEYS / (double)SIZE));
+        assert_near(second[i], i ? KEYS / (SIZE - 1.0) : 0, 8 * sqrt(KEYS / (double)SIZE));
+    }
+}
+
+static void floats_stay_below_one(void **state)
+{
+    (void)state;
+    assert_true(koksma_to_float(1 - 0x1p-53) < 1.0f);
+    assert_true(koksma_to_float(0.75) == 0.75f);
+    assert_true((float)(1 - 0x1p-53) == 1.0f);
+}
+
+/* The lower half of the ranks is spread: each pixel of rank below a tenth keeps its distance. */
+static void masks_are_permutations(void **state)
+{
+    (void)state;
+    enum { SIZE = 16 };
+    uint32_t ranks[SIZE * SIZE];
+    unsigned char seen[SIZE * SIZE] = {0};
+    assert_ok(koksma_mask_void_and_cluster(SIZE, 3, NULL, ranks));
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        assert_true(ranks[i] < SIZE * SIZE && !seen[ranks[i]]);
+        seen[ranks[i]] = 1;
+    }
+    assert_int_equal(koksma_mask_void_and_cluster(3, 3, NULL, ranks), KOKSMA_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_are_the_librarys),    cmocka_unit_test(samples_are_the_librarys),
+        cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
+        cmocka_unit_test(floats_stay_below_one),     cmocka_unit_test(masks_are_permutations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Each defect that `koksma verify` is there for, planted in points that have none, is found; and only it. */
+#include <koksma/verify.h>
+
+#include <string.h>
+
+#include "patterns/parts/packing.h"
+#include "test.h"
+
+static const koksma_finding *find(const koksma_findings *all, const char *property, const char *subject)
+{
+    for (size_t i = 0; i < all->count; i++) {
+        if (!strcmp(all->items[i].property, property) && !strcmp(all->items[i].subject, subject)) {
+            return &all->items[i];
+        }
+    }
+    fail_msg("no finding %s of %s", property, subject);
+    return NULL;
+}
+
+static koksma_finding one(const koksma_points *points, const char *property, const char *subject)
+{
+    koksma_findings all;
+    assert_ok(koksma_verify(points, NULL, &all));
+    const koksma_finding f = *find(&all, property, subject);
+    koksma_findings_fini(&all);
+    return f;
+}
+
+static void healthy_points_pass(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("sobol", 256, 2, 0);
+    static const char *const properties[][2] = {
+        {"net-base-2", "0,1"},    {"latin", "0"},      {"latin", "1"},           {"stratified", "16 x 16"},
+        {"stratified", "4 x 64"}, {"repeated", "-"},   {"origin-repeated", "-"}, {"origin-missing", "-"},
+        {"rounds-to-one", "-"},   {"progressive", "-"}};
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
+        const koksma_finding f = one(&p, properties[i][0], properties[i][1]);
+        if (!f.holds) {
+            fail_msg("%s %s: %g %s", f.property, f.subject, f.value, f.detail);
+        }
+    }
+    koksma_points_fini(&p);
+}
+
+static void a_broken_net(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("sobol:scramble=owen", 64, 2, 4);
+    assert_true(one(&p, "net-base-2", "0,1").holds);
+    const double y = p.xs[2 * 9 + 1]; /* swapping two y's keeps both coordinates Latin */
+    p.xs[2 * 9 + 1] = p.xs[2 * 50 + 1];
+    p.xs[2 * 50 + 1] = y;
+    const koksma_finding f = one(&p, "net-base-2", "0,1");
+    assert_false(f.holds);
+    assert_true(f.value >= 1);
+    assert_true(one(&p, "latin", "1").holds);
+    koksma_points_fini(&p);
+}
+
+static void quality_in_other_bases_and_dimensions(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("faure", 125, 3, 0);
+    assert_true(one(&p, "net-base-3", "all").holds);
+    assert_false(one(&p, "net-base-5", "all").holds);
+    koksma_points_fini(&p);
+    p = test_points("faure", 125, 5, 0);
+    assert_true(one(&p, "net-base-5", "all").holds);
+    assert_true(one(&p, "net-base-5", "2,4").holds);
+    koksma_points_fini(&p);
+    p = test_points("sobol", 64, 3, 0); /* t = 1 in three dimensions, 0 in two */
+    assert_near(one(&p, "net-base-2", "all").value, 1, 0);
+    assert_true(one(&p, "net-base-2", "0,1").holds);
+    koksma_points_fini(&p);
+}
+
+static void a_missing_stratum(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("jittered", 64, 2, 4);
+    assert_true(one(&p, "stratified", "8 x 8").holds);
+    p.xs[2 * 5] = p.xs[2 * 60];
+    p.xs[2 * 5 + 1] = p.xs[2 * 60 + 1] * 0.999;
+    const koksma_finding f = one(&p, "stratified", "8 x 8");
+    assert_false(f.holds);
+    assert_near(f.value, 1, 0);
+    koksma_points_fini(&p);
+}
+
+static void two_rooks_in_a_row(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("n-rooks", 50, 2, 4);
+    assert_true(one(&p, "latin", "0").holds && one(&p, "latin", "1").holds);
+    p.xs[2 * 7 + 1] = p.xs[2 * 8 + 1];
+    assert_true(one(&p, "latin", "0").holds);
+    assert_near(one(&p, "latin", "1").value, 1, 0);
+    koksma_points_fini(&p);
+}
+
+static void two_close_points_and_only_across_the_side(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("dart-throwing", 200, 2, 4);
+    const double densest = koksma__packing_distance(200, 2, true);
+    assert_true(one(&p, "distance-torus", "-").value >= 0.75 * densest * (1 - 1e-12));
+    const double square = one(&p, "distance-square", "-").value;
+    p.xs[0] = 0.0005;
+    p.xs[1] = 0.5;
+    p.xs[2] = 0.9995;
+    p.xs[3] = 0.5;
+    assert_near(one(&p, "distance-torus", "-").value, 0.001, 1e-12);
+    assert_true(one(&p, "distance-square", "-").value > 0.001);
+    assert_true(square > 0.001);
+    koksma_points_fini(&p);
+}
+
+static void distances_by_brute_force(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= 4; dim++) {
+        for (uint64_t seed = 0; seed < 5; seed++) {
+            koksma_points p = test_points("random", 60, dim, seed);
+            double best[2] = {10, 10}, found;
+            for (size_t i = 0; i < p.n; i++) {
+                for (size_t j = 0; j < i; j++) {
+                    double plain = 0, around = 0;
+                    for (int k = 0; k < dim; k++) {
+                        const double t = fabs(p.xs[i * (size_t)dim + (size_t)k] - p.xs[j * (size_t)dim + (size_t)k]);
+                        plain += t * t;
+                        around += fmin(t, 1 - t) * fmin(t, 1 - t);
+                    }
+                    best[0] = fmin(best[0], sqrt(plain));
+                    best[1] = fmin(best[1], sqrt(around));
+                }
+            }
+            for (int torus = 0; torus < 2; torus++) {
+                assert_ok(koksma_smallest_distance(&p, torus, NULL, &found));
+                assert_near(found, best[torus], 1e-15);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+static void a_repeated_point(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("random", 100, 3, 4);
+    assert_true(one(&p, "repeated", "-").holds);
+    memcpy(p.xs + 3 * 10, p.xs + 3 * 90, 3 * sizeof *p.xs);
+    assert_near(one(&p, "repeated", "-").value, 1, 0);
+    assert_false(one(&p, "distance-square", "-").holds);
+    koksma_points_fini(&p);
+}
+
+static void the_origin(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("sobol", 65, 2, 0);
+    koksma_points skipped = {64, 2, p.xs + 2}; /* the first point dropped */
+    const koksma_finding f = one(&skipped, "origin-missing", "-");
+    assert_false(f.holds);
+    assert_false(one(&skipped, "net-base-2", "0,1").holds);
+    p.xs[2 * 3] = p.xs[2 * 3 + 1] = 0;
+    assert_near(one(&p, "origin-repeated", "-").value, 2, 0);
+    assert_false(one(&p, "origin-repeated", "-").holds);
+    koksma_points_fini(&p);
+    p = test_points("random", 64, 2, 0);
+    assert_true(one(&p, "origin-missing", "-").holds);
+    koksma_points_fini(&p);
+}
+
+static void a_coordinate_that_rounds_to_one(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("regular", 64, 2, 0);
+    assert_true(one(&p, "rounds-to-one", "-").holds);
+    p.xs[101] = 1 - 0x1p-26;
+    assert_near(one(&p, "rounds-to-one", "-").value, 1, 0);
+    koksma_points_fini(&p);
+}
+
+static void an_order_that_is_not_progressive(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("jittered", 256, 2, 0); /* in order of the cells */
+    const koksma_finding f = one(&p, "progressive", "-");
+    assert_false(f.holds);
+    koksma_points_fini(&p);
+    p = test_points("pmj02", 256, 2, 0);
+    assert_true(one(&p, "progressive", "-").holds);
+    koksma_points_fini(&p);
+}
+
+static void points_outside_are_refused(void **state)
+{
+    (void)state;
+    double xs[] = {0.5, 1.5};
+    const koksma_points p = {1, 2, xs};
+    koksma_findings all;
+    assert_int_equal(koksma_verify(&p, NULL, &all), KOKSMA_ARGUMENT);
+    xs[1] = 1;
+    assert_ok(koksma_verify(&p, NULL, &all));
+    koksma_findings_fini(&all);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(healthy_points_pass),
+        cmocka_unit_test(a_broken_net),
+        cmocka_unit_test(quality_in_other_bases_and_dimensions),
+        cmocka_unit_test(a_missing_stratum),
+        cmocka_unit_test(two_rooks_in_a_row),
+        cmocka_unit_test(two_close_points_and_only_across_the_side),
+        cmocka_unit_test(distances_by_brute_force),
+        cmocka_unit_test(a_repeated_point),
+        cmocka_unit_test(the_origin),
+        cmocka_unit_test(a_coordinate_that_rounds_to_one),
+        cmocka_unit_test(an_order_that_is_not_progressive),
+        cmocka_unit_test(points_outside_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
