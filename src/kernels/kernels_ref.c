@@ -318,3 +318,33 @@ bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double
     }
     return true;
 }
+
+static double overlap(int law, double r, double distance)
+{
+    const double h = distance / 2;
+    if (h >= r) {
+        return 0;
+    }
+    const double s = sqrt(r * r - h * h), angle = acos(h / r);
+    switch (law) {
+    case 0:
+        return 2 * r * r * angle - 2 * h * s;
+    case 1:
+        return (2 * r * r * r * angle - 4 * h * r * s + (h > 0 ? 2 * h * h * h * log((r + s) / h) : 0)) / (3 * r);
+    default:
+        return (r * r * r * r * angle - (5 * h * s * s * s) / 3 - h * h * h * s) / (r * r);
+    }
+}
+
+double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t count, const double *xs,
+                                  const double *ys)
+{
+    koksma__sum sum = {0};
+    for (size_t j = 0; j < count; j++) {
+        for (int image = 0; image < 9; image++) {
+            const double dx = x - xs[j] + image % 3 - 1, dy = y - ys[j] + image / 3 - 1;
+            koksma__sum_add(&sum, overlap(law, r, sqrt(dx * dx + dy * dy)));
+        }
+    }
+    return koksma__sum_value(&sum);
+}

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * disk: the largest difference, over all disks on the unit torus of radius up to r, between the share of points in
- * the disk and its area.
+ * disk: the largest difference, over all disks on the torus with a radius up to r, between the share of points in the
+ * disk and its area.
  *
- * Formula: sup over disks D of |#{x_i in D}/n - area of D|. An excess is reached at the smallest closed disk that
- * holds some points: a single point, two points on a diameter or three on the rim. A deficit is reached at an open
- * disk with three points on its rim or, at radius r, with two or (about which it can turn freely) one. Source:
- * Mitchell 1992, section 4, for disks; the critical disks are ours. Brute force: O(n^4). Known exactly: n copies of
- * one point: 1; one point, r = 1/4: 1. Limits: r < 1/2, so that no disk holds a point twice. Points within 1e-12 of a
- * rim count as on it.
+ * Formula: sup over c and 0 <= s <= r of |#{x_i within s of c}/n - pi s^2|, r < 1/2. An excess is reached at the
+ * smallest closed disk about some points, which has one of them as its centre (s = 0), two at the ends of a diameter,
+ * or three on its rim. A deficit is reached at an open disk with three points on its rim, or of radius r with two or
+ * one. For each pair the centre runs along the bisector; every other point is inside on a half-line of it.
+ * Source: derived; the critical disks are those of smallest enclosing circles (Megiddo 1983) and of an arrangement of
+ * circles of equal radius. Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
+ * Limits: a point closer than 4e-15 (as a squared distance) to a rim counts as on it, so that cocircular points count
+ * together in spite of rounding; the value is good to 1e-14. n^3 work at worst: up to 512 points.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,145 +18,108 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
+#include "measures/parts/disk_pencil.h"
 
-enum { MAX_N = 256 };
+enum { MAX_N = 512 };
 
-typedef struct disk {
-    double x, y, r2;
-} disk;
+typedef struct search {
+    koksma__disk_set set;
+    koksma__disk_best start, *blocks; /* what single points give; by first point of the pair */
+} search;
 
-typedef struct job {
-    const koksma_points *points;
-    double r;
-    koksma_value *values; /* one a point */
-} job;
-
-static size_t count(const koksma_points *p, const disk *d, bool closed)
+/* Disks with one point: at its centre, or on the rim of a disk of the largest radius. */
+static void try_singles(search *s)
 {
-    const double limit = d->r2 * (closed ? 1 + 2e-12 : 1 - 2e-12) + (closed ? 1e-24 : 0);
-    size_t inside = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        double dx = fabs(p->xs[2 * i] - d->x), dy = fabs(p->xs[2 * i + 1] - d->y);
-        dx -= floor(dx);
-        dy -= floor(dy);
-        dx = dx < 1 - dx ? dx : 1 - dx;
-        dy = dy < 1 - dy ? dy : 1 - dy;
-        inside += closed ? dx * dx + dy * dy <= limit : dx * dx + dy * dy < limit;
-    }
-    return inside;
-}
-
-static void consider(const koksma_points *p, disk d, bool closed, koksma_value *out)
-{
-    const double area = M_PI * d.r2, n = (double)p->n;
-    if ((closed ? 1 - area : area) <= out->value) {
-        return;
-    }
-    const size_t inside = count(p, &d, closed);
-    const double value = closed ? (double)inside / n - area : area - (double)inside / n;
-    if (value > out->value) {
-        out->value = value;
-        out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_DISK,
-                                        .dim = 2,
-                                        .closed = closed,
-                                        .count = inside,
-                                        .volume = area,
-                                        .lo = {d.x - floor(d.x), d.y - floor(d.y)},
-                                        .hi = {sqrt(d.r2)}};
-    }
-}
-
-/* Disks with the origin (x, y) and one or two other points, relative to it, on the rim. */
-static void try_pair(const job *j, const double *p, const double *a, koksma_value *out)
-{
-    const double r2 = j->r * j->r, half2 = (a[0] * a[0] + a[1] * a[1]) / 4;
-    if (half2 > r2) {
-        return;
-    }
-    consider(j->points, (disk){p[0] + a[0] / 2, p[1] + a[1] / 2, half2}, true, out);
-    const double t = half2 > 0 ? sqrt((r2 - half2) / (4 * half2)) : 0;
-    for (int side = -1; side <= 1 && half2 > 0; side += 2) {
-        consider(j->points, (disk){p[0] + a[0] / 2 - side * t * a[1], p[1] + a[1] / 2 + side * t * a[0], r2}, false,
-                 out);
-    }
-}
-
-static void try_triple(const job *j, const double *p, const double *a, const double *b, koksma_value *out)
-{
-    const double cross = 2 * (a[0] * b[1] - a[1] * b[0]);
-    const double a2 = a[0] * a[0] + a[1] * a[1], b2 = b[0] * b[0] + b[1] * b[1];
-    if (fabs(cross) < 1e-15) {
-        return;
-    }
-    const double x = (b[1] * a2 - a[1] * b2) / cross, y = (a[0] * b2 - b[0] * a2) / cross, r2 = x * x + y * y;
-    if (r2 <= j->r * j->r) {
-        const disk d = {p[0] + x, p[1] + y, r2};
-        consider(j->points, d, true, out);
-        consider(j->points, d, false, out);
-    }
-}
-
-/* Points of higher index and their images within 2r of point i, relative to it. */
-static size_t neighbours(const job *j, size_t i, double (*out)[2])
-{
-    const double *xs = j->points->xs;
-    size_t found = 0;
-    for (size_t k = i + 1; k < j->points->n; k++) {
-        for (int image = 0; image < 9; image++) {
-            const double dx = xs[2 * k] - xs[2 * i] + image % 3 - 1,
-                         dy = xs[2 * k + 1] - xs[2 * i + 1] + image / 3 - 1;
-            if (dx * dx + dy * dy <= 4 * j->r * j->r * (1 + 1e-14)) {
-                out[found][0] = dx;
-                out[found++][1] = dy;
-            }
+    const koksma__disk_set *set = &s->set;
+    const double r = set->r;
+    for (size_t i = 0; i < set->m; i++) {
+        const double centre[2] = {set->xs[i] + r, set->ys[i]};
+        size_t inside = 0;
+        koksma__disk_try(set, &s->start, true, set->weights[i], (double[]){set->xs[i], set->ys[i]}, 0);
+        for (size_t k = 0; k < set->m; k++) {
+            const double dx = set->xs[k] - centre[0], dy = set->ys[k] - centre[1], a = dx - round(dx),
+                         b = dy - round(dy);
+            inside += a * a + b * b < r * r - KOKSMA__DISK_RIM ? set->weights[k] : 0;
         }
+        koksma__disk_try(set, &s->start, false, inside, centre, r * r);
     }
-    return found;
 }
 
-static koksma_status try_point(void *context, size_t i)
+static koksma_status block(void *context, size_t i)
 {
-    const job *j = context;
-    const size_t n = j->points->n;
-    const double *p = j->points->xs + 2 * i;
-    double(*others)[2] = malloc((9 * n + 1) * sizeof *others);
-    if (!others) {
-        return koksma__fail_memory((9 * n + 1) * sizeof *others);
+    search *s = context;
+    s->blocks[i] = s->start;
+    return koksma__disk_pencils(&s->set, i, &s->blocks[i]);
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* The points without repeats, 1 written as 0. */
+static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points)
+{
+    const size_t n = points->n;
+    double *sorted = malloc(2 * n * sizeof(double));
+    set->xs = malloc(2 * n * sizeof(double));
+    set->weights = malloc(n * sizeof(size_t));
+    if (!sorted || !set->xs || !set->weights) {
+        free(sorted);
+        return koksma__fail_memory(5 * n * sizeof(double));
     }
-    koksma_value value = {.value = -1};
-    const size_t found = neighbours(j, i, others);
-    consider(j->points, (disk){p[0], p[1], 0}, true, &value);
-    consider(j->points, (disk){p[0] + j->r, p[1], j->r * j->r}, false, &value);
-    for (size_t a = 0; a < found; a++) {
-        try_pair(j, p, others[a], &value);
-        for (size_t b = 0; b < a; b++) {
-            try_triple(j, p, others[a], others[b], &value);
+    set->ys = set->xs + n;
+    for (size_t c = 0; c < 2 * n; c++) {
+        sorted[c] = points->xs[c] < 1 ? points->xs[c] : 0;
+    }
+    qsort(sorted, n, 2 * sizeof(double), compare_points);
+    for (size_t i = 0; i < n; i++) {
+        if (i == 0 || compare_points(sorted + 2 * i, sorted + 2 * (i - 1))) {
+            set->xs[set->m] = sorted[2 * i];
+            set->ys[set->m] = sorted[2 * i + 1];
+            set->weights[set->m++] = 0;
         }
+        set->weights[set->m - 1]++;
     }
-    j->values[i] = value;
-    free(others);
+    free(sorted);
     return KOKSMA_OK;
+}
+
+static koksma_status search_pairs(search *s, const koksma_run *run)
+{
+    s->blocks = malloc(s->set.m * sizeof *s->blocks);
+    if (!s->blocks) {
+        return koksma__fail_memory(s->set.m * sizeof *s->blocks);
+    }
+    s->start.value = -1;
+    try_singles(s);
+    /* A first value for all blocks to prune with, the same whatever the threads. */
+    const koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
+    return status ? status : koksma__parallel(run, s->set.m, block, s);
 }
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    const size_t n = points->n;
-    if (n > MAX_N) {
-        return koksma__fail(KOKSMA_N, "disk: n = %zu: up to %d points; l2-disk takes more", n, MAX_N);
+    if (points->n > MAX_N) {
+        return koksma__fail(KOKSMA_N, "disk: n = %zu: up to %d points; l2-disk and disk-sampled take more", points->n,
+                            MAX_N);
     }
-    job j = {.points = points, .r = args->params[0], .values = malloc(n * sizeof *j.values)};
-    if (!j.values) {
-        return koksma__fail_memory(n * sizeof *j.values);
+    search s = {.set = {.n = points->n, .r = args->params[0]}};
+    koksma_status status = fill_set(&s.set, points);
+    if (!status) {
+        status = search_pairs(&s, args->run);
     }
-    const koksma_status status = koksma__parallel(args->run, n, try_point, &j);
-    out->value = -1;
-    for (size_t i = 0; i < n && !status; i++) {
-        if (j.values[i].value > out->value) {
-            out->value = j.values[i].value;
-            out->witness = j.values[i].witness;
-        }
+    for (size_t i = 0; !status && i < s.set.m; i++) {
+        s.start = s.blocks[i].value > s.start.value ? s.blocks[i] : s.start;
     }
-    free(j.values);
+    if (!status) {
+        out->value = s.start.value;
+        out->witness = s.start.witness;
+    }
+    free(s.blocks);
+    free(s.set.weights);
+    free(s.set.xs);
     return status;
 }
 
@@ -165,9 +130,9 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_disk = {
     .name = "disk",
-    .title = "L-infinity discrepancy of disks on the torus",
-    .cite = "mitchell1992",
-    .cost = "n^4",
+    .title = "discrepancy of disks on the torus, up to a radius",
+    .cite = "mitchell1992 megiddo1983",
+    .cost = "n^3",
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

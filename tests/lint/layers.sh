@@ -11,15 +11,16 @@ allowed() {
     core) echo "core" ;;
     kernels) echo "core kernels" ;;
     patterns) echo "core kernels patterns" ;;
-    measures) echo "core kernels measures" ;;
+    warps) echo "core warps" ;;
+    measures) echo "core kernels warps measures" ;;
     image) echo "core image" ;;
-    scene) echo "core kernels patterns measures image scene" ;;
-    plot) echo "core kernels patterns measures image scene plot" ;;
-    render) echo "core kernels patterns measures image scene render" ;;
-    study) echo "core kernels patterns measures image scene render plot study" ;;
+    scene) echo "core kernels patterns warps measures image scene" ;;
+    plot) echo "core kernels patterns warps measures image scene plot" ;;
+    render) echo "core kernels patterns warps measures image scene render" ;;
+    study) echo "core kernels patterns warps measures image scene render plot study" ;;
   esac
 }
-for folder in core kernels patterns measures image scene render plot study; do
+for folder in core kernels patterns warps measures image scene render plot study; do
   [ -d src/$folder ] || continue
   ok=" $(allowed $folder) "
   grep -rnoE '#include "[a-z_0-9]+/' src/$folder --include='*.[ch]' | while IFS=: read -r file line include; do
@@ -30,7 +31,7 @@ done >/tmp/koksma-lint.$$
 while read -r problem; do complain "$problem"; done </tmp/koksma-lint.$$
 rm -f /tmp/koksma-lint.$$
 
-grep -nE '#include "(core|kernels|patterns|measures|image|scene|render|plot|study)/' cli/*.[ch] && complain "cli/ includes include/koksma/ only"
+grep -nE '#include "(core|kernels|patterns|warps|measures|image|scene|render|plot|study)/' cli/*.[ch] && complain "cli/ includes include/koksma/ only"
 
 # One outside library, one source file.
 only() {

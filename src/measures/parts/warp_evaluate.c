@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The measures of mapped points. Half-planes as in measures/edge.c and measures/l2_edge.c, with another domain.
+/* The measures of mapped points. Half-planes as in measures/edge.c and measures/l2_edge.c, with another domain; disks
+   of one radius and caps in closed form (measures/parts/warp_disks.h).
    Sampled disks are those that meet the unit disk: radius by the law, centres uniform within 1 + radius of its
    centre. */
 #include <math.h>
@@ -13,6 +14,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/parts/disk_laws.h"
+#include "measures/parts/warp_disks.h"
 #include "measures/parts/warp_domains.h"
 
 enum { ROWS_PER_BLOCK = 32 };
@@ -23,11 +25,6 @@ typedef struct job {
     const double *xs;
     koksma__sum *sums; /* two a block: pairs, potentials */
 } job;
-
-static koksma__domain_kind kind_of(const koksma_warp *warp)
-{
-    return warp->dim == 3 ? KOKSMA__HEMISPHERE : strstr(warp->name, "disk") ? KOKSMA__DISK : KOKSMA__TRIANGLE;
-}
 
 static koksma_status sum_rows(void *context, size_t block)
 {
@@ -105,20 +102,50 @@ static koksma_status disk_sampled(const job *j, const koksma_spec *measure, cons
     return KOKSMA_OK;
 }
 
+/* What can be measured in a domain, for error texts. */
+static const char *const taken[] = {
+    [KOKSMA_DOMAIN_DISK] = "edge, l2-edge, l2-disk and disk-sampled",
+    [KOKSMA_DOMAIN_TRIANGLE] = "edge and l2-edge",
+    [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge and l2-disk:law=area",
+    [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
+};
+
+static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, size_t n, const double *xs,
+                              const koksma_run *run, koksma_value *out)
+{
+    const char *name = spec->measure->name;
+    const bool on_disk = warp->domain == KOKSMA_DOMAIN_DISK, on_plane = warp->dim == 2,
+               is_disk = !strcmp(name, "l2-disk"), cosine = warp->domain == KOKSMA_DOMAIN_HEMISPHERE_COSINE;
+    job j = {.kind = (koksma__domain_kind)(cosine ? KOKSMA__HEMISPHERE : (int)warp->domain),
+             .n = n,
+             .dim = (size_t)warp->dim,
+             .xs = xs};
+    if (!strcmp(name, "edge") && on_plane) {
+        return koksma__edge_sweep(&koksma__domains[j.kind], n, xs, run, out);
+    }
+    if (!strcmp(name, "l2-edge") && spec->params[0] == 0 && !cosine) {
+        return l2_edge(&j, run, out);
+    }
+    if (is_disk && on_disk && spec->params[1] == KOKSMA__DISKS_FIXED) {
+        return koksma__warp_l2_disk(n, xs, koksma__disk_radius(KOKSMA__DISKS_FIXED, spec->params[0]), run, out);
+    }
+    if (is_disk && !on_plane && spec->params[1] == KOKSMA__DISKS_AREA) {
+        return koksma__warp_caps(n, xs, cosine, run, out);
+    }
+    if (!strcmp(name, "disk-sampled") && on_disk) {
+        return disk_sampled(&j, spec, run, out);
+    }
+    char text[KOKSMA_MAX_SPEC];
+    koksma_spec_text(spec, text);
+    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: not measured under the warp %s, which takes %s", text, warp->name,
+                        taken[warp->domain]);
+}
+
 koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure, const koksma_points *points,
                                    const koksma_run *run, koksma_value *out)
 {
-    const char *name = measure->measure->name;
-    const koksma__domain_kind kind = kind_of(warp);
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name, points->dim);
-    }
-    const bool edge = !strcmp(name, "edge") && kind != KOKSMA__HEMISPHERE;
-    const bool l2 = !strcmp(name, "l2-edge") && measure->params[0] == 0;
-    if (!edge && !l2 && (strcmp(name, "disk-sampled") != 0 || kind != KOKSMA__DISK)) {
-        return koksma__fail(KOKSMA_UNSUPPORTED, "%s: not measured under the warp %s, which takes%s l2-edge%s", name,
-                            warp->name, kind == KOKSMA__HEMISPHERE ? "" : " edge and",
-                            kind == KOKSMA__DISK ? " and disk-sampled" : "");
     }
     double *mapped = malloc(points->n * 3 * sizeof *mapped);
     if (!mapped) {
@@ -128,11 +155,8 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
         warp->map(points->xs + 2 * i, mapped + i * (size_t)warp->dim);
     }
     *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
-    job j = {.kind = kind, .n = points->n, .dim = (size_t)warp->dim, .xs = mapped};
-    const koksma_status status = edge ? koksma__edge_sweep(&koksma__domains[kind], points->n, mapped, run, out)
-                                 : l2 ? l2_edge(&j, run, out)
-                                      : disk_sampled(&j, measure, run, out);
-    if (out->exact) {
+    const koksma_status status = evaluate(warp, measure, points->n, mapped, run, out);
+    if (!status && out->exact) {
         out->lower = out->upper = out->value;
     }
     free(mapped);

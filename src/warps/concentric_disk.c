@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * concentric-disk: concentric squares become concentric circles; area is kept and neighbours stay neighbours.
+ * With (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 - (pi/4)(a/b).
+ * Source: Shirley & Chiu 1997. Known exactly: the centre stays, corners go to the diagonals of the circle.
+ */
+#include "warps/parts/disk_maps.h"
+#include "warps/warps.h"
+
+static void map(const double *u, double *x)
+{
+    koksma__map_concentric(u, x);
+}
+
+const koksma_warp koksma__warp_concentric_disk = {
+    .name = "concentric-disk",
+    .title = "low-distortion map of squares to circles",
+    .cite = "shirley1997",
+    .domain = KOKSMA_DOMAIN_DISK,
+    .dim = 2,
+    .map = map,
+};

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * concentric-hemisphere: the concentric map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): uniform solid
+ * angle. Source: Shirley & Chiu 1997.
+ */
+#include "warps/parts/disk_maps.h"
+#include "warps/warps.h"
+
+static void map(const double *u, double *x)
+{
+    koksma__map_concentric(u, x);
+    koksma__lift_uniform(x);
+}
+
+const koksma_warp koksma__warp_concentric_hemisphere = {
+    .name = "concentric-hemisphere",
+    .title = "the concentric disk, lifted; uniform directions",
+    .cite = "shirley1997",
+    .domain = KOKSMA_DOMAIN_HEMISPHERE,
+    .dim = 3,
+    .map = map,
+};

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * cosine-hemisphere: the concentric map to the disk, then straight up to z = sqrt(1 - r^2): density z/pi.
+ * Source: Shirley & Chiu 1997; the lift is known as Malley's method.
+ */
+#include "warps/parts/disk_maps.h"
+#include "warps/warps.h"
+
+static void map(const double *u, double *x)
+{
+    koksma__map_concentric(u, x);
+    koksma__lift_cosine(x);
+}
+
+const koksma_warp koksma__warp_cosine_hemisphere = {
+    .name = "cosine-hemisphere",
+    .title = "the concentric disk, straight up; directions by the cosine",
+    .cite = "shirley1997",
+    .domain = KOKSMA_DOMAIN_HEMISPHERE_COSINE,
+    .dim = 3,
+    .map = map,
+};

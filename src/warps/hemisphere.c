@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * hemisphere: the polar map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): height 1 - u_0, angle 2 pi u_1,
+ * uniform solid angle. Source: Shirley 1991; the lift is Lambert's equal-area projection.
+ */
+#include "warps/parts/disk_maps.h"
+#include "warps/warps.h"
+
+static void map(const double *u, double *x)
+{
+    koksma__map_polar(u, x);
+    koksma__lift_uniform(x);
+}
+
+const koksma_warp koksma__warp_hemisphere = {
+    .name = "hemisphere",
+    .title = "height 1 - u, angle 2 pi v; uniform directions",
+    .cite = "shirley1991",
+    .domain = KOKSMA_DOMAIN_HEMISPHERE,
+    .dim = 3,
+    .map = map,
+};

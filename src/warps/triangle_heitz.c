@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * triangle-heitz: a diagonal of the square is pulled to its middle; area is kept, and no side of the square shrinks.
+ * With v >= u: (u/2, v - u/2), else (u - v/2, v/2). Source: Heitz 2019.
+ */
+#include "warps/warps.h"
+
+static void map(const double *u, double *x)
+{
+    const bool above = u[1] > u[0];
+    x[0] = above ? u[0] / 2 : u[0] - u[1] / 2;
+    x[1] = above ? u[1] - u[0] / 2 : u[1] / 2;
+}
+
+const koksma_warp koksma__warp_triangle_heitz = {
+    .name = "triangle-heitz",
+    .title = "low-distortion map of a triangle",
+    .cite = "heitz2019",
+    .domain = KOKSMA_DOMAIN_TRIANGLE,
+    .dim = 2,
+    .map = map,
+};

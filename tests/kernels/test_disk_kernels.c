@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The kernels of disks against their plain twins, and the bits of the instruction sets against each
+   other. */
+#include "kernels/kernels.h"
+#include "sets.h"
+
+enum { MAX = 150 };
+
+static const char *const isas[] = {"baseline", "avx2", "avx512"};
+
+static double xs[3 * MAX];
+
+static void fill(size_t count)
+{
+    for (size_t i = 0; i < 3 * MAX; i++) {
+        const double u = sets_unit(count, i);
+        xs[i] = i % 5 == 0 ? floor(u * 8) / 8 : i % 7 == 0 ? xs[i > MAX ? i - MAX : 0] : u;
+    }
+}
+
+static void overlaps_agree(void **state)
+{
+    (void)state;
+    static const double radii[] = {0.5, 0.3, 0.25, 0.07, 1e-3};
+    const koksma__kernel_table *ref = koksma__kernels_find("ref"), *base = koksma__kernels_find("baseline");
+    for (size_t count = 0; count <= MAX; count += 1 + count / 5) {
+        fill(count);
+        for (int c = 0; c < 15; c++) {
+            const double r = radii[c / 3], x = c % 2 ? xs[0] : 0.3, y = c % 2 ? xs[MAX] : 0.9;
+            const double plain = ref->disk_overlaps(c % 3, r, x, y, count, xs, xs + MAX);
+            const double one = base->disk_overlaps(c % 3, r, x, y, count, xs, xs + MAX);
+            assert_near(one, plain, 1e-14 * (double)count * r * r);
+            for (size_t isa = 0; isa < 3; isa++) {
+                const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+                if (fast) {
+                    assert_true(fast->disk_overlaps(c % 3, r, x, y, count, xs, xs + MAX) == one);
+                }
+            }
+        }
+    }
+}
+
+/* The overlap at every distance: the arc cosine and the logarithm of the fast form. */
+static void functions_agree(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref"), *base = koksma__kernels_find("baseline");
+    for (int i = 0; i <= 20000; i++) {
+        const double u = i / 20000.0, x = 0.5 * (i % 2 ? u : u * u * u * u * u * u * u * u), y = 0;
+        for (int law = 0; law < 3; law++) {
+            assert_near(base->disk_overlaps(law, 0.25, 0, 0, 1, &x, &y),
+                        ref->disk_overlaps(law, 0.25, 0, 0, 1, &x, &y), 2e-16);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(overlaps_agree),
+        cmocka_unit_test(functions_agree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

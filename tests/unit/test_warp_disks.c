@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Disks and caps of mapped points: potentials and constants by other means, the closed forms against random disks and
+   caps, and the advantage of the concentric map. */
+#include <koksma/warp.h>
+
+#include "measures/parts/quadrature.h"
+#include "measures/parts/warp_disks.h"
+#include "sets.h"
+
+static koksma_value warped(const char *warp, const char *measure, const koksma_points *points)
+{
+    koksma_spec spec;
+    koksma_value value;
+    assert_ok(koksma_measure_spec(measure, &spec));
+    assert_ok(koksma_warp_evaluate(koksma_warp_find(warp), &spec, points, NULL, &value));
+    return value;
+}
+
+static double root_at_both_ends(double x, const void *context)
+{
+    (void)context;
+    return sqrt(x * (2 - x)) * log(x);
+}
+
+static void quadrature_and_elliptic_integrals(void **state)
+{
+    (void)state;
+    /* the integral of sqrt(x (2-x)) ln x over (0,2), by substitution x = 1 - cos t: (pi/4)(1 - 2 ln 2) + pi/4 ln 2 */
+    assert_near(koksma__integral(root_at_both_ends, NULL, 0, 2), M_PI / 4 - M_PI / 2 * log(2), 1e-14);
+    assert_true(koksma__integral(root_at_both_ends, NULL, 1, 1) == 0);
+    double first, second;
+    koksma__elliptic(1, &first, &second);
+    assert_near(first, M_PI / 2, 1e-15);
+    assert_near(second, M_PI / 2, 1e-15);
+    koksma__elliptic(sqrt(0.5), &first, &second); /* the lemniscate */
+    assert_near(first, 1.8540746773013719184, 1e-15);
+    assert_near(second, 1.3506438810476755025, 1e-15);
+    koksma__elliptic(0, &first, &second);
+    assert_true(second == 1);
+}
+
+static double potential_at(double z, const void *context)
+{
+    const bool cosine = context != NULL;
+    return koksma__cap_potential((double[]){sqrt((1 - z) * (1 + z)), 0, z}, cosine) * (cosine ? 2 * z : 1);
+}
+
+static void cap_potentials(void **state)
+{
+    (void)state;
+    const double pole[3] = {0, 0, 1}, rim[3] = {0.6, 0.8, 0};
+    assert_near(koksma__cap_potential(pole, false), 2 * sqrt(2) / 3, 1e-14);
+    assert_near(koksma__cap_potential(rim, false), 4.0 / 3, 1e-14);
+    assert_near(koksma__cap_potential(pole, true), 8 * sqrt(2) / 15, 1e-14);
+    assert_near(koksma__cap_potential(rim, true), 64 / (15 * M_PI), 1e-14);
+    assert_near(koksma__cap_constant(false), koksma__integral(potential_at, NULL, 0, 1), 1e-13);
+    assert_near(koksma__cap_constant(true), koksma__integral(potential_at, pole, 0, 1), 1e-13);
+}
+
+/* The mean distance over a mapped lattice of the square: the map carries the measure, and P is right. */
+static void warps_carry_the_measure(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere"};
+    enum { GRID = 300 };
+    for (int w = 0; w < 3; w++) {
+        const koksma_warp *warp = koksma_warp_find(names[w]);
+        for (uint64_t s = 0; s < 4; s++) {
+            double x[3], y[3], sum = 0;
+            warp->map((double[2]){sets_unit(11, s), sets_unit(12, s)}, x);
+            for (int i = 0; i < GRID * GRID; i++) {
+                warp->map((double[2]){(i % GRID + 0.5) / GRID, (i / GRID + 0.5) / GRID}, y);
+                assert_near(y[0] * y[0] + y[1] * y[1] + y[2] * y[2], 1, 1e-14);
+                sum += sqrt(pow(x[0] - y[0], 2) + pow(x[1] - y[1], 2) + pow(x[2] - y[2], 2)) / GRID / GRID;
+            }
+            assert_near(koksma__cap_potential(x, w == 2), sum, 1e-4);
+        }
+    }
+}
+
+/* Heitz's triangle: means of 1, x, y, x y over the triangle. */
+static void triangle_maps_keep_area(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"triangle", "triangle-heitz"};
+    enum { GRID = 400 };
+    for (int w = 0; w < 2; w++) {
+        double x[2], mean[3] = {0};
+        for (int i = 0; i < GRID * GRID; i++) {
+            koksma_warp_find(names[w])->map((double[2]){(i % GRID + 0.5) / GRID, (i / GRID + 0.5) / GRID}, x);
+            assert_true(x[0] >= 0 && x[1] >= 0 && x[0] + x[1] <= 1);
+            mean[0] += x[0] / GRID / GRID;
+            mean[1] += x[1] / GRID / GRID;
+            mean[2] += x[0] * x[1] / GRID / GRID;
+        }
+        assert_near(mean[0], 1.0 / 3, 1e-5);
+        assert_near(mean[1], 1.0 / 3, 1e-5);
+        assert_near(mean[2], 1.0 / 12, 1e-5);
+    }
+}
+
+/* The closed form against random disks, over sets with ties and points on the rim. */
+static void disks_agree_with_random_disks(void **state)
+{
+    (void)state;
+    static const double radii[] = {0.25, 0.5, 1, 0.1};
+    double squares = 0;
+    enum { CASES = 48 };
+    for (int c = 0; c < CASES; c++) {
+        char exact[64], sampled[96];
+        const char *warp = c % 2 ? "polar-disk" : "concentric-disk";
+        koksma_points p = sets_points(1 + (size_t)c % 13, 2, c / 2 % SETS_KINDS, (uint64_t)c);
+        snprintf(exact, sizeof exact, "l2-disk:r=%.17g", fmin(radii[c % 4], 0.5));
+        snprintf(sampled, sizeof sampled, "disk-sampled:disks=20000,r=%.17g,seed=%d", fmin(radii[c % 4], 0.5), c);
+        const koksma_value v = warped(warp, sampled, &p);
+        const double z = (v.value - warped(warp, exact, &p).value) / v.standard_error;
+        assert_true(fabs(z) < 5);
+        squares += z * z / CASES;
+        koksma_points_fini(&p);
+    }
+    assert_near(squares, 1, 4 * sqrt(2.0 / CASES));
+}
+
+/* Random caps against a fine mapped lattice as the measure of the hemisphere. */
+static void caps_agree_with_random_caps(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"hemisphere", "concentric-hemisphere", "cosine-hemisphere"};
+    enum { GRID = 100, CAPS = 4000, N = 16 };
+    static double grid[3 * GRID * GRID];
+    for (int w = 0; w < 3; w++) {
+        const koksma_warp *warp = koksma_warp_find(names[w]);
+        koksma_points p = test_points("random", N, 2, 4);
+        double xs[3 * N], sum = 0, squares = 0;
+        for (size_t i = 0; i < N; i++) {
+            warp->map(p.xs + 2 * i, xs + 3 * i);
+        }
+        for (int i = 0; i < GRID * GRID; i++) {
+            warp->map((double[2]){(i % GRID + 0.5) / GRID, (i / GRID + 0.5) / GRID}, grid + 3 * i);
+        }
+        for (uint64_t c = 0; c < CAPS; c++) {
+            const double h = 2 * sets_unit(5, c) - 1, angle = 2 * M_PI * sets_unit(6, c), t = 2 * sets_unit(7, c) - 1;
+            const double y[3] = {sqrt(1 - h * h) * cos(angle), sqrt(1 - h * h) * sin(angle), h};
+            double inside = 0, all = 0;
+            for (int i = 0; i < N; i++) {
+                inside += xs[3 * i] * y[0] + xs[3 * i + 1] * y[1] + xs[3 * i + 2] * y[2] >= t;
+            }
+            for (int i = 0; i < GRID * GRID; i++) {
+                all += grid[3 * i] * y[0] + grid[3 * i + 1] * y[1] + grid[3 * i + 2] * y[2] >= t;
+            }
+            const double deviation = inside / N - all / GRID / GRID;
+            sum += deviation * deviation / CAPS;
+            squares += pow(deviation, 4) / CAPS;
+        }
+        assert_near(warped(names[w], "l2-disk:law=area", &p).square, sum, 4 * sqrt((squares - sum * sum) / CAPS));
+        koksma_points_fini(&p);
+    }
+}
+
+/* Means of the square over random points: C/(8n) for caps. */
+static void random_points(void **state)
+{
+    (void)state;
+    enum { SETS = 500, N = 8 };
+    for (int w = 0; w < 2; w++) {
+        double sum = 0, squares = 0;
+        for (uint64_t seed = 0; seed < SETS; seed++) {
+            koksma_points p = test_points("random", N, 2, 40 + seed);
+            const double v = warped(w ? "cosine-hemisphere" : "hemisphere", "l2-disk:law=area", &p).square;
+            sum += v / SETS;
+            squares += v * v / SETS;
+            koksma_points_fini(&p);
+        }
+        assert_near(sum, koksma__cap_constant(w == 1) / (8 * N), 4 * sqrt((squares - sum * sum) / SETS));
+    }
+}
+
+/* docs/findings/disk-maps.md: jittered points lose less by the concentric map than by the polar one. */
+static void concentric_beats_polar(void **state)
+{
+    (void)state;
+    static const char *const measures[] = {"l2-edge", "l2-disk", "edge"};
+    enum { SETS = 200 };
+    for (int c = 0; c < 6; c++) {
+        const size_t n = c % 2 ? 256 : 16;
+        const int sets = c >= 4 && n == 256 ? 20 : SETS; /* edge is the slow one */
+        double sum = 0, squares = 0;
+        for (int seed = 0; seed < sets; seed++) {
+            koksma_points p = test_points("jittered", n, 2, (uint64_t)seed);
+            const double d = warped("polar-disk", measures[c / 2], &p).value -
+                             warped("concentric-disk", measures[c / 2], &p).value;
+            sum += d / sets;
+            squares += d * d / sets;
+            koksma_points_fini(&p);
+        }
+        const double error = sqrt((squares - sum * sum) / (sets - 1));
+        if (!(sum > 3 * error)) {
+            fail_msg("%s at n = %zu: polar minus concentric is %.6f with standard error %.6f", measures[c / 2], n,
+                     sum, error);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quadrature_and_elliptic_integrals),
+        cmocka_unit_test(cap_potentials),
+        cmocka_unit_test(warps_carry_the_measure),
+        cmocka_unit_test(triangle_maps_keep_area),
+        cmocka_unit_test(disks_agree_with_random_disks),
+        cmocka_unit_test(caps_agree_with_random_caps),
+        cmocka_unit_test(random_points),
+        cmocka_unit_test(concentric_beats_polar),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
