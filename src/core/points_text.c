@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Points as text: one point a line, `%.17g`, with `# key value` lines in front. Reading takes any of blanks,
-   commas, tabs, comments and a CSV header; `# n N` and `# dim D` are promises that are checked. */
+   commas, tabs, comments and a CSV header; `# n N` and `# dim D` are promises that are checked. So are `n N` and
+   `dim D` among plain `key number` lines that end at a line `points`, as sets with known values are kept. */
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +18,7 @@ typedef struct reader {
     char *line; /* MAX_LINE + 1 bytes */
     size_t line_number, length;
     bool header_seen;
+    bool in_preamble; /* after a `key number` line and before `points` */
     size_t header_fields;
     unsigned long long promised_n, promised_dim; /* 0: nothing promised */
     size_t capacity;                             /* of xs, in coordinates */
@@ -79,11 +81,11 @@ static const char *next_field(const char *s)
     return s;
 }
 
-static koksma_status read_promise(reader *r)
+static koksma_status read_promise(reader *r, const char *format)
 {
     char key[8];
     char digits[24];
-    if (sscanf(r->line, "# %7[a-z] %23[0-9]", key, digits) == 2) {
+    if (sscanf(r->line, format, key, digits) == 2) {
         unsigned long long *promise = !strcmp(key, "n")     ? &r->promised_n
                                       : !strcmp(key, "dim") ? &r->promised_dim
                                                             : NULL;
@@ -96,6 +98,30 @@ static koksma_status read_promise(reader *r)
         }
     }
     return KOKSMA_OK;
+}
+
+/* Takes a line of the preamble; false when it is none: a word and a number, or `points`. */
+static bool take_preamble(reader *r, const char *s, koksma_status *status)
+{
+    if (!strcmp(s, "points") && r->in_preamble) {
+        r->in_preamble = false;
+        r->header_seen = true;
+        return true;
+    }
+    const size_t word = strcspn(s, " \t,;");
+    const char *number = next_field(s + word);
+    char *end;
+    const bool letter = (*s | 32) >= 'a' && (*s | 32) <= 'z';
+    if (!letter || !number || !*number || (strtod(number, &end), *skip_blanks(end)) || end == number) {
+        return false;
+    }
+    strtod(s, &end);
+    if (end != s) { /* "nan 0.5" is a bad point */
+        return false;
+    }
+    r->in_preamble = true;
+    *status = read_promise(r, "%7[a-z] %23[0-9]");
+    return true;
 }
 
 static koksma_status append(reader *r, double x)
@@ -201,7 +227,14 @@ static koksma_status take_line(reader *r)
         return KOKSMA_OK;
     }
     if (*s == '#') {
-        return read_promise(r);
+        return read_promise(r, "# %7[a-z] %23[0-9]");
+    }
+    koksma_status status = KOKSMA_OK;
+    if (r->points->dim == 0 && !r->header_seen && take_preamble(r, s, &status)) {
+        return status;
+    }
+    if (r->in_preamble) {
+        return malformed(r, "neither a key with a number nor the line 'points' that ends them");
     }
     if (r->points->dim == 0 && !r->header_seen && take_header(r, s)) {
         return KOKSMA_OK;
@@ -220,7 +253,7 @@ static koksma_status check_promises(const reader *r, size_t n)
                             r->line_number, n, r->promised_n);
     }
     if ((r->promised_dim && r->promised_dim != (unsigned)dim) ||
-        (r->header_seen && r->header_fields != (size_t)dim)) {
+        (r->header_fields && r->header_fields != (size_t)dim)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu",
                             r->name, r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
     }
