@@ -170,27 +170,53 @@ KOKSMA_INLINE double koksma_scrambled(uint32_t mirrored, uint32_t seed)
     return koksma_mirror(koksma_owen_hash(mirrored, seed)) * (1.0 / 4294967296.0);
 }
 
-/* Sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
-KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
+/* The keys of a domain's sequence, for loops over many samples of one domain. */
+typedef struct koksma_sobol {
+    uint32_t seeds[4], order;
+} koksma_sobol;
+
+KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
 {
-    uint32_t seeds[4], j;
-    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, seeds);
-    j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), seeds[3]));
-    xy[0] = koksma_scrambled(j, seeds[0]);
-    xy[1] = koksma_scrambled(koksma_pascal(j), seeds[1]);
+    koksma_sobol sequence;
+    uint32_t w[4];
+    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 1, 0, w);
+    sequence.seeds[3] = w[0];
+    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, w);
+    sequence.seeds[0] = w[0];
+    sequence.seeds[1] = w[1];
+    sequence.seeds[2] = w[2];
+    sequence.order = w[3];
+    return sequence;
 }
 
-/* Four dimensions; the first two are koksma_sobol_2d's. */
+/* Sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
+KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
+{
+    const uint32_t j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), sequence->order));
+    xy[0] = koksma_scrambled(j, sequence->seeds[0]);
+    xy[1] = koksma_scrambled(koksma_pascal(j), sequence->seeds[1]);
+}
+
+/* Four dimensions; the first two are koksma_sobol_at_2d's. */
+KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
+{
+    const uint32_t j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), sequence->order));
+    xs[0] = koksma_scrambled(j, sequence->seeds[0]);
+    xs[1] = koksma_scrambled(koksma_pascal(j), sequence->seeds[1]);
+    xs[2] = koksma_scrambled(koksma_sobol_mirrored(j, 0), sequence->seeds[2]);
+    xs[3] = koksma_scrambled(koksma_sobol_mirrored(j, 1), sequence->seeds[3]);
+}
+
+KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
+{
+    const koksma_sobol sequence = koksma_sobol_of(domain);
+    koksma_sobol_at_2d(&sequence, i, xy);
+}
+
 KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4])
 {
-    uint32_t seeds[4], more[4], j;
-    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, seeds);
-    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 1, 0, more);
-    j = koksma_mirror(koksma_owen_hash(koksma_mirror(i), seeds[3]));
-    xs[0] = koksma_scrambled(j, seeds[0]);
-    xs[1] = koksma_scrambled(koksma_pascal(j), seeds[1]);
-    xs[2] = koksma_scrambled(koksma_sobol_mirrored(j, 0), seeds[2]);
-    xs[3] = koksma_scrambled(koksma_sobol_mirrored(j, 1), more[0]);
+    const koksma_sobol sequence = koksma_sobol_of(domain);
+    koksma_sobol_at_4d(&sequence, i, xs);
 }
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */

@@ -2,6 +2,10 @@
 /*
  * OpenEXR by the C library OpenEXRCore: reads the first part, scan lines or tiles, channels R G B or Y (or the only
  * one), half or float; writes floats, ZIP-compressed. OpenEXRCore 3.1 has no DWAA and DWAB.
+ *
+ * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
+ * reader takes a chunk of that length for uncompressed. So what is written is read back, and written again without
+ * compression if a bit differs.
  */
 #include <openexr.h>
 #include <stdlib.h>
@@ -228,12 +232,13 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
     return koksma__bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
 }
 
-static exr_result_t put_header(exr_context_t file, const koksma_image *image, const char *metadata)
+static exr_result_t put_header(exr_context_t file, const koksma_image *image, const char *metadata,
+                               exr_compression_t compression)
 {
     static const char *const names[2][3] = {{"Y"}, {"B", "G", "R"}};
     int part;
     exr_result_t r = exr_add_part(file, NULL, EXR_STORAGE_SCANLINE, &part);
-    r = r ? r : exr_initialize_required_attr_simple(file, 0, image->width, image->height, EXR_COMPRESSION_ZIP);
+    r = r ? r : exr_initialize_required_attr_simple(file, 0, image->width, image->height, compression);
     for (int k = 0; !r && k < image->channels; k++) {
         r = exr_add_channel(file, 0, names[image->channels == 3][k], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
                             1);
@@ -278,7 +283,8 @@ static exr_result_t put_lines(exr_context_t file, const koksma_image *image, exr
     return r;
 }
 
-static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+static koksma_status encode(const koksma_image *image, const char *metadata, exr_compression_t compression,
+                            koksma__bytes *out)
 {
     source s = {.out = out};
     exr_context_t file;
@@ -289,7 +295,7 @@ static koksma_status write(const koksma_image *image, const char *metadata, koks
     exr_result_t r = exr_start_write(&file, "image", EXR_WRITE_FILE_DIRECTLY, &how);
     if (!r) {
         exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
-        r = put_header(file, image, metadata);
+        r = put_header(file, image, metadata, compression);
         r = r ? r : put_lines(file, image, &encoder);
         exr_encoding_destroy(file, &encoder);
         const exr_result_t finish = exr_finish(&file);
@@ -297,6 +303,27 @@ static koksma_status write(const koksma_image *image, const char *metadata, koks
     }
     return r ? koksma__fail(KOKSMA_IO, "as an EXR: %s", *s.message ? s.message : exr_get_default_error_message(r))
              : KOKSMA_OK;
+}
+
+static bool reads_back(const koksma__bytes *bytes, const koksma_image *image)
+{
+    koksma_image back = {0};
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    const bool same = !read(bytes->data, bytes->size, &back) && back.width == image->width &&
+                      back.height == image->height && back.channels == image->channels &&
+                      !memcmp(back.pixels, image->pixels, count * sizeof *image->pixels);
+    koksma_image_fini(&back);
+    return same;
+}
+
+static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+{
+    const koksma_status status = encode(image, metadata, EXR_COMPRESSION_ZIP, out);
+    if (status || reads_back(out, image)) {
+        return status;
+    }
+    out->size = 0;
+    return encode(image, metadata, EXR_COMPRESSION_NONE, out);
 }
 
 const koksma__image_format koksma__format_exr = {"exr", recognises, read, write};

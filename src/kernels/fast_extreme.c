@@ -31,14 +31,14 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
         for (int l = 0; l < LANES; l++) {
             const double area = width[l] * height, start = inside[l] - area;
             low[l] = start < low[l] ? start : low[l];
-            inside[l] += (at >= lo[l]) & (at <= hi[l]) ? 1.0 : 0.0;
+            inside[l] += ((at >= lo[l]) & (at <= hi[l])) ? 1.0 : 0.0;
             const double value = inside[l] - area - low[l];
             best[l] = value > best[l] ? value : best[l];
         }
         for (int l = 0; l < LANES; l++) {
             const double area = width_open[l] * height, value = area - inside_open[l] - low_open[l];
             best_open[l] = value > best_open[l] ? value : best_open[l];
-            inside_open[l] += (at > lo_open[l]) & (at < hi_open[l]) ? 1.0 : 0.0;
+            inside_open[l] += ((at > lo_open[l]) & (at < hi_open[l])) ? 1.0 : 0.0;
             const double start = area - inside_open[l];
             low_open[l] = start < low_open[l] ? start : low_open[l];
         }

@@ -7,6 +7,8 @@
 
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 
+void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
+                                 double scale, double *least);
 bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2);
 bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2);
 
@@ -60,4 +62,28 @@ bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, doub
         }
     }
     return any(found);
+}
+
+void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
+                                 double scale, double *least)
+{
+    enum { LANES = 16 };
+    for (size_t first = 0; first < count; first += LANES) {
+        const size_t some = count - first < LANES ? count - first : LANES;
+        double x[LANES] = {0}, y[LANES] = {0}, best[LANES];
+        for (size_t l = 0; l < LANES; l++) {
+            best[l] = 1;
+        }
+        for (size_t l = 0; l < some; l++) {
+            x[l] = scale * pairs[2 * (first + l)];
+            y[l] = scale * pairs[2 * (first + l) + 1];
+        }
+        for (size_t j = 0; j < near; j++) {
+            for (size_t l = 0; l < LANES; l++) {
+                const double a = dx[j] - x[l], b = dy[j] - y[l], square = a * a + b * b;
+                best[l] = square < best[l] ? square : best[l];
+            }
+        }
+        memcpy(least + first, best, some * sizeof *best);
+    }
 }

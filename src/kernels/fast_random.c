@@ -6,7 +6,8 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-enum { CHAINS = 2, LANES = CHAINS * LANES64 }; /* independent chains hide the multiplier's latency */
+/* Independent chains hide the multiplier's latency, as many as the registers hold. */
+enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64 };
 
 typedef struct block {
     lanes64_u w[4][CHAINS]; /* the upper halves of the lanes are garbage */
@@ -57,38 +58,51 @@ static inline lanes64_d unit(lanes64_u high, lanes64_u low)
     return h * 0x1p-32 + l * 0x1p-53;
 }
 
+/* The pairs of a block, in order. */
+static inline void store_units(const block *r, double *out)
+{
+    for (int c = 0; c < CHAINS; c++, out += 2 * LANES64) {
+        const lanes64_d x = unit(r->w[0][c], r->w[1][c]), y = unit(r->w[2][c], r->w[3][c]);
+        lanes64_interleave(x, y, out);
+    }
+}
+
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
 {
-    for (size_t done = 0; done < count; done += LANES) {
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
+        const block r = philox(seed, purpose, first + done, lane);
+        store_units(&r, out + 2 * done);
+    }
+    if (done < count) {
         const block r = philox(seed, purpose, first + done, lane);
         double pairs[2 * LANES];
-        for (int c = 0; c < CHAINS; c++) {
-            const lanes64_d x = unit(r.w[0][c], r.w[1][c]), y = unit(r.w[2][c], r.w[3][c]);
-            lanes64_interleave(x, y, pairs + 2 * c * LANES64);
-        }
-        if (count - done >= LANES) {
-            memcpy(out + 2 * done, pairs, sizeof pairs);
-        } else {
-            memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
-        }
+        store_units(&r, pairs);
+        memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
+    }
+}
+
+/* The words of a block, in order; two make a lane. */
+static inline void store_words(const block *r, uint32_t *out)
+{
+    const lanes64_u lower = splat(0xffffffffu);
+    for (int c = 0; c < CHAINS; c++, out += 4 * LANES64) {
+        const lanes64_u x = (r->w[0][c] & lower) | r->w[1][c] << 32, y = (r->w[2][c] & lower) | r->w[3][c] << 32;
+        lanes64_interleave((lanes64_d)x, (lanes64_d)y, out);
     }
 }
 
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
 {
-    for (size_t done = 0; done < count; done += LANES) {
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
         const block r = philox(seed, purpose, first + done, lane);
-        double quads[2 * LANES]; /* as bits */
-        for (int c = 0; c < CHAINS; c++) {
-            const lanes64_u low = splat(0xffffffffu);
-            const lanes64_u first_two = (r.w[0][c] & low) | (r.w[1][c] << 32); /* in the order of memory */
-            const lanes64_u last_two = (r.w[2][c] & low) | (r.w[3][c] << 32);
-            lanes64_interleave((lanes64_d)first_two, (lanes64_d)last_two, quads + 2 * c * LANES64);
-        }
-        if (count - done >= LANES) {
-            memcpy(out + 4 * done, quads, sizeof quads);
-        } else {
-            memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
-        }
+        store_words(&r, out + 4 * done);
+    }
+    if (done < count) {
+        const block r = philox(seed, purpose, first + done, lane);
+        uint32_t quads[4 * LANES];
+        store_words(&r, quads);
+        memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
     }
 }

@@ -238,6 +238,18 @@ bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, doub
     return false;
 }
 
+void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
+                                 double scale, double *least)
+{
+    for (size_t c = 0; c < count; c++) {
+        least[c] = 1;
+        for (size_t j = 0; j < near; j++) {
+            const double a = dx[j] - scale * pairs[2 * c], b = dy[j] - scale * pairs[2 * c + 1];
+            least[c] = a * a + b * b < least[c] ? a * a + b * b : least[c];
+        }
+    }
+}
+
 void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
                                  double excess[16], double deficit[16])
 {

@@ -56,8 +56,8 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
-/* out = x[0], y[0], x[1], y[1], ... */
-static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
+/* out = x[0], y[0], x[1], y[1], ...: the bits of 2 LANES64 doubles. */
+static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
 {
 #if defined(__AVX512F__)
     const lanes64_d low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
@@ -68,7 +68,7 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, double *out)
     const lanes64_d low = __builtin_shufflevector(x, y, 0, 2), high = __builtin_shufflevector(x, y, 1, 3);
 #endif
     memcpy(out, &low, sizeof low);
-    memcpy(out + LANES64, &high, sizeof high);
+    memcpy((char *)out + sizeof low, &high, sizeof high);
 }
 
 #endif

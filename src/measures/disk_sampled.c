@@ -14,7 +14,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/measures.h"
-#include "measures/parts/disks.h"
+#include "measures/parts/disk_laws.h"
 
 enum { DISKS_PER_BLOCK = 256 };
 

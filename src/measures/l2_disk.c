@@ -23,7 +23,7 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/parts/disks.h"
+#include "measures/parts/disk_laws.h"
 #include "measures/parts/torus_cells.h"
 
 enum { BLOCK = 64, MIN_COLUMNS = 4 };

@@ -15,10 +15,11 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
-enum { NEAR = 128, REACH = 3 };
+enum { NEAR = 128, REACH = 2 };
 
 typedef struct net {
     uint64_t seed;
@@ -54,21 +55,20 @@ static int gather(const net *s, double x, double y, double *dx, double *dy)
 /* The best place in the square of side `width` at (x, y) for point i. */
 static void choose(const net *s, size_t i, double x, double y, double width, double *point)
 {
-    double dx[NEAR], dy[NEAR], best = -1;
+    enum { MOST = 128 };
+    double dx[NEAR], dy[NEAR], pairs[2 * MOST], least[MOST], best = -1;
     const int count = gather(s, x, y, dx, dy);
-    for (size_t c = 0; c < s->candidates; c++) {
-        double pair[2];
-        koksma__random_pair(s->seed, KOKSMA__PURPOSE_DART, (uint64_t)i << 16 | c, 0, pair);
-        const double u = pair[0] * (1 - 0x1p-24) * width, v = pair[1] * (1 - 0x1p-24) * width;
-        double least = 1;
-        for (int j = 0; j < count; j++) {
-            const double a = dx[j] - u, b = dy[j] - v;
-            least = a * a + b * b < least ? a * a + b * b : least;
-        }
-        if (least > best) {
-            best = least;
-            point[0] = x + u;
-            point[1] = y + v;
+    const double scale = (1 - 0x1p-24) * width;
+    for (size_t first = 0; first < s->candidates; first += MOST) {
+        const size_t some = s->candidates - first < MOST ? s->candidates - first : MOST;
+        koksma__kernels()->uniform(s->seed, KOKSMA__PURPOSE_DART, (uint64_t)i << 16 | first, 0, some, pairs);
+        koksma__kernels()->nearest_offset((size_t)count, dx, dy, some, pairs, scale, least);
+        for (size_t c = 0; c < some; c++) {
+            if (least[c] > best) {
+                best = least[c];
+                point[0] = x + pairs[2 * c] * scale;
+                point[1] = y + pairs[2 * c + 1] * scale;
+            }
         }
     }
 }

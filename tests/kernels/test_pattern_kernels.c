@@ -105,6 +105,11 @@ static void near(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
+static void nearest_offset(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
+}
+
 #define TEST(name, most)                                                                                             \
     static void name##_equals_reference(void **state)                                                                \
     {                                                                                                                \
@@ -122,15 +127,17 @@ TEST(owen_hash, MAX)
 TEST(pascal, MAX)
 TEST(grow, MAX)
 TEST(near, 250)
+TEST(nearest_offset, MAX)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference), cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference), cmocka_unit_test(fraction_pairs_equals_reference),
-        cmocka_unit_test(digital_equals_reference),   cmocka_unit_test(digital_at_equals_reference),
-        cmocka_unit_test(owen_hash_equals_reference), cmocka_unit_test(pascal_equals_reference),
-        cmocka_unit_test(grow_equals_reference),      cmocka_unit_test(near_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_at_equals_reference),
+        cmocka_unit_test(owen_hash_equals_reference),      cmocka_unit_test(pascal_equals_reference),
+        cmocka_unit_test(grow_equals_reference),           cmocka_unit_test(near_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

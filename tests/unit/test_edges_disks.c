@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
-#include "measures/parts/disks.h"
+#include "measures/parts/disk_laws.h"
 #include "measures/parts/lines.h"
 #include "measures/parts/orientation.h"
 #include "sets.h"

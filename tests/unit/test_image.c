@@ -56,6 +56,32 @@ static void floats_come_back_to_the_bit(void **state)
     }
 }
 
+/* Pixels of every entropy, so that compressed chunks come in all lengths, that of the pixels themselves among them.
+ */
+static void exr_keeps_noise_of_every_kind(void **state)
+{
+    (void)state;
+    for (uint32_t bits = 0; bits <= 32; bits++) {
+        static const int sizes[][3] = {{1, 18, 3}, {156, 35, 1}, {187, 52, 3}, {125, 35, 3}, {32, 18, 1}};
+        for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+            koksma_image image, back = {0};
+            assert_ok(koksma_image_init(&image, sizes[s][0], sizes[s][1], sizes[s][2]));
+            const size_t count = (size_t)(image.width * image.height * image.channels);
+            for (size_t i = 0; i < count; i++) {
+                const uint32_t noise = koksma__random(bits, 1, i, 0).w[0];
+                const uint32_t word = 0x3f000000u ^ (bits ? noise >> (32 - bits) : 0);
+                memcpy(&image.pixels[i], &word, sizeof word);
+            }
+            koksma__bytes bytes = written("exr", &image);
+            assert_ok(koksma__format_exr.read(bytes.data, bytes.size, &back));
+            assert_memory_equal(back.pixels, image.pixels, count * sizeof(float));
+            koksma_image_fini(&back);
+            koksma_image_fini(&image);
+            free(bytes.data);
+        }
+    }
+}
+
 /* All 256 grey levels: linear values that come from a PNG give the same PNG. */
 static void png_levels_come_back(void **state)
 {
@@ -177,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floats_come_back_to_the_bit),
+        cmocka_unit_test(exr_keeps_noise_of_every_kind),
         cmocka_unit_test(png_levels_come_back),
         cmocka_unit_test(errors_by_hand),
         cmocka_unit_test(readers_survive),

@@ -132,8 +132,11 @@ static void try_chords(const pivots *job, size_t pivot, koksma__chord chords[KOK
 {
     for (int c = 0; c < KOKSMA__MAX_CHORDS; c++) {
         const double dx = chords[c].across[0] - chords[c].across[1], dy = chords[c].up[0] - chords[c].up[1];
+        if (dx == 0 && dy == 0) {
+            continue;
+        }
         const int order = r ? chord_turn(job->xs, job->xs + 2 * pivot, &chords[c], r) : 1;
-        if ((dx != 0 || dy != 0) && order >= 0) {
+        if (order >= 0) {
             if (order > 0) {
                 consider(job, best, left, left + same,
                          (best_line){.pivot = pivot, .other = job->n + (size_t)c, .dx = dx, .dy = dy});

@@ -13,7 +13,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "core/sum.h"
-#include "measures/parts/disks.h"
+#include "measures/parts/disk_laws.h"
 #include "measures/parts/warp_disks.h"
 #include "measures/parts/warp_domains.h"
 

@@ -10,7 +10,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 
-enum { BEFORE = 2, AFTER = 5, WORDS = 256 };
+enum { BEFORE = 2, AFTER = 5, WORDS = 256, AHEAD = 8 };
 
 #define FINEST ((uint64_t)1 << 30) /* squares a side; room smaller than that is none */
 
@@ -106,6 +106,20 @@ static koksma_status add(koksma__disks *s, uint32_t cell_x, uint32_t cell_y, dou
     return KOKSMA_OK;
 }
 
+/* Asks for the memory that a dart in some turns will look at: first its square, then the grid around. A hint only. */
+static void fetch(const koksma__disks *s, const uint32_t *word)
+{
+    __builtin_prefetch(&s->squares[koksma__below(word[4 * 2 * AHEAD], (uint32_t)s->n_squares)]);
+    const koksma__square square = s->squares[koksma__below(word[4 * AHEAD], (uint32_t)s->n_squares)];
+    const size_t corner = place_of(s, square.x >> s->level, square.y >> s->level) - 2 * s->stride - 2;
+    for (size_t r = 0; r < 5; r++) {
+        __builtin_prefetch(s->gx + corner + r * s->stride);
+        __builtin_prefetch(s->gy + corner + r * s->stride);
+        __builtin_prefetch(s->gx + corner + r * s->stride + 7);
+        __builtin_prefetch(s->gy + corner + r * s->stride + 7);
+    }
+}
+
 /* A dart at a random square. The square of a kept dart is taken out of the list. */
 static koksma_status throw(koksma__disks * s, const koksma__kernel_table *kernels, const uint32_t *word)
 {
@@ -173,6 +187,9 @@ koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *r
             if (i % WORDS == 0) {
                 kernels->words(s->seed, KOKSMA__PURPOSE_DART, s->dart, 0, darts - i < WORDS ? darts - i : WORDS,
                                word);
+            }
+            if (i % WORDS + 2 * AHEAD < WORDS) {
+                fetch(s, word + 4 * (i % WORDS));
             }
             status = throw(s, kernels, word + 4 * (i % WORDS));
         }

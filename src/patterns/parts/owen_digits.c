@@ -13,6 +13,8 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/parts/columns.h"
+#include "patterns/parts/grow.h"
 #include "patterns/parts/radical.h"
 
 enum { FEW = 256, MAX_BASE = 38880 };
@@ -25,25 +27,28 @@ typedef struct job {
 typedef struct column {
     uint32_t base;
     size_t n;
-    uint64_t *v;          /* n values */
+    double *v;            /* n values: whole numbers below 2^53 */
     const uint32_t *word; /* two for each point */
     uint16_t *order, *picked;
 } column;
 
-static uint64_t below(uint64_t width, uint32_t word)
+/* floor, which is a call without SSE 4.1. */
+static inline double whole_part(double x)
 {
-    return (uint64_t)((double)width * (word * 0x1p-32));
+    return (double)(int64_t)x;
 }
 
-/* The relatives of point r at the place whose digit has the value `width`, r + step, r + 2 step, … */
-static void place_relatives(const column *c, size_t r, size_t step, uint64_t width)
+static inline double below(double width, uint32_t word)
 {
-    const uint64_t upper = c->v[r] / width, own = upper % c->base, prefix = (upper - own) * width;
-    if (c->base == 2) {
-        const size_t i = r + step;
-        c->v[i] = prefix + (1 - own) * width + below(width, c->word[2 * i + 1]);
-        return;
-    }
+    return whole_part(width * (word * 0x1p-32));
+}
+
+/* The relatives of point r at the place whose digit has the value `width`, r + step, r + 2 step, … Quotients of whole
+   numbers below 2^53 have the right floor. */
+static void place_relatives(const column *c, size_t r, size_t step, double width)
+{
+    const double upper = whole_part(c->v[r] / width), prefix = whole_part(upper / c->base) * c->base;
+    const uint32_t own = (uint32_t)(upper - prefix);
     uint32_t d = 1;
     c->order[own] = 0;
     c->order[0] = (uint16_t)own;
@@ -53,7 +58,7 @@ static void place_relatives(const column *c, size_t r, size_t step, uint64_t wid
         c->order[pick] = c->order[d];
         c->order[d] = digit;
         c->picked[d] = (uint16_t)pick;
-        c->v[i] = prefix + digit * width + below(width, c->word[2 * i + 1]);
+        c->v[i] = (prefix + digit) * width + below(width, c->word[2 * i + 1]);
     }
     while (--d) {
         const uint16_t digit = c->order[d];
@@ -64,31 +69,75 @@ static void place_relatives(const column *c, size_t r, size_t step, uint64_t wid
     c->order[own] = (uint16_t)own;
 }
 
-static void place_all(const column *c)
+/* Base 3, where most time goes: the two others in one of two orders, by a table and not by branches. */
+static void place_pairs(const column *c, size_t step, double width)
 {
-    uint64_t whole = c->base;
-    while (whole * c->base <= (uint64_t)1 << 53) {
-        whole *= c->base;
+    static const double others[3][2][2] = {{{1, 2}, {2, 1}}, {{2, 0}, {0, 2}}, {{0, 1}, {1, 0}}};
+    const size_t n = c->n, parents = n - step < step ? n - step : step;
+    const size_t whole = n > 2 * step ? n - 2 * step : 0; /* parents with both relatives */
+    const double inverse = 1 / width;
+    double *v = c->v;
+    for (size_t r = 0; r < parents; r++) {
+        double upper = whole_part(v[r] * inverse);
+        const double rest = v[r] - upper * width; /* exact: the estimate is off by one at most */
+        upper += (double)(rest >= width) - (double)(rest < 0);
+        const double prefix = whole_part((upper + 0.5) * (1.0 / 3)) * 3;
+        const double *digit = others[(int)(upper - prefix)][c->word[2 * (r + step)] >> 31];
+        v[r + step] = (prefix + digit[0]) * width + below(width, c->word[2 * (r + step) + 1]);
+        if (r < whole) {
+            v[r + 2 * step] = (prefix + digit[1]) * width + below(width, c->word[2 * (r + 2 * step) + 1]);
+        }
     }
-    for (uint32_t a = 0; a < c->base && c->base > 2; a++) {
+}
+
+static void place_all(const column *c, double whole)
+{
+    for (uint32_t a = 0; a < c->base; a++) {
         c->order[a] = (uint16_t)a;
     }
     c->v[0] = below(whole, c->word[0]) + c->word[1] % c->base;
     c->v[0] -= c->v[0] >= whole ? whole : 0;
-    uint64_t width = whole;
+    double width = whole;
     for (size_t step = 1; step < c->n; step *= c->base) {
         width /= c->base;
-        for (size_t r = 0; r < step && r + step < c->n; r++) {
+        const size_t parents = c->n - step < step ? c->n - step : step;
+        if (c->base == 3) {
+            place_pairs(c, step, width);
+            continue;
+        }
+        for (size_t r = 0; r < parents; r++) {
             place_relatives(c, r, step, width);
         }
     }
 }
 
+/* Base 2 by the kernel of the nets in base 2; the digital sequence is the identity. */
+static koksma_status fill_base2(const job *j)
+{
+    const uint32_t partners[32] = {0};
+    double few[FEW];
+    const size_t n = j->out->n;
+    koksma_points line = {n, 1, n <= FEW ? few : malloc(n * sizeof *line.xs)};
+    if (!line.xs) {
+        return koksma__fail_memory(n * sizeof *line.xs);
+    }
+    const koksma_run one = {.threads = 1};
+    const koksma_status status = koksma__grow(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, &line);
+    koksma__store_column(n, line.xs, j->out->dim, 0, j->out->xs);
+    if (line.xs != few) {
+        free(line.xs);
+    }
+    return status;
+}
+
 static koksma_status fill(void *context, size_t k)
 {
     const job *j = context;
-    const size_t n = j->out->n, dim = (size_t)j->out->dim;
-    uint64_t few_values[FEW];
+    if (k == 0) {
+        return fill_base2(j);
+    }
+    const size_t n = j->out->n;
+    double few_values[FEW];
     uint32_t few_words[2 * FEW + 2];
     uint16_t order[MAX_BASE], picked[MAX_BASE];
     column c = {.base = koksma__prime((int)k), .n = n, .v = few_values, .order = order, .picked = picked};
@@ -105,15 +154,13 @@ static koksma_status fill(void *context, size_t k)
     }
     koksma__kernels()->words(j->seed, KOKSMA__PURPOSE_SCRAMBLE, 0, (uint32_t)k, (n + 1) / 2, word);
     c.word = word;
-    place_all(&c);
     double whole = c.base;
     while (whole * c.base <= 0x1p53) {
         whole *= c.base;
     }
-    double *x = j->out->xs + k;
-    for (size_t i = 0; i < n; i++, x += dim) {
-        *x = (double)c.v[i] / whole;
-    }
+    place_all(&c, whole);
+    koksma__kernels()->quotients(n, c.v, 0, whole, c.v);
+    koksma__store_column(n, c.v, j->out->dim, (int)k, j->out->xs);
     free(memory);
     return KOKSMA_OK;
 }

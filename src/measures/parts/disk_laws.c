@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "measures/parts/disks.h"
+#include "measures/parts/disk_laws.h"
 
 #include <math.h>
 

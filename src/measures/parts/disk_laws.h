@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Disks on the unit torus and the laws of their radius. */
-#ifndef KOKSMA_MEASURES_PARTS_DISKS_H
-#define KOKSMA_MEASURES_PARTS_DISKS_H
+#ifndef KOKSMA_MEASURES_PARTS_DISK_LAWS_H
+#define KOKSMA_MEASURES_PARTS_DISK_LAWS_H
 
 #include <koksma/koksma.h>
 

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Well-known point sets and their values in nine measures, to nine printed decimals, found with an independent
+   implementation in doubles and cross-checked there by brute force or Monte Carlo. */
+#include <string.h>
+
+#include "test.h"
+
+enum { MEASURES = 10 };
+
+static const char *const measures[MEASURES] = {
+    "star",           "l2-star", "l2-extreme", "l2-periodic", "l2-centered", "l2-edge", "l2-edge:law=mitchell",
+    "l2-disk:r=0.25", "edge",    "extreme",
+};
+
+static double radical_inverse(unsigned base, size_t i)
+{
+    double numerator = 0, denominator = 1;
+    for (; i; i /= base) {
+        numerator = numerator * base + (double)(i % base);
+        denominator *= base;
+    }
+    return numerator / denominator;
+}
+
+static void hammersley(size_t i, size_t n, double *x)
+{
+    x[0] = (double)i / (double)n;
+    x[1] = radical_inverse(2, i);
+}
+
+static void centred_hammersley(size_t i, size_t n, double *x)
+{
+    x[0] = ((double)i + 0.5) / (double)n;
+    x[1] = radical_inverse(2, i);
+}
+
+static void halton(size_t i, size_t n, double *x)
+{
+    (void)n;
+    x[0] = radical_inverse(2, i);
+    x[1] = radical_inverse(3, i);
+}
+
+static void r2(size_t i, size_t n, double *x)
+{
+    (void)n;
+    const double g = 1.32471795724474602596; /* g^3 = g + 1 */
+    x[0] = fmod(0.5 + (double)(i + 1) / g, 1);
+    x[1] = fmod(0.5 + (double)(i + 1) / (g * g), 1);
+}
+
+/* Folded radical inverse: digit k (0 the least significant) becomes (digit + k) mod 2, in the leading zeros as well.
+ */
+static void zaremba(size_t i, size_t n, double *x)
+{
+    x[0] = (double)i / (double)n;
+    x[1] = 0;
+    for (size_t k = 0; k < 60; k++) {
+        const size_t digit = k < 30 ? i >> k & 1 : 0;
+        x[1] += (double)((digit + k) & 1) * exp2(-1 - (double)k);
+    }
+}
+
+static void fibonacci(size_t i, size_t n, double *x)
+{
+    size_t a = 1, b = 1;
+    while (b < n) {
+        const size_t next = a + b;
+        a = b;
+        b = next;
+    }
+    x[0] = (double)i / (double)n;
+    x[1] = (double)(i * a % n) / (double)n;
+}
+
+static void golden(size_t i, size_t n, double *x)
+{
+    x[0] = (double)i / (double)n;
+    x[1] = fmod((double)i * 0.61803398874989484820, 1);
+}
+
+/* 0: not in the table. */
+static const struct {
+    void (*point)(size_t i, size_t n, double *x);
+    size_t n;
+    double values[MEASURES];
+} rows[] = {
+    {hammersley,
+     16,
+     {0.171875000, 0.069290839, 0.017271020, 0.037563468, 0.065672971, 0.048340018, 0.048655911, 0.038524690,
+      0.185546875, 0.214843750}},
+    {hammersley,
+     64,
+     {0.053710938, 0.021205108, 0.005126267, 0.010894087, 0.018923633, 0.016003259, 0.016206585, 0.015990670,
+      0.078002930, 0.068115234}},
+    {hammersley,
+     256,
+     {0.016052246, 0.006277231, 0.001455773, 0.003053657, 0.005465061, 0.005300665, 0.005392493, 0.005644857,
+      0.035148621, 0.020370483}},
+    {hammersley,
+     1024,
+     {0.004665375, 0.001813240, 0.000402811, 0.000837860, 0.001566325, 0.001759122, 0.001794868, 0.001837093,
+      0.016601086, 0.006079674}},
+    {hammersley,
+     4096,
+     {0.001329184, 0.000514284, 0.000109562, 0.000226555, 0.000444334, 0.000587638, 0.000600755, 0, 0, 0}},
+    {centred_hammersley,
+     16,
+     {0.152343750, 0.055013021, 0.017271020, 0.037563468, 0.057055362, 0.044817546, 0.045209635, 0.038524690,
+      0.171875000, 0.214843750}},
+    {centred_hammersley,
+     64,
+     {0.048583984, 0.017548725, 0.005126267, 0.010894087, 0.017101478, 0.015304813, 0.015524566, 0.015990670,
+      0.074218750, 0.068115234}},
+    {centred_hammersley,
+     256,
+     {0.014755249, 0.005349201, 0.001455773, 0.003053657, 0.005074368, 0.005166861, 0.005262200, 0.005644857,
+      0.034179688, 0.020370483}},
+    {centred_hammersley,
+     4096,
+     {0.001247823, 0.000455385, 0.000109561, 0.000226555, 0.000425790, 0.000582913, 0.000596172, 0, 0, 0}},
+    {halton,
+     16,
+     {0.201388889, 0.068247792, 0.019997751, 0.043000645, 0.094954151, 0.060430115, 0.060335256, 0.049153486,
+      0.218028499, 0.243055556}},
+    {halton,
+     64,
+     {0.052083333, 0.016409436, 0.007003886, 0.014654291, 0.027093998, 0.019466954, 0.019572868, 0.020493534,
+      0.108937107, 0.089699074}},
+    {halton,
+     256,
+     {0.018759645, 0.005306370, 0.002052069, 0.004326483, 0.008164684, 0.006482031, 0.006480329, 0.006892608,
+      0.032279611, 0.030730238}},
+    {halton,
+     4096,
+     {0.001863484, 0.000426572, 0.000220271, 0.000449996, 0.000677558, 0.000778061, 0.000780723, 0, 0, 0}},
+    {r2,
+     16,
+     {0.243477007, 0.067755940, 0.022921771, 0.058795598, 0.117005561, 0.065427502, 0.065307420, 0.041913260,
+      0.235319418, 0.304141588}},
+    {r2,
+     64,
+     {0.058283123, 0.014530144, 0.007599167, 0.017968026, 0.028449045, 0.016905980, 0.016844507, 0.016971792,
+      0.081127393, 0.118618906}},
+    {r2,
+     256,
+     {0.025818076, 0.006090249, 0.002880830, 0.006010612, 0.007045579, 0.005957428, 0.006005207, 0.005779698,
+      0.039227129, 0.038544006}},
+    {r2, 4096, {0.002424837, 0.000481883, 0.000237871, 0.000503130, 0.000651080, 0.000653247, 0.000653050, 0, 0, 0}},
+    {zaremba,
+     16,
+     {0.125000000, 0.035833915, 0.017271020, 0.037563468, 0.048951667, 0.039280293, 0.039346313, 0.037753440,
+      0.177083333, 0.191406250}},
+    {zaremba,
+     64,
+     {0.037760417, 0.009575714, 0.005126267, 0.010894087, 0.012746691, 0.012779833, 0.012831823, 0.015989741,
+      0.072808160, 0.066650391}},
+    {zaremba,
+     256,
+     {0.010986328, 0.002550635, 0.001455773, 0.003053657, 0.003309017, 0.004306321, 0.004355156, 0.005580022,
+      0.034505208, 0.021743774}},
+    {zaremba,
+     4096,
+     {0.000882149, 0.000177757, 0.000109561, 0.000226555, 0.000221316, 0.000514167, 0.000523574, 0, 0, 0}},
+    {fibonacci,
+     13,
+     {0.165680473, 0.065208186, 0.019027398, 0.042176341, 0.075713220, 0.049977256, 0.049905988, 0.060138451,
+      0.205128205, 0.207100592}},
+    {fibonacci,
+     55,
+     {0.044958678, 0.015151575, 0.005260323, 0.011360262, 0.018255276, 0.014616289, 0.014812178, 0.015795337,
+      0.100000000, 0.059504132}},
+    {fibonacci,
+     233,
+     {0.012930796, 0.003963653, 0.001397733, 0.002972874, 0.004507276, 0.004567245, 0.004527744, 0.006632747,
+      0.041267745, 0.016596364}},
+    {fibonacci,
+     987,
+     {0.003535321, 0.000922239, 0.000363083, 0.000764424, 0.001082822, 0.001456065, 0.001500583, 0.001941825,
+      0.023809524, 0}},
+    {golden,
+     16,
+     {0.148558813, 0.052896127, 0.015777090, 0.038193067, 0.078384160, 0.047993548, 0.047830756, 0.044864172,
+      0.214412418, 0.164957514}},
+    {golden,
+     64,
+     {0.041459095, 0.013631106, 0.004563032, 0.011576694, 0.015717196, 0.013279728, 0.013436510, 0.017118143,
+      0.098040237, 0.051549899}},
+    {golden,
+     256,
+     {0.012184473, 0.003488300, 0.001276707, 0.003170346, 0.004232316, 0.004211039, 0.004184965, 0.005885405,
+      0.040988382, 0.014899885}},
+    {golden,
+     4096,
+     {0.000941220, 0.000230716, 0.000094526, 0.000229654, 0.000282241, 0.000489033, 0.000484609, 0, 0, 0}},
+};
+
+static void values_are_those_of_the_table(void **state)
+{
+    (void)state;
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        koksma_points p;
+        assert_ok(koksma_points_init(&p, rows[r].n, 2));
+        for (size_t i = 0; i < p.n; i++) {
+            rows[r].point(i, p.n, p.xs + 2 * i);
+        }
+        for (int m = 0; m < MEASURES; m++) {
+            if (rows[r].values[m] > 0) { /* its own doubles leave the last digit open from 1024 on */
+                const double value = test_measure(measures[m], &p).value, bound = p.n < 1024   ? 5.1e-10
+                                                                                  : p.n < 4096 ? 1.5e-9
+                                                                                               : 4e-9;
+                if (!(fabs(value - rows[r].values[m]) <= bound)) {
+                    fail_msg("row %zu, n = %zu: %s is %.12f, not %.9f", r, p.n, measures[m], value,
+                             rows[r].values[m]);
+                }
+            }
+        }
+        koksma_points_fini(&p);
+    }
+}
+
+/* star in 3 to 5 dimensions: Halton's points. */
+static void star_in_more_dimensions(void **state)
+{
+    (void)state;
+    static const unsigned primes[] = {2, 3, 5, 7};
+    static const struct {
+        int dim;
+        size_t n;
+        double star;
+    } sets[] = {
+        {3, 16, 0.275},       {3, 64, 0.097041667}, {3, 256, 0.0326875},   {3, 512, 0.020197106},
+        {4, 16, 0.356462585}, {4, 64, 0.13625},     {4, 128, 0.093016582},
+    };
+    for (size_t s = 0; s < sizeof sets / sizeof *sets; s++) {
+        koksma_points p;
+        assert_ok(koksma_points_init(&p, sets[s].n, sets[s].dim));
+        for (size_t i = 0; i < p.n * (size_t)p.dim; i++) {
+            p.xs[i] = radical_inverse(primes[i % (size_t)p.dim], i / (size_t)p.dim);
+        }
+        assert_near(test_measure("star", &p).value, sets[s].star, 5.1e-10);
+        koksma_points_fini(&p);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_are_those_of_the_table),
+        cmocka_unit_test(star_in_more_dimensions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
