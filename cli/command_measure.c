@@ -297,15 +297,29 @@ static bool parse_options(job *j)
     const char *warp = cli_text(j->arguments, "warp", NULL);
     j->warp = warp ? koksma_warp_find(warp) : NULL;
     if (warp && !j->warp) {
-        cli_usage_error(j->arguments,
-                        "--warp %s: it takes concentric-disk, polar-disk, triangle, hemisphere or "
-                        "concentric-hemisphere",
-                        warp);
+        char names[512] = "";
+        for (size_t i = 0; koksma_warp_at(i); i++) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", koksma_warp_at(i)->name);
+        }
+        cli_usage_error(j->arguments, "--warp %s: it takes %s", warp, names);
         return false;
     }
     return cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &j->seed) &&
            cli_whole(j->arguments, "trials", 1, 1, 1000000000, &j->trials) &&
            cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) && parse_prefixes(j);
+}
+
+/* What is measured without -m: after a warp, what makes sense on its domain. */
+static const char *default_measures(const job *j)
+{
+    static const char *const of_domains[] = {
+        [KOKSMA_DOMAIN_DISK] = "edge,l2-edge,l2-disk",
+        [KOKSMA_DOMAIN_TRIANGLE] = "edge,l2-edge",
+        [KOKSMA_DOMAIN_HEMISPHERE] = "l2-edge,l2-disk:law=area",
+        [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "l2-disk:law=area",
+    };
+    return j->warp ? of_domains[j->warp->domain] : "star,l2-star,extreme";
 }
 
 static koksma_status choose_measures(job *j, const char *list)
@@ -338,8 +352,7 @@ static int run(const cli_arguments *arguments)
     if (!parse_options(&j) || !cli_work_begin(arguments, "measuring", &j.work)) {
         return CLI_USAGE;
     }
-    const koksma_status status =
-        choose_measures(&j, cli_text(arguments, "measures", j.warp ? "edge,l2-edge" : "star,l2-star,extreme"));
+    const koksma_status status = choose_measures(&j, cli_text(arguments, "measures", default_measures(&j)));
     if (status) {
         return cli_fail(arguments, status);
     }
