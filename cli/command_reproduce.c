@@ -47,8 +47,8 @@ static koksma_status reproduce(const cli_arguments *arguments, const char *plan,
     if (!status) {
         status = koksma_study_report(study, &work->run);
     }
-    const char *table = cli_text(arguments, "table", "5.1");
-    if (!status && strcmp(table, "none") != 0) {
+    const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
+    if (!status && table && strcmp(table, "none") != 0) {
         status = put_table(study, table, rows);
     }
     const koksma_status closed = koksma_study_close(study);
@@ -95,7 +95,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
-    {0, "table", "ID", "table to print at the end, or none (default: 5.1)"},
+    {0, "table", "ID", "table to print at the end, or none (default: the plan's first)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -106,7 +106,7 @@ const cli_command cli_command_reproduce = {
     .summary = "reproduce the tables and figures of a paper",
     .synopsis = "PAPER -o DIR [--trials T] [--table ID] [--json]",
     .details =
-        "PAPER is shirley1991, or a plan of your own (./my.json; studies/README.md has the fields).\n"
+        "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
         "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
         "on where it was and ends with the same report.",
     .options = options,

@@ -46,6 +46,9 @@ KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run 
 /* Writes DIR/report.html: one file that needs no network. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
+/* The id of table i of the plan, NULL past the end. */
+KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i);
+
 /* A row of a published table beside ours. NaN where there is no number. */
 typedef struct koksma_study_row {
     const char *pattern, *label;

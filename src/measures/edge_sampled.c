@@ -2,7 +2,7 @@
 /*
  * edge-sampled: l2-edge as the second paper estimates it, from random lines.
  *
- * Formula: the root of the mean, over `lines` random lines, of (#{x_i below the line}/n - area below)^2; its standard
+ * Formula: the root of the mean, over `lines` random lines, of (#{x_i above the line}/n - area above)^2; its standard
  * error is that of the mean of the squares over twice the value.
  * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted, though n stays:
  * that procedure gives the paper's table 4 to within its noise (a loop from 1, presumably). Known exactly: nothing;
@@ -39,7 +39,9 @@ static koksma_status sample_block(void *context, size_t block)
         }
         koksma__kernels()->count_below(j->n - j->skip, j->x + j->skip, j->y + j->skip, a, b, c, counts);
         for (size_t l = 0; l < LANES && first + l < end; l++) {
-            const double deviation = counts[l] / (double)j->n - koksma__area_below(a[l], b[l], c[l]);
+            /* #above/n - area above, with its sign turned: points that are skipped are never above. */
+            const double below = counts[l] + (double)j->skip;
+            const double deviation = below / (double)j->n - koksma__area_below(a[l], b[l], c[l]);
             j->squares[first + l] = deviation * deviation;
         }
     }

@@ -2,6 +2,7 @@
 /* Plans are JSON (studies/README.md has the fields). Everything in a plan is checked here, before any work. */
 #include "study/plan.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,6 +102,21 @@ static koksma_status parse_image(const koksma__json_node *node, long long trials
 
 /* ---- Published tables and figures ------------------------------------------------------------------------ */
 
+/* Mean, SD and max; those that a paper does not print are left out at the end. */
+static koksma_status parse_published(const koksma__json_node *node, double published[3])
+{
+    koksma__json_node list;
+    size_t length = 0;
+    koksma_status status = koksma__json_member(node, "published", &list);
+    status = status ? status : koksma__json_length(&list, 3, &length);
+    for (size_t i = 0; !status && i < 3; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        published[i] = NAN;
+        status = i < length ? koksma__json_number(&item, -1e30, 1e30, &published[i]) : KOKSMA_OK;
+    }
+    return status;
+}
+
 static koksma_status parse_row(const koksma__json_node *node, long long trials, void *item)
 {
     static const char *const keys[] = {"pattern", "label", "published", NULL};
@@ -109,7 +125,7 @@ static koksma_status parse_row(const koksma__json_node *node, long long trials, 
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
-    return status ? status : koksma__json_get_numbers(node, "published", true, -1e30, 1e30, 3, r->published);
+    return status ? status : parse_published(node, r->published);
 }
 
 static koksma_status parse_note(const koksma__json_node *node, long long trials, void *item)
@@ -133,7 +149,7 @@ static koksma_status parse_note(const koksma__json_node *node, long long trials,
 
 static koksma_status parse_table(const koksma__json_node *node, long long trials, void *item)
 {
-    static const char *const keys[] = {"id", "title", "scene", "measure", "also", "n", "rows", "notes", NULL};
+    static const char *const keys[] = {"id", "title", "scene", "measure", "also", "n", "dim", "rows", "notes", NULL};
     koksma__table *t = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "id", true, &t->id);
@@ -142,6 +158,8 @@ static koksma_status parse_table(const koksma__json_node *node, long long trials
     status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);
     status = status ? status : koksma__plan_spec(node, "also", koksma_measure_spec, false, &t->also);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, 1 << 28, &t->n);
+    t->dim = 2;
+    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
     if (!status && !t->scene == !t->measure) {
         return koksma__json_fail(node, "a table has either a scene or a measure");
     }
@@ -192,6 +210,13 @@ static bool has_whole(const koksma__wholes *wholes, long long value)
     return false;
 }
 
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim)
+{
+    return block->dim == dim && has_text(&block->measures, measure) && has_text(&block->patterns, pattern) &&
+           has_whole(&block->n, n);
+}
+
 /* Whether the blocks make every row of table t. */
 static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
 {
@@ -203,7 +228,7 @@ static bool is_made(const koksma__plan *plan, const koksma__table *t, const char
     }
     for (size_t b = 0; !t->scene && b < plan->n_discrepancies; b++) {
         const koksma__discrepancy_block *d = &plan->discrepancies[b];
-        if (has_text(&d->measures, measure) && has_text(&d->patterns, pattern) && has_whole(&d->n, t->n)) {
+        if (koksma__plan_block_makes(d, measure, pattern, t->n, t->dim)) {
             return true;
         }
     }

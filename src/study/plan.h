@@ -56,7 +56,7 @@ typedef struct koksma__table {
     char *id, *title;
     char *scene;          /* an image table */
     char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
-    long long n;
+    long long n, dim;     /* dim: of a discrepancy table */
     size_t n_rows, n_notes;
     koksma__table_row *rows;
     koksma__note *notes;
@@ -85,6 +85,10 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
 
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
+
+/* Whether the block has these points and this measure. */
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim);
 
 void koksma__plan_fini(koksma__plan *plan);
 

@@ -36,8 +36,16 @@ static void add_published(koksma__html *h, const koksma__table *t, const koksma_
 {
     for (int s = 0; s < 3; s++) {
         const size_t note = note_of(t, row->pattern, s);
-        const double value = row->published[s], in_1e4 = value * 1e4;
-        koksma__html_add(h, "<td>%.*f", fabs(in_1e4 - round(in_1e4)) < 1e-6 ? 4 : 5, value);
+        const double value = row->published[s];
+        if (isnan(value)) {
+            koksma__html_add(h, "<td>&#8211;</td>");
+            continue;
+        }
+        int decimals = 4; /* all that are printed, at least four */
+        while (decimals < 7 && fabs(value * pow(10, decimals) - round(value * pow(10, decimals))) > 1e-6) {
+            decimals++;
+        }
+        koksma__html_add(h, "<td>%.*f", decimals, value);
         if (note) {
             koksma__html_add(h, "<sup class=\"note\">%zu</sup>", note);
         }
@@ -90,19 +98,21 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     koksma__html_text(h, row->label);
     koksma__html_add(h, "</td>");
     add_published(h, t, row);
-    koksma__html_add(h, "<td>%.4f <span class=\"pm\">&#177; %.4f</span></td><td>%.4f</td><td>%.3f", cell.mean.mean,
+    koksma__html_add(h, "<td>%.4g <span class=\"pm\">&#177; %.2g</span></td><td>%.3g</td><td>%.3g", cell.mean.mean,
                      cell.mean.high - cell.mean.mean, cell.sd, cell.max);
     if (!isnan(cell.max_sd)) {
         koksma__html_add(h, " <span class=\"pm\">&#177; %.3f</span>", cell.max_sd);
     }
     koksma__html_add(h, "</td>");
-    /* The published mean is of 100 sets; half a unit of its last digit is rounding. */
-    const double n = (double)cell.mean.n;
-    const double error = sqrt(cell.sd * cell.sd * (0.01 + 1 / n)) + 0.00025;
+    /* The published mean is of 100 sets, rounded to three digits. */
+    const double n = (double)cell.mean.n, half_digit = 0.5 * pow(10, floor(log10(row->published[0])) - 2);
+    const double error = sqrt(cell.sd * cell.sd * (0.01 + 1 / n)) + half_digit;
     const double z = (row->published[0] - cell.mean.mean) / error;
     char text[48];
     snprintf(text, sizeof text, "z = %+.1f", z);
-    if (note_of(t, row->pattern, 0) && fabs(z) >= AGREEMENT_Z) {
+    if (isnan(z)) {
+        koksma__html_add(h, "<td>new</td>");
+    } else if (note_of(t, row->pattern, 0) && fabs(z) >= AGREEMENT_Z) {
         tally->cells++;
         tally->explained++;
         koksma__html_add(h, "<td class=\"note\">note %zu</td>", note_of(t, row->pattern, 0));
@@ -110,7 +120,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
         add_mark(h, tally, fabs(z) < AGREEMENT_Z, text, text);
     }
     if (t->also) {
-        koksma__html_add(h, "<td>%.4f <span class=\"pm\">&#177; %.4f</span></td>", also.mean.mean,
+        koksma__html_add(h, "<td>%.4g <span class=\"pm\">&#177; %.2g</span></td>", also.mean.mean,
                          also.mean.high - also.mean.mean);
     }
     koksma__html_add(h, "</tr>\n");
@@ -295,10 +305,12 @@ static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma
     koksma__html_add(h, "</h1>\n<p>");
     koksma__html_text(h, study->plan.about ? study->plan.about : "");
     koksma__html_add(h, "</p>\n");
-    koksma__html_add(
-        h, "<h2>Errors of images</h2>\n<p>Absolute error in luminance over the pixels, one pixel wide box filter. "
-           "Intervals are 95 %% over trials. A maximum is one pixel of the picture: it is printed and not "
-           "judged.</p>\n");
+    if (study->plan.n_images) {
+        koksma__html_add(h,
+                         "<h2>Errors of images</h2>\n<p>Absolute error in luminance over the pixels, one pixel wide "
+                         "box filter. Intervals are 95 %% over trials. A maximum is one pixel of the picture: it is "
+                         "printed and not judged.</p>\n");
+    }
     koksma_status status = add_tables(study, h, true, &tally);
     koksma__html_add(
         h,

@@ -20,19 +20,12 @@ const koksma__image_block *koksma__table_images(const koksma_study *study, const
     return NULL;
 }
 
-static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const char *measure, long long n)
+static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,
+                                                         const char *measure, const char *pattern)
 {
     for (size_t b = 0; b < study->plan.n_discrepancies; b++) {
-        const koksma__discrepancy_block *block = &study->plan.discrepancies[b];
-        bool has_measure = false, has_n = false;
-        for (size_t m = 0; m < block->measures.n; m++) {
-            has_measure |= !strcmp(block->measures.at[m], measure);
-        }
-        for (size_t i = 0; i < block->n.n; i++) {
-            has_n |= block->n.at[i] == n;
-        }
-        if (has_measure && has_n) {
-            return block;
+        if (koksma__plan_block_makes(&study->plan.discrepancies[b], measure, pattern, table->n, table->dim)) {
+            return &study->plan.discrepancies[b];
         }
     }
     return NULL;
@@ -41,7 +34,7 @@ static const koksma__discrepancy_block *discrepancies_of(const koksma_study *stu
 koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,
                                         const char *pattern, koksma__cell *cell)
 {
-    const koksma__discrepancy_block *block = discrepancies_of(study, measure, table->n);
+    const koksma__discrepancy_block *block = discrepancies_of(study, table, measure, pattern);
     *cell = (koksma__cell){0};
     if (!block) {
         return koksma__fail(KOKSMA_MALFORMED, "plan '%s': table %s: no discrepancy block has %s at n = %lld",
@@ -88,6 +81,11 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
     cell->max_sd = max.sd;
     free(errors);
     return KOKSMA_OK;
+}
+
+const char *koksma_study_table_at(const koksma_study *study, size_t i)
+{
+    return i < study->plan.n_tables ? study->plan.tables[i].id : NULL;
 }
 
 koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,

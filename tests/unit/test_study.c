@@ -4,6 +4,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <koksma/study.h>
+
 #include "study/plan.h"
 #include "study/statistics.h"
 #include "study/store.h"
@@ -82,6 +84,12 @@ static void shipped_plans_parse(void **state)
     assert_int_equal(plan.n_tables, 6);
     assert_int_equal(plan.images[0].trials, 7);
     koksma__plan_fini(&plan);
+    for (size_t i = 0; koksma_plan_name_at(i); i++) {
+        text = koksma__plan_shipped(koksma_plan_name_at(i), &size);
+        assert_ok(koksma__plan_parse(koksma_plan_name_at(i), text, size, 0, &plan));
+        assert_string_equal(plan.name, koksma_plan_name_at(i));
+        koksma__plan_fini(&plan);
+    }
 }
 
 static void store_keeps_rows(void **state)
