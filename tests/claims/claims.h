@@ -343,7 +343,7 @@ static void check_blue(const koksma_spec *spec, const koksma_points *points, uin
 {
     (void)seed;
     const double rho = smallest_distance(points, true) / koksma__packing_distance(points->n, 2, true);
-    if (points->dim == 2 && points->n >= 64 && !(rho > 0.5)) {
+    if (points->dim == 2 && points->n >= 100 && !(rho > 0.5)) {
         fail_claim(spec, points, "the smallest distance is %.3f of the densest packing's", rho);
     }
 }
