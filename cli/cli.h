@@ -13,7 +13,7 @@ enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2 };
 typedef struct cli_option {
     char letter;          /* 0: none */
     const char *name;     /* tables end at a NULL name */
-    const char *argument; /* NULL: a flag */
+    const char *argument; /* NULL: a flag. One that ends in "..." may be given again: lines of one text */
     const char *help;
 } cli_option;
 
@@ -32,6 +32,7 @@ struct cli_arguments {
     int n_operands;
     char **operands;
     const char *values[CLI_MAX_OPTIONS]; /* by option; "" for a flag that is set, NULL when not given */
+    char *joined[CLI_MAX_OPTIONS];       /* owns the values of options that were given again */
 };
 
 #define COMMAND(name) extern const cli_command cli_command_##name;

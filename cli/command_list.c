@@ -101,13 +101,47 @@ static void list_scenes(cli_rows *rows)
     }
 }
 
+static void list_integrators(cli_rows *rows)
+{
+    const koksma_integrator *in;
+    for (size_t i = 0; (in = koksma_integrator_at(i)); i++) {
+        cli_row_text(rows, "integrator", in->name);
+        cli_row_whole(rows, "depth", (uint64_t)in->depth);
+        cli_row_text(rows, "source", in->cite);
+        cli_row_text(rows, "what", in->title);
+        cli_row_end(rows);
+    }
+}
+
+static void list_filters(cli_rows *rows)
+{
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        cli_row_text(rows, "filter", f->name);
+        cli_row_number(rows, "radius", f->radius);
+        cli_row_text(rows, "source", f->cite);
+        cli_row_text(rows, "what", f->title);
+        cli_row_end(rows);
+    }
+}
+
+static void list_uses(cli_rows *rows)
+{
+    const koksma_use *u;
+    for (size_t i = 0; (u = koksma_use_at(i)); i++) {
+        cli_row_text(rows, "use", u->name);
+        cli_row_whole(rows, "dim", (uint64_t)u->dim);
+        cli_row_text(rows, "what", u->help);
+        cli_row_end(rows);
+    }
+}
+
 static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},
-    {"measures", list_measures},
-    {"scenes", list_scenes},
+    {"patterns", list_patterns},       {"measures", list_measures}, {"scenes", list_scenes},
+    {"integrators", list_integrators}, {"filters", list_filters},   {"uses", list_uses},
 };
 
 static int run(const cli_arguments *arguments)
@@ -123,7 +157,7 @@ static int run(const cli_arguments *arguments)
     }
     const int code = cli_rows_close(rows);
     if (!code && (!found || arguments->n_operands > 1)) {
-        return cli_usage_error(arguments, "it takes one of patterns, measures, scenes");
+        return cli_usage_error(arguments, "it takes one of patterns, measures, scenes, integrators, filters, uses");
     }
     return code;
 }
@@ -133,7 +167,7 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures|scenes] [--json]",
+    .synopsis = "[patterns|measures|scenes|integrators|filters|uses] [--json]",
     .options = options,
     .run = run,
 };

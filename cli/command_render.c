@@ -6,6 +6,7 @@
 #include <koksma/render.h>
 
 #include "cli.h"
+#include "render_options.h"
 
 static double now_s(void)
 {
@@ -28,25 +29,11 @@ static bool parse_size(const cli_arguments *arguments, koksma_render_options *op
     return true;
 }
 
-static bool parse_pairing(const cli_arguments *arguments, koksma_render_options *options)
-{
-    const char *text = cli_text(arguments, "pairing", "shuffled");
-    for (int i = 0; koksma_pairing_name((koksma_pairing)i); i++) {
-        if (!strcmp(koksma_pairing_name((koksma_pairing)i), text)) {
-            options->pairing = (koksma_pairing)i;
-            return true;
-        }
-    }
-    cli_usage_error(arguments, "--pairing %s: it takes shuffled or aligned", text);
-    return false;
-}
-
-static int put_row(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
+static int put_row(const cli_arguments *arguments, const koksma_render_options *options, uint64_t rays,
                    double seconds)
 {
     char pattern[KOKSMA_MAX_SPEC];
     koksma_spec_text(&options->pattern, pattern);
-    const uint64_t samples = (uint64_t)options->width * (uint64_t)options->height * (uint64_t)options->spp;
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     if (rows) {
         cli_row_text(rows, "scene", arguments->operands[0]);
@@ -54,7 +41,7 @@ static int put_row(const cli_arguments *arguments, const koksma_scene *scene, co
         cli_row_whole(rows, "spp", (uint64_t)options->spp);
         cli_row_whole(rows, "width", (uint64_t)options->width);
         cli_row_whole(rows, "height", (uint64_t)options->height);
-        cli_row_whole(rows, "rays", samples * (uint64_t)koksma_scene_rays_per_sample(scene));
+        cli_row_whole(rows, "rays", rays);
         cli_row_number(rows, "seconds", seconds);
         cli_row_end(rows);
     }
@@ -64,13 +51,13 @@ static int put_row(const cli_arguments *arguments, const koksma_scene *scene, co
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options)
 {
     char pattern[KOKSMA_MAX_SPEC], metadata[2 * KOKSMA_MAX_SPEC];
-    koksma_image image;
+    koksma_layers layers;
     cli_work work;
     if (!cli_work_begin(arguments, "rendering", &work)) {
         return CLI_USAGE;
     }
     const double start = now_s();
-    koksma_status status = koksma_render(scene, options, &work.run, &image);
+    koksma_status status = koksma_render_layers(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
     cli_work_end(&work);
     if (!status) {
@@ -78,10 +65,10 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         snprintf(metadata, sizeof metadata, "koksma %s scene=%s hash=%016llx pattern=%s spp=%d pairing=%s seed=%llu",
                  koksma_version(), arguments->operands[0], (unsigned long long)koksma_scene_hash(scene), pattern,
                  options->spp, koksma_pairing_name(options->pairing), (unsigned long long)options->seed);
-        status = koksma_image_write(cli_text(arguments, "output", ""), &image, metadata);
-        koksma_image_fini(&image);
+        status = koksma_image_write(cli_text(arguments, "output", ""), &layers.image, metadata);
+        koksma_layers_fini(&layers);
     }
-    return status ? cli_fail(arguments, status) : put_row(arguments, scene, options, seconds);
+    return status ? cli_fail(arguments, status) : put_row(arguments, options, layers.rays, seconds);
 }
 
 static int run(const cli_arguments *arguments)
@@ -103,22 +90,22 @@ static int run(const cli_arguments *arguments)
     int code = CLI_USAGE;
     if (cli_whole(arguments, "spp", 16, 1, KOKSMA_MAX_SPP, &spp) &&
         cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) && parse_size(arguments, &options) &&
-        parse_pairing(arguments, &options)) {
+        cli_sampling_options(arguments, &options) &&
+        cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code)) {
         options.spp = (int)spp;
-        status = koksma_pattern_spec(cli_text(arguments, "pattern", "n-rooks"), &options.pattern);
-        code = status ? cli_fail(arguments, status) : render(arguments, scene, &options);
+        code = render(arguments, scene, &options);
     }
     koksma_scene_close(scene);
     return code;
 }
 
 static const cli_option options[] = {
-    {'p', "pattern", "PATTERN", "pattern of every use (default: n-rooks)"},
+    {'p', "pattern", "[USE=]PATTERN...", "pattern of every use, or of one; again for others (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
-    {0, "pairing", "P", "shuffled or aligned (default: shuffled)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {'o', "output", "FILE", ".exr, .png or .pfm by its ending"},
+    CLI_SAMPLING_OPTIONS,
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -127,11 +114,12 @@ static const cli_option options[] = {
 const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a scene",
-    .synopsis = "SCENE [-p PATTERN] [-n SPP] [--size WxH] [--pairing P] [-s S] -o FILE",
+    .synopsis = "SCENE [-p [USE=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] -o FILE",
     .details =
         "SCENE is a name of 'koksma list scenes', or a JSON file (docs/scenes.md).\n"
-        "Every use of a sample (pixel, each light) has a 2D pattern of its own in every pixel; 'shuffled' pairs\n"
-        "them by random permutations, 'aligned' in their own order.",
+        "Every use of a sample ('koksma list uses') has a pattern of its own in every pixel; 'shuffled' pairs them\n"
+        "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. With\n"
+        "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.",
     .options = options,
     .run = run,
 };

@@ -37,6 +37,24 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
                            argv[optind - 1]);
 }
 
+/* A second value goes on a line of its own. */
+static void add_value(cli_arguments *arguments, int i, const char *value)
+{
+    const char *before = arguments->values[i];
+    if (!before || !*value) {
+        arguments->values[i] = value;
+        return;
+    }
+    const size_t size = strlen(before) + strlen(value) + 2;
+    char *joined = malloc(size);
+    if (!joined) {
+        abort();
+    }
+    snprintf(joined, size, "%s\n%s", before, value);
+    free(arguments->joined[i]);
+    arguments->values[i] = arguments->joined[i] = joined;
+}
+
 int cli_run(const cli_command *command, int argc, char **argv)
 {
     cli_arguments arguments = {.command = command};
@@ -67,14 +85,18 @@ int cli_run(const cli_command *command, int argc, char **argv)
             for (i = 0; command->options[i].letter != code; i++) {
             }
         }
-        if (arguments.values[i] && command->options[i].argument) {
+        if (arguments.values[i] && command->options[i].argument && !strstr(command->options[i].argument, "...")) {
             return cli_usage_error(&arguments, "option --%s is given twice", command->options[i].name);
         }
-        arguments.values[i] = optarg ? optarg : "";
+        add_value(&arguments, i, optarg ? optarg : "");
     }
     arguments.n_operands = argc - optind;
     arguments.operands = argv + optind;
-    return command->run(&arguments);
+    n = command->run(&arguments);
+    for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
+        free(arguments.joined[i]);
+    }
+    return n;
 }
 
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)

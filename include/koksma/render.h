@@ -40,35 +40,118 @@ KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 /* 64 bits of the scene's text: it changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 
-/* How the 2D patterns of a pixel's uses are put together, sample by sample. */
+/* ---- How it is sampled ---------------------------------------------------------------------------------- */
+
+/* How the patterns of a pixel's uses are put together, sample by sample. */
 typedef enum koksma_pairing {
     KOKSMA_PAIRING_SHUFFLED, /* by independent random permutations: uncorrelated jitter (Cook 1986; Shirley 1991) */
-    KOKSMA_PAIRING_ALIGNED   /* in the order in which the pattern gives them */
+    KOKSMA_PAIRING_ALIGNED,  /* in the order in which the pattern gives them */
+    KOKSMA_PAIRING_NATIVE    /* one pattern in as many dimensions as the uses have together */
 } koksma_pairing;
 
-/* "shuffled", "aligned"; NULL past the end. */
+/* What a pattern covers. */
+typedef enum koksma_scope {
+    KOKSMA_SCOPE_PIXEL, /* a pattern of spp points afresh in each pixel */
+    KOKSMA_SCOPE_IMAGE  /* one pattern of spp width height points over the image, without regard to pixels */
+} koksma_scope;
+
+/* Which luminaires get a shadow ray at a vertex. */
+typedef enum koksma_light_selection {
+    KOKSMA_LIGHTS_ALL,     /* each */
+    KOKSMA_LIGHTS_ONE,     /* one, chosen in proportion to its estimated contribution (Shirley 1991, section 5.4) */
+    KOKSMA_LIGHTS_POWER,   /* one, in proportion to its power */
+    KOKSMA_LIGHTS_UNIFORM, /* one, each as likely */
+} koksma_light_selection;
+
+/* "shuffled", "aligned", …; "pixel", "image"; "all", "one", …; NULL past the end. */
 KOKSMA_API const char *koksma_pairing_name(koksma_pairing pairing);
+KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
+KOKSMA_API const char *koksma_light_selection_name(koksma_light_selection selection);
+
+/* Uses of a sample, in the order of koksma_use_at: pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
+ * light.
+ */
+enum { KOKSMA_N_USES = 8 };
+
+typedef struct koksma_use {
+    const char *name, *help;
+    int dim; /* 1 or 2 */
+} koksma_use;
+
+/* Use i; NULL past the end. */
+KOKSMA_API const koksma_use *koksma_use_at(size_t i);
+
+/* How light is followed. */
+typedef struct koksma_integrator {
+    const char *name, *title, *cite;
+    int depth;         /* bounces at most, unless the options say so */
+    const void *rules; /* for the renderer */
+} koksma_integrator;
+
+/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+KOKSMA_API const koksma_integrator *koksma_integrator_at(size_t i);
+KOKSMA_API const koksma_integrator *koksma_integrator_find(const char *name);
+
+/* A separable pixel filter f(x) f(y), f(x) = 0 for |x| >= radius, in pixels. Its scale is idle. */
+typedef struct koksma_filter {
+    const char *name, *title, *cite;
+    double radius;
+    double (*value)(double x);
+} koksma_filter;
+
+/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
+KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
 typedef struct koksma_render_options {
-    koksma_spec pattern; /* of every use */
-    int spp;             /* samples a pixel: the n of the pattern */
+    koksma_spec pattern;                 /* of every use that has none of its own */
+    koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where .pattern is not NULL */
+    int spp;                             /* samples a pixel: the n of the pattern */
     int width, height;
     uint64_t seed;
     koksma_pairing pairing;
+    koksma_scope scope;
+    koksma_light_selection lights;
+    const koksma_integrator *integrator;
+    int depth; /* bounces at most; -1: the integrator's */
+    const koksma_filter *filter;
+    bool splat; /* samples are spread over all pixels that the filter reaches, and divided by the sum of its values;
+                   else each pixel draws its samples from the filter (Ernst, Stamminger & Greiner 2006) */
 } koksma_render_options;
 
-enum { KOKSMA_MAX_SPP = 1 << 20 };
+enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
-/* n-rooks, 16 samples a pixel, the scene's own size, seed 0, shuffled. */
+/* n-rooks, 16 samples a pixel, the scene's own size, seed 0, shuffled, in pixels, all lights, distribution, box. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
 
-/* Rays that one sample casts: one from the camera, and one to each luminaire. */
+/* ---- Rendering ------------------------------------------------------------------------------------------- */
+
+/* Rays that one sample casts at its first hit: one from the camera, and one to each luminaire. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
 
+/* A picture and what else is known of its pixels, all of one size. The image has 3 channels, or 1 for a scene without
+   colour. */
+typedef struct koksma_layers {
+    koksma_image image;
+    koksma_image albedo;   /* of what is seen first, over the samples; 3 channels */
+    koksma_image normal;   /* likewise, towards the eye; 3 channels */
+    koksma_image depth;    /* distance of what is seen first, over the samples that hit something; 0: none */
+    koksma_image samples;  /* how many a pixel had */
+    koksma_image variance; /* of the pixel's luminance, from its samples as if they were independent, over their
+                              number: for a stratified pattern too large */
+    uint64_t rays;         /* cast */
+} koksma_layers;
+
+KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
+
 /* Renders; allocates out. Equal arguments give equal bits on any number of threads. run may be NULL.
-   Errors: ARGUMENT, what the pattern says about spp (N, IMPOSSIBLE, …), MEMORY, INTERRUPTED. */
+   Errors: ARGUMENT, what the pattern says about spp (N, DIM, IMPOSSIBLE, …), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,
                                        const koksma_run *run, koksma_image *out);
+
+/* The same picture with its layers. */
+KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
+                                              const koksma_run *run, koksma_layers *out);
 
 #ifdef __cplusplus
 }

@@ -17,10 +17,11 @@ typedef struct shapes {
     koksma__batch_shape list[];
 } shapes;
 
-static int closest(const koksma__geometry *geometry, const koksma__rays *rays, int n, koksma__hits *hits)
+static int closest(const koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
+                   koksma__hits *hits)
 {
     const shapes *s = geometry->made;
-    return s->batch->closest(&s->all, rays, n, hits);
+    return s->batch->closest(&s->all, rays, from, n, hits);
 }
 
 static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
@@ -61,7 +62,7 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
 {
     static const double none[3] = {0, 0, 0};
     const double tiny = 1e-9;
-    bool all = flat->kind != KOKSMA__SHAPE_SPHERE;
+    bool all = flat->kind != KOKSMA__SHAPE_SPHERE && !scene->moves;
     for (size_t i = 0; all && i < scene->n_shapes; i++) {
         const koksma__shape *s = &scene->shapes[i];
         all = s == flat ||
@@ -71,7 +72,10 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
     }
     for (size_t i = 0; all && i < scene->n_lights; i++) {
         const koksma__light *l = &scene->lights[i];
-        all = depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny;
+        const bool flat_light = l->kind == KOKSMA__LIGHT_RECTANGLE || l->kind == KOKSMA__LIGHT_DISK;
+        all = flat_light ? depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny
+                         : l->kind != KOKSMA__LIGHT_DIRECTIONAL && l->kind != KOKSMA__LIGHT_ENVIRONMENT &&
+                               depth(flat, sign, l->centre, none, none, l->half[0]) < tiny;
     }
     return all;
 }
@@ -81,6 +85,8 @@ static koksma__batch_shape in_floats(const koksma__shape *from, size_t id)
     koksma__batch_shape s = {.kind = (int)from->kind, .id = (int32_t)id, .material = from->material};
     for (int k = 0; k < 3; k++) {
         s.centre[k] = (float)from->centre[k];
+        s.motion[k] = (float)from->motion[k];
+        s.moves |= from->motion[k] != 0;
         s.normal[k] = (float)from->normal[k];
         s.axis_u[k] = (float)from->axis_u[k];
         s.axis_v[k] = (float)from->axis_v[k];

@@ -17,7 +17,7 @@ enum { KOKSMA__BLOCK = 64, KOKSMA__LANE_STEP = 16 };
 
 #define KOKSMA__LANES(type, name) _Alignas(64) type name[KOKSMA__BLOCK]
 
-/* Rays o + t d, t > 0; d need not have length 1. */
+/* Rays o + t d, t > 0; d need not have length 1. time is read only where something moves. */
 typedef struct koksma__rays {
     KOKSMA__LANES(float, ox);
     KOKSMA__LANES(float, oy);
@@ -25,10 +25,13 @@ typedef struct koksma__rays {
     KOKSMA__LANES(float, dx);
     KOKSMA__LANES(float, dy);
     KOKSMA__LANES(float, dz);
+    KOKSMA__LANES(float, time);
 } koksma__rays;
 
-/* The closest hits: place, unit normal towards the ray's origin, the surface's own coordinates (flat shapes), and
-   which primitive of the maker's it is, by its number; primitive and material are -1 where nothing was hit. */
+/* The closest hits: place, unit normal towards the ray's origin, whether that is the back (the inside of a sphere,
+   the side that a flat shape's normal leads away from), the surface's own coordinates (flat shapes), and which
+   primitive of the maker's it is, by its number; primitive is -1 where nothing was hit, material there and on
+   luminaires. time is for shadow rays, where something moves. */
 typedef struct koksma__hits {
     KOKSMA__LANES(float, t);
     KOKSMA__LANES(float, px);
@@ -39,6 +42,8 @@ typedef struct koksma__hits {
     KOKSMA__LANES(float, nz);
     KOKSMA__LANES(float, u);
     KOKSMA__LANES(float, v);
+    KOKSMA__LANES(float, time);
+    KOKSMA__LANES(int32_t, back);
     KOKSMA__LANES(int32_t, primitive);
     KOKSMA__LANES(int32_t, material);
 } koksma__hits;
@@ -60,8 +65,9 @@ typedef struct koksma__batch_camera {
 /* n . p = offset on the plane; half as in koksma__shape, squared radius for a disk. */
 typedef struct koksma__batch_shape {
     int kind; /* koksma__shape_kind */
+    bool moves;
     int32_t id, material;
-    float centre[3], normal[3], axis_u[3], axis_v[3];
+    float centre[3], motion[3], normal[3], axis_u[3], axis_v[3];
     float half_u, half_v, radius2, inverse_radius;
 } koksma__batch_shape;
 

@@ -98,12 +98,12 @@ void BATCH_NAME(add)(const koksma__shadows *shadows, int n, float *sum)
     }
 }
 
-void BATCH_NAME(shade)(const koksma__hits *hits, const float *albedo, const float *sum, float background, int n,
-                       float *out)
+void BATCH_NAME(shade)(const koksma__hits *hits, const float *albedo, const float *sum, float background, float clamp,
+                       int n, float *out)
 {
     for (int i = 0; i < STEP(n); i++) {
-        const float value = albedo[i] * sum[i];
-        out[i] = hits->primitive[i] >= 0 ? (value < 1 ? value : 1.0f) : background;
+        const float value = hits->primitive[i] >= 0 ? albedo[i] * sum[i] : background;
+        out[i] = value < clamp ? value : clamp;
     }
 }
 

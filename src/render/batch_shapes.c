@@ -35,8 +35,8 @@ INLINE int within(const koksma__batch_shape *s, float u, float v, bounds b)
                                : u * u + v * v <= s->radius2;
 }
 
-INLINE void hit_flat_in(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
-                        koksma__hits *restrict h, bounds b)
+INLINE void hit_flat_in(const koksma__batch_shape *shape, const koksma__rays *restrict r,
+                        const int32_t *restrict from, int n, koksma__hits *restrict h, bounds b)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
     const int32_t id = s->id;
@@ -50,18 +50,25 @@ INLINE void hit_flat_in(const koksma__batch_shape *shape, const koksma__rays *re
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int hit = (t > 0) & (t < h->t[i]) & within(s, u, v, b);
+        const int away = from ? from[i] != id : 1;
+        const int hit = away & (t > 0) & (t < h->t[i]) & within(s, u, v, b);
         h->t[i] = hit ? t : h->t[i];
         h->primitive[i] = hit ? id : h->primitive[i];
     }
 }
 
-static void hit_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h)
+/* Where the centre is at time[i]. */
+#define AT(k, c, time) (moves ? c + (time)*s->motion[k] : c)
+
+INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *restrict r, const int32_t *restrict from,
+                       int n, koksma__hits *restrict h, bool moves)
 {
+    const koksma__batch_shape copy = *shape, *s = &copy;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
     const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = r->ox[i] - cx, ey = r->oy[i] - cy, ez = r->oz[i] - cz;
+        const float ex = r->ox[i] - AT(0, cx, r->time[i]), ey = r->oy[i] - AT(1, cy, r->time[i]),
+                    ez = r->oz[i] - AT(2, cz, r->time[i]);
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
         const float inverse = 1 / a, middle = -b * inverse;
@@ -70,8 +77,10 @@ static void hit_sphere(const koksma__batch_shape *s, const koksma__rays *restric
         const float rest = radius2 - (qx * qx + qy * qy + qz * qz);
         const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
         const float near = middle - reach, far = middle + reach;
-        const float t = near > 0 ? near : far;
-        const int hit = (rest > 0) & (t > 0) & (t < h->t[i]);
+        const int away = from ? from[i] != id : 1;
+        /* A ray that starts on the sphere has its roots at exactly 0 and 2 middle. */
+        const float t = !away ? 2 * middle : near > 0 ? near : far;
+        const int hit = (away ? rest > 0 : 1) & (t > 0) & (t < h->t[i]);
         h->t[i] = hit ? t : h->t[i];
         h->primitive[i] = hit ? id : h->primitive[i];
     }
@@ -102,12 +111,13 @@ INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restri
         h->nz[i] = hit ? side * nz : h->nz[i];
         h->u[i] = hit ? u : h->u[i];
         h->v[i] = hit ? v : h->v[i];
+        h->back[i] = hit ? side < 0 : h->back[i];
         h->material[i] = hit ? material : h->material[i];
     }
 }
 
 INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
-                          koksma__hits *restrict h, bool all)
+                          koksma__hits *restrict h, bool all, bool moves)
 {
     const int32_t id = s->id;
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], scale = s->inverse_radius;
@@ -116,7 +126,8 @@ INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *rest
         const int hit = all | (h->primitive[i] == id);
         const float t = h->t[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float px = r->ox[i] + t * dx, py = r->oy[i] + t * dy, pz = r->oz[i] + t * dz;
-        const float qx = (px - cx) * scale, qy = (py - cy) * scale, qz = (pz - cz) * scale;
+        const float qx = (px - AT(0, cx, r->time[i])) * scale, qy = (py - AT(1, cy, r->time[i])) * scale,
+                    qz = (pz - AT(2, cz, r->time[i])) * scale;
         const float side = qx * dx + qy * dy + qz * dz > 0 ? -1.0f : 1.0f;
         h->px[i] = hit ? px : h->px[i];
         h->py[i] = hit ? py : h->py[i];
@@ -126,6 +137,7 @@ INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *rest
         h->nz[i] = hit ? side * qz : h->nz[i];
         h->u[i] = hit ? 0 : h->u[i];
         h->v[i] = hit ? 0 : h->v[i];
+        h->back[i] = hit ? side < 0 : h->back[i];
         h->material[i] = hit ? material : h->material[i];
     }
 }
@@ -139,29 +151,46 @@ static int count_hits(const koksma__hits *h, int32_t id, int n)
     return count;
 }
 
-static void hit_shape(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits)
+INLINE void hit_shape_from(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
+                           koksma__hits *hits)
 {
     switch (s->kind) {
     case KOKSMA__SHAPE_SPHERE:
-        hit_sphere(s, rays, n, hits);
+        if (s->moves) {
+            hit_sphere(s, rays, from, n, hits, true);
+        } else {
+            hit_sphere(s, rays, from, n, hits, false);
+        }
         return;
     case KOKSMA__SHAPE_RECTANGLE:
-        hit_flat_in(s, rays, n, hits, IN_RECTANGLE);
+        hit_flat_in(s, rays, from, n, hits, IN_RECTANGLE);
         return;
     case KOKSMA__SHAPE_DISK:
-        hit_flat_in(s, rays, n, hits, IN_DISK);
+        hit_flat_in(s, rays, from, n, hits, IN_DISK);
         return;
     default:
-        hit_flat_in(s, rays, n, hits, ENDLESS);
+        hit_flat_in(s, rays, from, n, hits, ENDLESS);
+    }
+}
+
+static void hit_shape(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
+                      koksma__hits *hits)
+{
+    if (from) {
+        hit_shape_from(s, rays, from, n, hits);
+    } else {
+        hit_shape_from(s, rays, NULL, n, hits);
     }
 }
 
 static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all)
 {
-    if (s->kind == KOKSMA__SHAPE_SPHERE && all) {
-        finish_sphere(s, rays, n, hits, true);
+    if (s->moves) {
+        finish_sphere(s, rays, n, hits, false, true);
+    } else if (s->kind == KOKSMA__SHAPE_SPHERE && all) {
+        finish_sphere(s, rays, n, hits, true, false);
     } else if (s->kind == KOKSMA__SHAPE_SPHERE) {
-        finish_sphere(s, rays, n, hits, false);
+        finish_sphere(s, rays, n, hits, false, false);
     } else if (all) {
         finish_flat(s, rays, n, hits, true);
     } else {
@@ -173,20 +202,22 @@ static void clear(koksma__hits *hits, int n)
 {
     for (int i = 0; i < STEP(n); i++) {
         hits->material[i] = -1;
+        hits->back[i] = 0;
         hits->px[i] = hits->py[i] = hits->pz[i] = 0;
         hits->nx[i] = hits->ny[i] = hits->nz[i] = 0;
         hits->u[i] = hits->v[i] = 0;
     }
 }
 
-int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, int n, koksma__hits *hits)
+int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, const int32_t *from, int n,
+                        koksma__hits *hits)
 {
     for (int i = 0; i < STEP(n); i++) {
         hits->t[i] = INFINITY;
         hits->primitive[i] = -1;
     }
     for (size_t k = 0; k < shapes->n; k++) {
-        hit_shape(&shapes->shapes[k], rays, n, hits);
+        hit_shape(&shapes->shapes[k], rays, from, n, hits);
     }
     int done = count_hits(hits, -1, n);
     const int hit = STEP(n) - done;
@@ -225,13 +256,14 @@ INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *
     }
 }
 
-static void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, int n,
-                         koksma__shadows *restrict r)
+INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, int n,
+                         koksma__shadows *restrict r, bool moves)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
     const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
+        const float ex = h->px[i] - AT(0, cx, h->time[i]), ey = h->py[i] - AT(1, cy, h->time[i]),
+                    ez = h->pz[i] - AT(2, cz, h->time[i]);
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
         const float away = h->primitive[i] != id ? 1.0f : 0.0f;
@@ -253,7 +285,11 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
         const koksma__batch_shape *s = &shapes->shapes[k];
         switch (s->kind) {
         case KOKSMA__SHAPE_SPHERE:
-            shade_sphere(s, hits, n, shadows);
+            if (s->moves) {
+                shade_sphere(s, hits, n, shadows, true);
+            } else {
+                shade_sphere(s, hits, n, shadows, false);
+            }
             break;
         case KOKSMA__SHAPE_RECTANGLE:
             shade_flat_in(s, hits, n, shadows, IN_RECTANGLE);

@@ -12,9 +12,11 @@
 
 typedef struct koksma__geometry {
     void *made;
-    /* The closest hits of n rays; the number of lanes with one. */
-    int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, int n, koksma__hits *hits);
-    /* Takes away the light of the shadow rays that meet something. */
+    /* The closest hits of n rays; the number of lanes with one. from: the primitive that each ray starts on (-1:
+       none), or NULL for rays that start nowhere. */
+    int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
+                   koksma__hits *hits);
+    /* Takes away the light of the shadow rays that meet something; hits->time says when. */
     void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
                     koksma__shadows *shadows);
     void (*release)(struct koksma__geometry *geometry);

@@ -1,44 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Direct light by distribution ray tracing (Cook, Porter & Carpenter 1984): a pixel is the mean over its samples (box
- * filter of one pixel) of
- *     background                                                     where the ray hits nothing,
- *     min(1, albedo (ambient + sum over luminaires of their light))  elsewhere, one shadow ray a luminaire.
- *
- * The image is cut into blocks of whole rows, whose number depends on the sizes only; inside, pixels go through the
- * pipeline in groups that fill KOKSMA__BLOCK lanes. Every pixel is summed on its own, in a fixed order.
+ * A render from its options to its picture: what is the same for all pixels is made once, the image is cut into tasks
+ * of whole rows, whose number depends on the sizes only, and in a task pixels go in groups through the pipeline.
  */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/intersect.h"
-#include "render/pixel_samples.h"
+#include "render/film.h"
 
 enum { SAMPLES_A_TASK = 1 << 15 };
 
-typedef struct frame {
-    const koksma_scene *scene;
-    const koksma_render_options *options;
-    const koksma__batch_table *batch;
-    koksma__geometry geometry;
-    koksma__pixel_samples samples;
-    koksma__batch_camera camera;
-    koksma__batch_light *lights;
-    koksma__batch_material *materials;
-    koksma_image *image;
+typedef struct job {
+    koksma__frame *frame;
+    koksma__film film;
+    const koksma__pipeline *pipeline;
     int rows_a_task;
-    size_t group_pixels;  /* pixels that go through the pipeline together */
-    size_t group_samples; /* and their samples, rounded up to whole lanes */
-} frame;
+    size_t capacity; /* samples of a group */
+    atomic_ullong rays;
+} job;
 
-/* A task's room; every array holds group_samples of its kind. */
+/* A task's room. */
 typedef struct room {
     koksma__sample_room draw;
-    float *film, *values;
-    float *places; /* one array a light */
+    void *pipeline;
+    koksma__values values;
 } room;
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */
@@ -57,22 +46,10 @@ static koksma__batch_camera make_camera(const koksma__camera *from, int width, i
     return c;
 }
 
-static koksma__batch_light make_light(const koksma__light *from)
-{
-    koksma__batch_light l = {.power = (float)from->power};
-    for (int k = 0; k < 3; k++) {
-        const double u = from->half[0] * from->axis_u[k], v = from->half[1] * from->axis_v[k];
-        l.corner[k] = (float)(from->centre[k] - u - v);
-        l.edge_x[k] = (float)(2 * u);
-        l.edge_y[k] = (float)(2 * v);
-        l.normal[k] = (float)from->normal[k];
-    }
-    return l;
-}
-
 static koksma__batch_material make_material(const koksma__material *from)
 {
-    koksma__batch_material m = {.checker = from->checker, .albedo = {(float)from->albedo[0], (float)from->albedo[1]}};
+    koksma__batch_material m = {.checker = from->checker,
+                                .albedo = {(float)from->albedo[0][0], (float)from->albedo[1][0]}};
     if (from->checker) {
         const double c = cos(from->angle_rad) / from->period, s = sin(from->angle_rad) / from->period;
         m.su = (float)c;
@@ -85,205 +62,314 @@ static koksma__batch_material make_material(const koksma__material *from)
     return m;
 }
 
-static koksma_status make_lists(frame *f)
+static koksma_status make_materials(koksma__frame *f)
 {
-    const koksma_scene *scene = f->scene;
-    f->lights = calloc(scene->n_lights + 1, sizeof *f->lights);
-    f->materials = calloc(scene->n_materials + 1, sizeof *f->materials);
-    if (!f->lights || !f->materials) {
-        return koksma__fail_memory((scene->n_lights + 1) * sizeof *f->lights);
+    const size_t n = f->scene->n_materials;
+    f->materials = calloc(n + 1, sizeof *f->materials);
+    f->substances = calloc(n + 1, sizeof *f->substances);
+    if (!f->substances || !f->materials) {
+        return koksma__fail_memory((n + 1) * sizeof *f->substances);
     }
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        f->lights[i] = make_light(&scene->lights[i]);
-    }
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        f->materials[i] = make_material(&scene->materials[i]);
+    for (size_t i = 0; i < n; i++) {
+        f->materials[i] = make_material(&f->scene->materials[i]);
+        f->substances[i] = koksma__substance_of(&f->scene->materials[i]);
     }
     return KOKSMA_OK;
 }
 
-/* ---- One group of pixels ------------------------------------------------------------------------------- */
+/* ---- The frame ------------------------------------------------------------------------------------------- */
 
-/* Copies the last sample into the spare lanes. */
-static void pad(float *pairs, size_t used, size_t room_for)
+/* What samples will be spent on. */
+static koksma__use_list list_uses(const koksma__frame *f)
 {
-    for (size_t i = used; i < room_for; i++) {
-        memcpy(pairs + 2 * i, pairs + 2 * (used - 1), 2 * sizeof *pairs);
+    unsigned lobes = 0;
+    for (size_t i = 0; i < f->scene->n_materials; i++) {
+        lobes |= f->substances[i].lobes;
     }
+    const bool one = f->options->lights != KOKSMA_LIGHTS_ALL && f->lights.n > 0;
+    const int lights = one ? 1 : (int)f->lights.n;
+    return (koksma__use_list){.lens = f->scene->camera.lens_radius > 0,
+                              .time = f->scene->moves,
+                              .lights = f->rules->areas ? lights : 0,
+                              .light_choice = one,
+                              .vertices = lobes & f->rules->followed ? f->depth + 1 : 1};
 }
 
-static koksma_status draw_use(const frame *f, uint32_t use, size_t pixel, size_t count, float *pairs, room *r)
+static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
 {
-    const size_t spp = (size_t)f->options->spp, width = (size_t)f->options->width;
-    for (size_t p = 0; p < count; p++) {
-        const bool on_film = use == KOKSMA__USE_PIXEL;
-        const float offset[2] = {on_film ? (float)((pixel + p) % width) : 0, on_film ? (float)(pixel / width) : 0};
-        const koksma_status status =
-            koksma__pixel_samples_draw(&f->samples, pixel + p, use, offset, &r->draw, pairs + 2 * p * spp);
-        if (status) {
-            return status;
-        }
+    const koksma_render_options *options = f->options;
+    koksma_status status = make_materials(f);
+    status = status ? status : koksma__lights_init(f->scene, &f->lights);
+    if (status) {
+        return status;
     }
-    pad(pairs, count * spp, f->group_samples);
-    return KOKSMA_OK;
+    f->camera = make_camera(&f->scene->camera, options->width, options->height);
+    const koksma__use_list uses = list_uses(f);
+    status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &uses, run, &f->sampler)
+                                                  : koksma__pixel_samples(options, &uses, &f->sampler);
+    status = status ? status : koksma__accel_shapes(f->scene, &f->geometry);
+    if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
+        status = koksma__filter_open(options->filter, &f->filter);
+    }
+    return !status && f->rules->open ? f->rules->open(f, run) : status;
 }
 
-/* The samples of the luminaires are drawn when the first ray of the group hits something. */
-static koksma_status draw_lights(const frame *f, size_t pixel, size_t count, room *r)
+static void fini_frame(koksma__frame *f)
 {
+    if (f->rules->close) {
+        f->rules->close(f);
+    }
+    if (f->sampler.release) {
+        f->sampler.release(&f->sampler);
+    }
+    if (f->geometry.release) {
+        f->geometry.release(&f->geometry);
+    }
+    koksma__filter_close(f->filter);
+    koksma__lights_fini(&f->lights);
+    free(f->materials);
+    free(f->substances);
+}
+
+/* ---- Groups ----------------------------------------------------------------------------------------------- */
+
+koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
+                                 koksma__sample_room *room_for, float *pairs)
+{
+    const size_t width = (size_t)frame->options->width, n = group->start[group->count];
     koksma_status status = KOKSMA_OK;
-    for (size_t l = 0; !status && l < f->scene->n_lights; l++) {
-        status = draw_use(f, KOKSMA__USE_LIGHT + (uint32_t)l, pixel, count, r->places + 2 * l * f->group_samples, r);
+    for (size_t p = 0; !status && p < group->count; p++) {
+        const size_t pixel = group->first + p;
+        const float offset[2] = {on_film ? (float)(pixel % width) : 0, on_film ? (float)(pixel / width) : 0};
+        status = frame->sampler.draw(&frame->sampler, pixel, use, offset, room_for, pairs + 2 * group->start[p]);
+    }
+    for (size_t i = n; n && i < koksma__whole_lanes(n); i++) {
+        memcpy(pairs + 2 * i, pairs + 2 * (n - 1), 2 * sizeof *pairs);
     }
     return status;
 }
 
-/* Samples start .. start + n of the group, which hit something in `hits`. */
-static void shade_block(const frame *f, const koksma__hits *hits, size_t start, int n, const room *r)
+/* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
+static void fill_group(const koksma__frame *f, size_t first, size_t end, koksma__group *group)
 {
-    KOKSMA__LANES(float, albedo);
-    KOKSMA__LANES(float, sum);
-    koksma__shadows shadows;
-    for (int i = 0; i < n; i++) {
-        sum[i] = (float)f->scene->ambient;
-    }
-    f->batch->albedo(f->materials, hits, n, albedo);
-    for (size_t l = 0; l < f->scene->n_lights; l++) {
-        const float *places = r->places + 2 * (l * f->group_samples + start);
-        if (f->batch->aim(&f->lights[l], hits, places, n, &shadows)) {
-            f->geometry.occlude(&f->geometry, hits, n, &shadows);
-            f->batch->add(&shadows, n, sum);
+    group->first = first;
+    group->count = 0;
+    group->start[0] = 0;
+    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
+        const size_t n = group->start[group->count] + f->sampler.count(&f->sampler, first + group->count);
+        if (group->count && n > KOKSMA__BLOCK) {
+            return;
         }
+        group->start[++group->count] = n;
     }
-    f->batch->shade(hits, albedo, sum, (float)f->scene->background, n, r->values + start);
 }
 
-static koksma_status render_group(const frame *f, size_t pixel, size_t count, room *r)
+static koksma_status render_group(job *j, size_t task, const koksma__group *group, room *r)
 {
-    const size_t spp = (size_t)f->options->spp;
-    const size_t total = (count * spp + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
-    bool drawn = false;
-    koksma__rays rays;
-    koksma__hits hits;
-    koksma_status status = draw_use(f, KOKSMA__USE_PIXEL, pixel, count, r->film, r);
-    for (size_t start = 0; !status && start < total; start += KOKSMA__BLOCK) {
-        const int n = (int)(total - start < KOKSMA__BLOCK ? total - start : KOKSMA__BLOCK);
-        f->batch->camera(&f->camera, r->film + 2 * start, n, &rays);
-        if (!f->geometry.closest(&f->geometry, &rays, n, &hits)) {
-            for (int i = 0; i < n; i++) {
-                r->values[start + (size_t)i] = (float)f->scene->background;
-            }
-            continue;
-        }
-        if (!drawn) {
-            status = draw_lights(f, pixel, count, r);
-            drawn = true;
-        }
-        shade_block(f, &hits, start, n, r);
+    const koksma__frame *f = j->frame;
+    koksma_status status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
+    if (!status && group->start[group->count]) {
+        koksma__film_place(f, group, &r->values);
+        status = j->pipeline->trace(f, r->pipeline, group, &r->values);
     }
-    for (size_t p = 0; !status && p < count; p++) {
-        f->image->pixels[pixel + p] = (float)f->batch->mean(r->values + p * spp, spp);
+    if (!status) {
+        koksma__film_add(f, &j->film, task, group, &r->values);
     }
     return status;
 }
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
-static void room_fini(room *r)
+static void room_fini(const job *j, room *r)
 {
     koksma__sample_room_fini(&r->draw);
-    free(r->film);
-    free(r->values);
-    free(r->places);
+    if (r->pipeline) {
+        j->pipeline->close(r->pipeline);
+    }
+    free(r->values.film);
+    free(r->values.weights);
+    free(r->values.rgb);
+    free(r->values.albedo);
+    free(r->values.normal);
+    free(r->values.depth);
 }
 
-static koksma_status room_init(const frame *f, room *r)
+static koksma_status room_init(const job *j, room *r)
 {
-    const size_t n = f->group_samples;
-    *r = (room){.film = malloc(2 * n * sizeof *r->film),
-                .values = malloc(n * sizeof *r->values),
-                .places = malloc(2 * n * (f->scene->n_lights + 1) * sizeof *r->places)};
-    koksma_status status = koksma__sample_room_init(&r->draw, f->options->spp);
-    if (!status && (!r->film || !r->values || !r->places)) {
-        status = koksma__fail_memory(2 * n * (f->scene->n_lights + 3) * sizeof(float));
+    const size_t n = j->capacity;
+    koksma__values *v = &r->values;
+    *r = (room){.values = {.film = malloc(2 * n * sizeof(float)),
+                           .weights = malloc(n * sizeof(float)),
+                           .rgb = malloc(n * (size_t)j->frame->channels * sizeof(float))}};
+    bool all = v->film && v->weights && v->rgb;
+    if (j->film.all_layers) {
+        v->albedo = malloc(3 * n * sizeof(float));
+        v->normal = malloc(3 * n * sizeof(float));
+        v->depth = malloc(n * sizeof(float));
+        all &= v->albedo && v->normal && v->depth;
     }
+    koksma_status status = all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
+    status = status ? status : koksma__sample_room_init(&r->draw, &j->frame->sampler);
+    status = status ? status : j->pipeline->open(j->frame, n, &r->pipeline);
     if (status) {
-        room_fini(r);
+        room_fini(j, r);
     }
     return status;
 }
 
 static koksma_status render_rows(void *context, size_t task)
 {
-    const frame *f = context;
-    const size_t width = (size_t)f->options->width, first = task * (size_t)f->rows_a_task;
+    job *j = context;
+    const koksma__frame *f = j->frame;
+    const int first_row = (int)task * j->rows_a_task, left = f->options->height - first_row;
+    const int rows = left < j->rows_a_task ? left : j->rows_a_task;
+    const size_t width = (size_t)f->options->width;
     room r;
-    koksma_status status = room_init(f, &r);
+    koksma__group group;
+    koksma_status status = room_init(j, &r);
     if (status) {
         return status;
     }
-    for (size_t y = first; y < first + (size_t)f->rows_a_task && y < (size_t)f->options->height; y++) {
-        for (size_t x = 0; !status && x < width; x += f->group_pixels) {
-            const size_t count = width - x < f->group_pixels ? width - x : f->group_pixels;
-            status = render_group(f, y * width + x, count, &r);
+    status = koksma__film_open_task(f, &j->film, task, first_row, rows);
+    for (int y = first_row; y < first_row + rows; y++) {
+        const size_t end = ((size_t)y + 1) * width;
+        for (size_t pixel = end - width; !status && pixel < end; pixel += group.count) {
+            fill_group(f, pixel, end, &group);
+            status = render_group(j, task, &group, &r);
         }
     }
-    room_fini(&r);
+    atomic_fetch_add(&j->rays, r.values.rays);
+    room_fini(j, &r);
     return status;
 }
 
-static koksma_status render_image(frame *f, const koksma_run *run)
+static koksma_status render_image(job *j, const koksma_run *run, bool all_layers, koksma_layers *out)
 {
+    const koksma__frame *f = j->frame;
     const size_t spp = (size_t)f->options->spp, width = (size_t)f->options->width;
     const size_t rows = SAMPLES_A_TASK / (width * spp);
-    f->rows_a_task = rows ? (int)rows : 1;
-    f->group_pixels = spp < KOKSMA__BLOCK ? KOKSMA__BLOCK / spp : 1;
-    f->group_samples = (f->group_pixels * spp + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
-    const int tasks = (f->options->height + f->rows_a_task - 1) / f->rows_a_task;
-    return koksma__parallel(run, (size_t)tasks, render_rows, f);
+    j->rows_a_task = rows ? (int)rows : 1;
+    const size_t tasks = (size_t)((f->options->height + j->rows_a_task - 1) / j->rows_a_task);
+    j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
+    j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
+    koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
+    status = status ? status : koksma__parallel(run, tasks, render_rows, j);
+    status = status ? status : koksma__film_finish(f, &j->film);
+    out->rays = atomic_load(&j->rays);
+    koksma__film_fini(&j->film);
+    return status;
 }
 
 /* ---- The public functions ------------------------------------------------------------------------------ */
 
+#define NAME_AT(names, i) ((unsigned)(i) < sizeof(names) / sizeof *(names) ? (names)[i] : NULL)
+
 const char *koksma_pairing_name(koksma_pairing pairing)
 {
-    static const char *const names[] = {"shuffled", "aligned"};
-    return (unsigned)pairing < sizeof names / sizeof *names ? names[pairing] : NULL;
+    static const char *const names[] = {"shuffled", "aligned", "native"};
+    return NAME_AT(names, pairing);
+}
+
+const char *koksma_scope_name(koksma_scope scope)
+{
+    static const char *const names[] = {"pixel", "image"};
+    return NAME_AT(names, scope);
+}
+
+const char *koksma_light_selection_name(koksma_light_selection selection)
+{
+    static const char *const names[] = {"all", "one", "power", "uniform"};
+    return NAME_AT(names, selection);
 }
 
 void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene)
 {
-    *options = (koksma_render_options){.spp = 16, .width = scene->width, .height = scene->height};
+    *options = (koksma_render_options){.spp = 16,
+                                       .width = scene->width,
+                                       .height = scene->height,
+                                       .integrator = koksma_integrator_find("distribution"),
+                                       .depth = -1,
+                                       .filter = koksma_filter_find("box")};
     koksma_pattern_spec("n-rooks", &options->pattern);
+}
+
+void koksma_layers_fini(koksma_layers *layers)
+{
+    if (layers) {
+        koksma_image_fini(&layers->image);
+        koksma_image_fini(&layers->albedo);
+        koksma_image_fini(&layers->normal);
+        koksma_image_fini(&layers->depth);
+        koksma_image_fini(&layers->samples);
+        koksma_image_fini(&layers->variance);
+    }
+}
+
+static koksma_status check(const koksma_render_options *o)
+{
+    if (o->width < 1 || o->height < 1 || o->width > KOKSMA_MAX_IMAGE_SIDE || o->height > KOKSMA_MAX_IMAGE_SIDE ||
+        (size_t)o->width * (size_t)o->height > KOKSMA_MAX_PIXELS) {
+        koksma_image none;
+        return koksma_image_init(&none, o->width, o->height, 1); /* says what is wrong with them */
+    }
+    if (o->spp < 1 || o->spp > KOKSMA_MAX_SPP) {
+        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", o->spp, KOKSMA_MAX_SPP);
+    }
+    if (!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) || !koksma_light_selection_name(o->lights) ||
+        !o->integrator || !o->filter) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "the options lack a pairing, scope, light selection, integrator or filter");
+    }
+    if (o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH) {
+        return koksma__fail(KOKSMA_ARGUMENT, "depth = %d: bounces are 0 to %d", o->depth, KOKSMA_MAX_DEPTH);
+    }
+    if (o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0) {
+        return koksma__fail(
+            KOKSMA_ARGUMENT,
+            "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
+            o->filter->name);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
+                            bool all_layers, koksma_layers *out)
+{
+    *out = (koksma_layers){0};
+    koksma_status status = check(options);
+    if (status) {
+        return status;
+    }
+    koksma__frame f = {.scene = scene,
+                       .options = options,
+                       .rules = options->integrator->rules,
+                       .depth = options->depth < 0 ? options->integrator->depth : options->depth,
+                       .channels = scene->grey ? 1 : 3,
+                       .batch = koksma__batch()};
+    job j = {.frame = &f};
+    status = make_frame(&f, run);
+    status = status ? status : render_image(&j, run, all_layers, out);
+    fini_frame(&f);
+    if (status) {
+        koksma_layers_fini(out);
+        *out = (koksma_layers){0};
+    }
+    return status;
+}
+
+koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
+                                   const koksma_run *run, koksma_layers *out)
+{
+    return render(scene, options, run, true, out);
 }
 
 koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
                             koksma_image *out)
 {
-    *out = (koksma_image){0};
-    if (options->spp < 1 || options->spp > KOKSMA_MAX_SPP) {
-        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
-    }
-    if (!koksma_pairing_name(options->pairing)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "no pairing %d", (int)options->pairing);
-    }
-    frame f = {.scene = scene, .options = options, .batch = koksma__batch(), .image = out};
-    koksma_status status = koksma__pixel_samples_init(&f.samples, options);
-    status = status ? status : koksma_image_init(out, options->width, options->height, 1);
-    status = status ? status : koksma__accel_shapes(scene, &f.geometry);
-    status = status ? status : make_lists(&f);
-    if (!status) {
-        f.camera = make_camera(&scene->camera, options->width, options->height);
-        status = render_image(&f, run);
-    }
-    koksma__pixel_samples_fini(&f.samples);
-    if (f.geometry.release) {
-        f.geometry.release(&f.geometry);
-    }
-    free(f.lights);
-    free(f.materials);
-    if (status) {
-        koksma_image_fini(out);
-    }
+    koksma_layers layers;
+    const koksma_status status = render(scene, options, run, false, &layers);
+    *out = layers.image;
+    layers.image = (koksma_image){0};
+    koksma_layers_fini(&layers);
     return status;
 }

@@ -203,6 +203,11 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
     return KOKSMA_OK;
 }
 
+bool koksma__json_is_array(const koksma__json_node *node)
+{
+    return json_is_array((const json_t *)node->value);
+}
+
 bool koksma__json_has(const koksma__json_node *node, const char *key)
 {
     return json_object_get(node->value, key) != NULL;

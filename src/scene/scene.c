@@ -63,12 +63,21 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
     return status;
 }
 
+void koksma__scene_fini(koksma_scene *scene)
+{
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        koksma_image_fini(scene->lights[i].image);
+        free(scene->lights[i].image);
+    }
+    free(scene->materials);
+    free(scene->shapes);
+    free(scene->lights);
+}
+
 void koksma_scene_close(koksma_scene *scene)
 {
     if (scene) {
-        free(scene->materials);
-        free(scene->shapes);
-        free(scene->lights);
+        koksma__scene_fini(scene);
         free(scene);
     }
 }
@@ -81,6 +90,13 @@ const char *koksma_scene_title(const koksma_scene *scene)
 uint64_t koksma_scene_hash(const koksma_scene *scene)
 {
     return scene->hash;
+}
+
+const koksma_warp *koksma__lens_map(const char *name)
+{
+    return koksma_warp_find(!strcmp(name, "concentric") ? "concentric-disk"
+                            : !strcmp(name, "polar")    ? "polar-disk"
+                                                        : "");
 }
 
 int koksma_scene_rays_per_sample(const koksma_scene *scene)

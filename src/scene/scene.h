@@ -4,6 +4,7 @@
 #define KOKSMA_SCENE_SCENE_H
 
 #include <koksma/render.h>
+#include <koksma/warp.h>
 
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 
@@ -18,31 +19,64 @@ typedef enum koksma__shape_kind {
 typedef struct koksma__shape {
     koksma__shape_kind kind;
     double centre[3], axis_u[3], axis_v[3], normal[3];
-    double half[2]; /* half sides; of a disk and a sphere half[0] is the radius; of a plane infinite */
-    int material;
+    double half[2];   /* half sides; of a disk and a sphere half[0] is the radius; of a plane infinite */
+    double motion[3]; /* of a sphere: at time t its centre is at centre + t motion */
+    int material;     /* -1 for a luminaire's own surface, which reflects nothing */
+    int light;        /* the luminaire whose surface this is, or -1 */
 } koksma__shape;
 
-/* Lambert: a diffuse surface of the given albedo. A checker has two, in squares of side `period` of a flat shape's
-   own u, v: (floor(s + phase[0]) + floor(t + phase[1])) odd has the second, (s, t) = (u, v) turned by angle_rad /
-   period. */
+typedef enum koksma__material_kind {
+    KOKSMA__MATERIAL_LAMBERT,
+    KOKSMA__MATERIAL_MIRROR,
+    KOKSMA__MATERIAL_PHONG,      /* the cosine lobe of 1991: cos^exponent about the mirror's ray */
+    KOKSMA__MATERIAL_GGX,        /* a rough metal of the given reflectance at normal incidence */
+    KOKSMA__MATERIAL_DIELECTRIC, /* smooth glass */
+    KOKSMA__MATERIAL_UTAH        /* Lambert and a Phong lobe together */
+} koksma__material_kind;
+
+/* Colours are red, green and blue in linear light. A checker has two albedos, in squares of side `period` of a flat
+   shape's own u, v: (floor(s + phase[0]) + floor(t + phase[1])) odd has the second, (s, t) = (u, v) turned by
+   angle_rad / period. */
 typedef struct koksma__material {
     char name[64];
+    koksma__material_kind kind;
     bool checker;
-    double albedo[2], period, phase[2], angle_rad;
+    double albedo[2][3];   /* of the diffuse part */
+    double reflectance[3]; /* of the mirror, lobe or metal; of glass, a tint */
+    double period, phase[2], angle_rad;
+    double exponent, roughness, ior;
 } koksma__material;
 
-/* A rectangle that shines from the side that its normal points to, and that rays don't see. What a surface of albedo
-   a reflects of it is a * power * mean over the light of cos cos / distance^2, power = radiance * area / pi. */
+typedef enum koksma__light_kind {
+    KOKSMA__LIGHT_RECTANGLE,
+    KOKSMA__LIGHT_DISK,
+    KOKSMA__LIGHT_SPHERE,
+    KOKSMA__LIGHT_POINT,       /* radiance is the intensity */
+    KOKSMA__LIGHT_DIRECTIONAL, /* normal is where it goes; radiance is the irradiance of a surface that faces it */
+    KOKSMA__LIGHT_ENVIRONMENT  /* from all directions that hit nothing; an image, or the same everywhere */
+} koksma__light_kind;
+
+/* A flat luminaire shines from the side that its normal points to. What a surface of albedo a reflects of a rectangle
+   is a * power * mean over the light of cos cos / distance^2, power = luminance * area / pi. */
 typedef struct koksma__light {
+    koksma__light_kind kind;
     double centre[3], axis_u[3], axis_v[3], normal[3];
-    double half[2];
+    double half[2]; /* of a disk and a sphere half[0] is the radius */
     double power;
+    double radiance[3];
+    bool visible;        /* rays see it; the flat and round ones then have a shape */
+    double angle_rad;    /* by which the environment's image is turned about y */
+    koksma_image *image; /* the environment's, latitude and longitude, or NULL */
 } koksma__light;
 
 /* Film coordinates (x, y), y downwards, see along forward + x right + y down. */
 typedef struct koksma__camera {
     double eye[3], forward[3], right[3], down[3]; /* unit vectors */
     double fov_rad;                               /* of the height */
+    double lens_radius, focus_distance;           /* radius 0: a pinhole; the plane of focus is square to forward */
+    const koksma_warp *lens_map;                  /* of the square to the lens */
+    double shutter[2];                            /* the times when it opens and closes */
+    double motion[3];                             /* at time t the eye is at eye + t motion */
 } koksma__camera;
 
 struct koksma_scene {
@@ -50,15 +84,25 @@ struct koksma_scene {
     char title[128];
     int width, height;
     koksma__camera camera;
-    double background; /* luminance that a ray sees which hits nothing */
-    double ambient;    /* irradiance / pi from everywhere, without shadows */
+    double background[3]; /* what a ray sees that hits nothing */
+    double ambient[3];    /* irradiance / pi from everywhere, without shadows */
+    double clamp;         /* samples are cut to this; infinity: they are not */
     koksma__material *materials;
     koksma__shape *shapes;
     koksma__light *lights;
-    size_t n_materials, n_shapes, n_lights;
+    size_t n_materials, n_shapes, n_lights, shape_room;
+    bool grey;  /* no colour in it: images have one channel */
+    bool moves; /* something depends on time */
 };
 
-/* Fills scene from a text; name is for errors. On failure the caller closes what is there. */
+/* The number of a material; -1 if there is none of that name. */
+int koksma__find_material(const koksma_scene *scene, const char *name);
+
+/* The map of the square to a lens: "concentric" or "polar"; NULL for another name. */
+const koksma_warp *koksma__lens_map(const char *name);
+
+/* Fills scene from a text; name is for errors. Whatever comes of it, the caller calls fini. */
 koksma_status koksma__scene_parse(const char *name, const char *text, size_t size, koksma_scene *scene);
+void koksma__scene_fini(koksma_scene *scene);
 
 #endif

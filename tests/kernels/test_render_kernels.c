@@ -173,7 +173,7 @@ static void closest_equals_twin(void **state)
     for (uint64_t round = 0; round < ROUNDS; round++) {
         world w;
         make_world(&w, round);
-        batch->closest(&w.shapes, &w.rays, KOKSMA__BLOCK, &w.hits);
+        batch->closest(&w.shapes, &w.rays, NULL, KOKSMA__BLOCK, &w.hits);
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
             const double o[3] = {(double)w.rays.ox[i], (double)w.rays.oy[i], (double)w.rays.oz[i]};
             const double d[3] = {(double)w.rays.dx[i], (double)w.rays.dy[i], (double)w.rays.dz[i]};
@@ -213,7 +213,7 @@ static void shadows_equal_twin(void **state)
     for (uint64_t round = 0; round < ROUNDS; round++) {
         world w;
         make_world(&w, round);
-        batch->closest(&w.shapes, &w.rays, KOKSMA__BLOCK, &w.hits);
+        batch->closest(&w.shapes, &w.rays, NULL, KOKSMA__BLOCK, &w.hits);
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
             w.shadows.dx[i] = (float)uniform(-4, 4);
             w.shadows.dy[i] = (float)uniform(-4, 4);
@@ -262,7 +262,7 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
     batch->place(xs, KOKSMA__BLOCK, offset, places);
     batch->shuffle(places, words, KOKSMA__BLOCK, shuffled);
     batch->camera(&camera, shuffled, n, &w->rays);
-    batch->closest(&w->shapes, &w->rays, n, &w->hits);
+    batch->closest(&w->shapes, &w->rays, NULL, n, &w->hits);
     batch->albedo(materials, &w->hits, n, out[0]);
     batch->aim(&light, &w->hits, places, n, &w->shadows);
     batch->occlude(&w->shapes, &w->hits, n, &w->shadows);
@@ -270,7 +270,7 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
         out[1][i] = 0.1f;
     }
     batch->add(&w->shadows, n, out[1]);
-    batch->shade(&w->hits, out[0], out[1], 0.3f, n, out[2]);
+    batch->shade(&w->hits, out[0], out[1], 0.3f, 1, n, out[2]);
     *mean = batch->mean(out[2], (size_t)n - 3);
 }
 

@@ -63,9 +63,7 @@ static void errors_name_line_and_reason(void **state)
         if (status != KOKSMA_MALFORMED || strncmp(koksma_error_text(), expected, strlen(expected)) != 0) {
             fail_msg("expected: %s...\ngot (%d): %s", expected, (int)status, koksma_error_text());
         }
-        free(scene.materials);
-        free(scene.shapes);
-        free(scene.lights);
+        koksma__scene_fini(&scene);
     }
 }
 
@@ -107,9 +105,7 @@ static void reader_survives(void **state)
             memcpy(copy, text, sizeof text);
             copy[i] = "0\"}-"[change];
             (void)koksma__scene_parse("copy", copy, change ? sizeof text - 1 : i, &scene);
-            free(scene.materials);
-            free(scene.shapes);
-            free(scene.lights);
+            koksma__scene_fini(&scene);
         }
     }
 }

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "render_options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The number of a choice by its name; false after an error that lists them all. */
+static bool parse_choice(const cli_arguments *arguments, const char *option, const char *(*name_of)(int), int *out)
+{
+    const char *text = cli_text(arguments, option, NULL);
+    char all[128] = "";
+    for (int i = 0; text && name_of(i); i++) {
+        const size_t used = strlen(all);
+        if (!strcmp(name_of(i), text)) {
+            *out = i;
+            return true;
+        }
+        snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", name_of(i));
+    }
+    if (text) {
+        cli_usage_error(arguments, "--%s %s: it takes one of %s", option, text, all);
+    }
+    return !text;
+}
+
+static const char *pairing_name(int i)
+{
+    return koksma_pairing_name((koksma_pairing)i);
+}
+
+static const char *scope_name(int i)
+{
+    return koksma_scope_name((koksma_scope)i);
+}
+
+static const char *lights_name(int i)
+{
+    return koksma_light_selection_name((koksma_light_selection)i);
+}
+
+bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options)
+{
+    int pairing = options->pairing, scope = options->scope, lights = options->lights;
+    uint64_t depth = 0;
+    const char *integrator = cli_text(arguments, "integrator", options->integrator->name);
+    const char *filter = cli_text(arguments, "filter", options->filter->name);
+    if (!parse_choice(arguments, "pairing", pairing_name, &pairing) ||
+        !parse_choice(arguments, "scope", scope_name, &scope) ||
+        !parse_choice(arguments, "lights", lights_name, &lights) ||
+        !cli_whole(arguments, "depth", 0, 0, KOKSMA_MAX_DEPTH, &depth)) {
+        return false;
+    }
+    options->pairing = (koksma_pairing)pairing;
+    options->scope = (koksma_scope)scope;
+    options->lights = (koksma_light_selection)lights;
+    options->depth = cli_flag(arguments, "depth") ? (int)depth : -1;
+    options->splat = cli_flag(arguments, "splat");
+    options->integrator = koksma_integrator_find(integrator);
+    options->filter = koksma_filter_find(filter);
+    if (!options->integrator) {
+        cli_usage_error(arguments, "--integrator %s: 'koksma list integrators' names them", integrator);
+    } else if (!options->filter) {
+        cli_usage_error(arguments, "--filter %s: 'koksma list filters' names them", filter);
+    }
+    return options->integrator && options->filter;
+}
+
+/* The use that the line starts with ("lens=…"), or -1. */
+static int find_use(const char *line)
+{
+    for (int i = 0; koksma_use_at((size_t)i); i++) {
+        const size_t length = strlen(koksma_use_at((size_t)i)->name);
+        if (!strncmp(koksma_use_at((size_t)i)->name, line, length) && line[length] == '=') {
+            return i;
+        }
+    }
+    return -1;
+}
+
+bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code)
+{
+    while (*lines) {
+        char line[KOKSMA_MAX_SPEC];
+        const size_t length = strcspn(lines, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, lines);
+        lines += lines[length] ? length + 1 : length;
+        const int use = find_use(line);
+        const size_t before = strcspn(line, ":=");
+        if (use < 0 && line[before] == '=') {
+            *code =
+                cli_usage_error(arguments,
+                                "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
+                                "lobe-choice and roulette",
+                                line);
+            return false;
+        }
+        const koksma_status status = koksma_pattern_spec(use < 0 ? line : line + before + 1,
+                                                         use < 0 ? &options->pattern : &options->patterns[use]);
+        if (status) {
+            *code = cli_fail(arguments, status);
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The options of everything that renders, for the option tables of commands, and their values. */
+#ifndef KOKSMA_CLI_RENDER_OPTIONS_H
+#define KOKSMA_CLI_RENDER_OPTIONS_H
+
+#include <koksma/render.h>
+
+#include "cli.h"
+
+#define CLI_SAMPLING_OPTIONS                                                                                         \
+    {0, "pairing", "P", "of a pixel's uses: shuffled, aligned or native (default: shuffled)"},                       \
+        {0, "scope", "S", "of a pattern: pixel or image (default: pixel)"},                                          \
+        {0, "lights", "L", "shadow rays: all lights, or one by estimate, power or uniform (default: all)"},          \
+        {0, "integrator", "I", "see 'koksma list integrators' (default: distribution)"},                             \
+        {0, "depth", "D", "bounces at most (default: the integrator's)"},                                            \
+        {0, "filter", "F", "of pixels: see 'koksma list filters' (default: box)"},                                   \
+    {                                                                                                                \
+        0, "splat", NULL, "spread samples over all pixels in the filter's reach, instead of drawing from it"         \
+    }
+
+/* Values of those options; false after an error that names one. */
+bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
+
+/* Patterns: lines of PATTERN, for all uses, or USE=PATTERN; false after an error, whose code is in *code. */
+bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From samples to pixels: filters, layers, and the order of sums. */
+#ifndef KOKSMA_RENDER_FILM_H
+#define KOKSMA_RENDER_FILM_H
+
+#include "render/frame.h"
+
+/* Rows of a task with those around them that its samples reach, when samples are splatted: channels + 1 numbers a
+   pixel, the last one the sum of the filter. */
+typedef struct koksma__splat {
+    int first_row, rows;
+    float *sums;
+} koksma__splat;
+
+typedef struct koksma__film {
+    koksma_layers *layers;
+    bool all_layers; /* else only the image */
+    int reach;       /* pixels beside its own that a splatted sample touches; 0: no splatting */
+    size_t n_splats;
+    koksma__splat *splats; /* one a task */
+} koksma__film;
+
+/* Allocates the images. Errors: MEMORY. */
+koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, size_t n_tasks, koksma_layers *layers,
+                                koksma__film *out);
+void koksma__film_fini(koksma__film *film);
+
+/* Moves samples from the pixel to places that the filter chooses, and weighs them: film places of a group that was
+   drawn on the unit square of each pixel. */
+void koksma__film_place(const koksma__frame *frame, const koksma__group *group, koksma__values *values);
+
+/* The room for splats of a task. */
+koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *film, size_t task, int first_row,
+                                     int rows);
+
+/* The samples of a group into their pixels. */
+void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
+                      const koksma__values *values);
+
+/* When all tasks are done: splats in the order of tasks, and pixels without samples from their neighbours. Errors:
+   MEMORY. */
+koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film);
+
+#endif

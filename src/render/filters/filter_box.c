@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* box: f = 1 within the pixel. A partition of unity. */
+#include <math.h>
+
+#include "render/filters/filters.h"
+
+static double value(double x)
+{
+    return fabs(x) <= 0.5 ? 1 : 0;
+}
+
+const koksma_filter koksma__filter_box = {
+    .name = "box",
+    .title = "the mean over the pixel",
+    .cite = "shirley1991",
+    .radius = 0.5,
+    .value = value,
+};

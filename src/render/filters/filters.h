@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_RENDER_FILTERS_FILTERS_H
+#define KOKSMA_RENDER_FILTERS_FILTERS_H
+
+#include <koksma/render.h>
+
+/* A filter's density, tabulated: cells of equal width over [-radius, radius], in each the mean of |f|. */
+typedef struct koksma__filter_table koksma__filter_table;
+
+/* Errors: MEMORY. */
+koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_table **out);
+void koksma__filter_close(koksma__filter_table *table);
+
+/* u in [0,1) to a place x in [-radius, radius] with density in proportion to the cell's mean of |f|; the weight is
+   f(x) over that density, so that the mean of weight x value is the filtered value exactly. */
+float koksma__filter_sample(const koksma__filter_table *table, float u, float *weight);
+
+/* f(x), scaled to integrate to 1. */
+float koksma__filter_value(const koksma__filter_table *table, float x);
+
+#define FILTER(name) extern const koksma_filter koksma__filter_##name;
+#include "render/filters/filters.def"
+#undef FILTER
+
+#endif

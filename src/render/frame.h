@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * One picture in the making. Pixels go in groups that fill KOKSMA__BLOCK lanes through one of two pipelines:
+ * direct.c, all in lanes, for grey Lambert scenes under rectangles; and tracer.c, for everything. Both turn the
+ * samples of a group into values; film.c turns values into pixels.
+ */
+#ifndef KOKSMA_RENDER_FRAME_H
+#define KOKSMA_RENDER_FRAME_H
+
+#include <koksma/render.h>
+
+#include "render/filters/filters.h"
+#include "render/integrators/integrators.h"
+#include "render/intersect.h"
+#include "render/lights.h"
+#include "render/sampler.h"
+
+typedef struct koksma__frame {
+    const koksma_scene *scene;
+    const koksma_render_options *options;
+    const koksma__rules *rules; /* of the integrator */
+    int depth;                  /* bounces at most */
+    int channels;
+    const koksma__batch_table *batch;
+    koksma__geometry geometry;
+    koksma__sampler sampler;
+    koksma__batch_camera camera;
+    koksma__lights lights;
+    koksma__batch_material *materials;
+    koksma__substance *substances;
+    koksma__filter_table *filter; /* NULL: box */
+    void *cache;                  /* the integrator's own */
+} koksma__frame;
+
+/* Pixels first .. first + count - 1 of one row, and their samples: pixel first + p has start[p] .. start[p + 1] - 1.
+ */
+typedef struct koksma__group {
+    size_t first, count;
+    size_t start[KOKSMA__BLOCK + 1];
+} koksma__group;
+
+/* What the samples of a group come to. capacity floats a channel; layers are NULL when no one wants them. */
+typedef struct koksma__values {
+    float *film;    /* places on the film, in pixels: 2 a sample */
+    float *weights; /* of the filter; NULL: all 1 */
+    float *rgb;     /* channels a sample */
+    float *albedo, *normal, *depth;
+    uint64_t rays;
+} koksma__values;
+
+typedef struct koksma__pipeline {
+    /* A task's room. Errors: MEMORY. */
+    koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **room);
+    void (*close)(void *room);
+    /* Fills values (film and weights are there). Errors: the sampler's, MEMORY. */
+    koksma_status (*trace)(const koksma__frame *frame, void *room, const koksma__group *group,
+                           koksma__values *values);
+} koksma__pipeline;
+
+extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
+
+/* Whether direct.c can draw this. */
+bool koksma__direct_can(const koksma__frame *frame);
+
+/* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own place is
+   added. The pairs are padded with copies to whole lanes. */
+koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
+                                 koksma__sample_room *room, float *pairs);
+
+/* samples, rounded up to whole lanes */
+static inline size_t koksma__whole_lanes(size_t samples)
+{
+    return (samples + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
+}
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * distribution: distribution ray tracing. Places on luminaires, on the lens, in time, and ways in glossy lobes are
+ * sampled; light between diffuse surfaces is the scene's ambient.
+ */
+#include "render/integrators/integrators.h"
+
+static const koksma__rules rules = {
+    .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
+
+const koksma_integrator koksma__integrator_distribution = {
+    .name = "distribution",
+    .title = "soft shadows, lens, motion, glossy reflection",
+    .cite = "cook1984 shirley1991",
+    .depth = 6,
+    .rules = &rules,
+};

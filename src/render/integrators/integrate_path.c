@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * path: all light paths, one way on from each vertex. Luminaires are sampled at each vertex and met by chance, the
+ * two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a path goes on with the
+ * probability of its weight, at most 0.95, which keeps the mean. Without bias but for the end of paths at the depth
+ * limit.
+ */
+#include "render/integrators/integrators.h"
+
+static const koksma__rules rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
+                                    .areas = true,
+                                    .shadows = true,
+                                    .roulette = true};
+
+const koksma_integrator koksma__integrator_path = {
+    .name = "path",
+    .title = "path tracing with next-event estimation",
+    .cite = "kajiya1986 veach1997",
+    .depth = 16,
+    .rules = &rules,
+};

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * utah: the local model. A surface reflects the scene's ambient light and what comes from the centre of each
+ * luminaire, without shadows and without seeing other surfaces; mirrors and glass are black.
+ */
+#include "render/integrators/integrators.h"
+
+static const koksma__rules rules = {.ambient = true};
+
+const koksma_integrator koksma__integrator_utah = {
+    .name = "utah",
+    .title = "local light and ambient light, no shadows",
+    .cite = "phong1975 shirley1991",
+    .depth = 0,
+    .rules = &rules,
+};

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * whitted: recursive ray tracing. A shadow ray to the centre of each luminaire; mirrors and glass send rays on, glass
+ * both ways, so that rays make a tree. A branch that weighs less than 1/1000 is cut (Hall's depth control), which
+ * leaves out that much light at most.
+ */
+#include "render/integrators/integrators.h"
+
+static const koksma__rules rules = {
+    .followed = KOKSMA__LOBE_SPECULAR, .shadows = true, .ambient = true, .branches = true};
+
+const koksma_integrator koksma__integrator_whitted = {
+    .name = "whitted",
+    .title = "sharp shadows, mirrors and glass",
+    .cite = "whitted1980",
+    .depth = 6,
+    .rules = &rules,
+};

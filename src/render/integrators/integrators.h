@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
+#define KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
+
+#include "render/materials/materials.h"
+
+struct koksma__frame;
+
+/* What an integrator does at a vertex; tracer.c does it. */
+typedef struct koksma__rules {
+    unsigned followed; /* lobes whose ways are followed further; the others see luminaires only */
+    bool areas;        /* luminaires are sampled all over; else from their centres */
+    bool shadows;
+    bool ambient;  /* the scene's ambient stands for light between diffuse surfaces */
+    bool branches; /* glass sends two rays */
+    bool roulette; /* dim paths end at random */
+    /* NULL, or: what is made before the picture, kept in frame->cache; and what it says of the light that diffuse
+       surfaces send to s, as irradiance / pi. */
+    koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
+    void (*close)(struct koksma__frame *frame);
+    void (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float out[3]);
+} koksma__rules;
+
+#define INTEGRATOR(name) extern const koksma_integrator koksma__integrator_##name;
+#include "render/integrators/integrators.def"
+#undef INTEGRATOR
+
+#endif

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * ggx: a rough metal. Microfacets with slopes of the GGX law (Walter et al. 2007), a = roughness^2, and Smith's
+ * height-correlated shadowing; Schlick's reflectance from `reflectance` at normal incidence:
+ *     value cos = F D G2 / (4 n.out)
+ * Ways come from the facets that are seen (Heitz 2018): density D G1(out) / (4 n.out), so that a way weighs F G2 /
+ * G1. It loses what bounces between facets: a white one reflects less than 1, at roughness 1 about a third less.
+ */
+#include "render/materials/lobes.h"
+
+static float lambda(float cosine, float a)
+{
+    const float square = cosine * cosine, tangent2 = (1 - square) / square;
+    return 0.5f * (sqrtf(1 + a * a * tangent2) - 1);
+}
+
+static float facets(float cosine, float a)
+{
+    const float t = cosine * cosine * (a * a - 1) + 1;
+    return a * a / (KOKSMA__PI_F * t * t);
+}
+
+/* The terms for light from w: D G1 / (4 n.out) is returned, G2 / G1 and the facet's n.h-independent cosine come out.
+ */
+static float terms(const koksma__surface *s, const float w[3], float *ratio, float *at_facet)
+{
+    const float a = s->substance->roughness * s->substance->roughness;
+    const float from = koksma__dot3(s->n, w), to = koksma__dot3(s->n, s->out);
+    float h[3];
+    if (!(from > 0) || !(to > 0)) {
+        return 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        h[k] = w[k] + s->out[k];
+    }
+    koksma__unit3(h);
+    const float cosine = koksma__dot3(s->n, h), l_to = lambda(to, a), l_from = lambda(from, a);
+    *at_facet = koksma__dot3(h, w);
+    *ratio = (1 + l_to) / (1 + l_to + l_from);
+    return facets(cosine, a) / (1 + l_to) / (4 * to);
+}
+
+static void add(const koksma__surface *s, float scale, float at_facet, float out[3])
+{
+    const float rest = 1 - at_facet, fifth = rest * rest * rest * rest * rest;
+    for (int k = 0; k < 3; k++) {
+        out[k] += scale * (s->substance->reflectance[k] + (1 - s->substance->reflectance[k]) * fifth);
+    }
+}
+
+static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
+{
+    float ratio = 0, at_facet = 0;
+    const float density = lobes & KOKSMA__LOBE_GLOSSY ? terms(s, w, &ratio, &at_facet) : 0;
+    if (density > 0) {
+        add(s, density * ratio, at_facet, value_out);
+    }
+    return density;
+}
+
+/* A facet's normal, seen from v in the surface's frame, v[2] > 0 (Heitz 2018, listing 1). */
+static void visible_facet(const float v[3], float a, const float u[2], float h[3])
+{
+    float stretched[3] = {a * v[0], a * v[1], v[2]};
+    koksma__unit3(stretched);
+    const float square = stretched[0] * stretched[0] + stretched[1] * stretched[1], scale = 1 / sqrtf(square);
+    const float t1[3] = {square > 0 ? -stretched[1] * scale : 1, square > 0 ? stretched[0] * scale : 0, 0};
+    const float t2[3] = {stretched[1] * t1[2] - stretched[2] * t1[1], stretched[2] * t1[0] - stretched[0] * t1[2],
+                         stretched[0] * t1[1] - stretched[1] * t1[0]};
+    const float radius = sqrtf(u[0]), turn = 2 * KOKSMA__PI_F * u[1], part = 0.5f * (1 + stretched[2]);
+    const float x = radius * cosf(turn), side = 1 - x * x;
+    const float y = (1 - part) * sqrtf(side > 0 ? side : 0) + part * radius * sinf(turn);
+    const float rest = 1 - x * x - y * y, z = sqrtf(rest > 0 ? rest : 0);
+    for (int k = 0; k < 3; k++) {
+        h[k] = x * t1[k] + y * t2[k] + z * stretched[k];
+    }
+    h[0] *= a;
+    h[1] *= a;
+    h[2] = h[2] > 1e-6f ? h[2] : 1e-6f;
+    koksma__unit3(h);
+}
+
+static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
+{
+    (void)choice;
+    float x[3], y[3], h[3], ratio = 0, at_facet = 0;
+    if (!(lobes & KOKSMA__LOBE_GLOSSY)) {
+        return false;
+    }
+    koksma__frame3(s->n, x, y);
+    const float local[3] = {koksma__dot3(x, s->out), koksma__dot3(y, s->out), koksma__dot3(s->n, s->out)};
+    visible_facet(local, s->substance->roughness * s->substance->roughness, u, h);
+    const float facet[3] = {h[0] * x[0] + h[1] * y[0] + h[2] * s->n[0], h[0] * x[1] + h[1] * y[1] + h[2] * s->n[1],
+                            h[0] * x[2] + h[1] * y[2] + h[2] * s->n[2]};
+    koksma__mirror3(s->out, facet, out->w);
+    out->density = terms(s, out->w, &ratio, &at_facet);
+    out->lobe = KOKSMA__LOBE_GLOSSY;
+    out->weight[0] = out->weight[1] = out->weight[2] = 0;
+    if (!(out->density > 0)) {
+        return false;
+    }
+    add(s, ratio, at_facet, out->weight);
+    return true;
+}
+
+const koksma__material_rules koksma__material_ggx = {
+    .cite = "walter2007 heitz2018",
+    .lobes = KOKSMA__LOBE_GLOSSY,
+    .value = value,
+    .sample = sample,
+};

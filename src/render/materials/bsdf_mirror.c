@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* mirror: reflects a share `reflectance` of what comes along the one mirrored way. */
+#include "render/materials/lobes.h"
+
+static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
+{
+    (void)s, (void)w, (void)lobes, (void)value_out;
+    return 0;
+}
+
+static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
+{
+    (void)u, (void)choice;
+    if (!(lobes & KOKSMA__LOBE_SPECULAR)) {
+        return false;
+    }
+    koksma__mirror3(s->out, s->n, out->w);
+    out->density = 0;
+    out->lobe = KOKSMA__LOBE_SPECULAR;
+    for (int k = 0; k < 3; k++) {
+        out->weight[k] = s->substance->reflectance[k];
+    }
+    return true;
+}
+
+const koksma__material_rules koksma__material_mirror = {
+    .cite = "whitted1980",
+    .lobes = KOKSMA__LOBE_SPECULAR,
+    .value = value,
+    .sample = sample,
+};

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The parts of a scene file, one file each, and the fields that several of them have. */
+#ifndef KOKSMA_SCENE_PARSE_H
+#define KOKSMA_SCENE_PARSE_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "core/status.h"
+#include "scene/json.h"
+#include "scene/scene.h"
+
+#define FAR 1e6    /* coordinates and lengths */
+#define TINY 1e-6  /* lengths that count as zero */
+#define BRIGHT 1e6 /* luminance */
+#define TURN (2 * M_PI)
+
+#define KEYS(...) ((const char *const[]){__VA_ARGS__, NULL})
+
+typedef koksma__json_node field;
+
+koksma_status koksma__parse_camera(const field *root, koksma__camera *camera);
+koksma_status koksma__parse_material(const field *f, koksma_scene *scene);
+koksma_status koksma__parse_shape(const field *f, koksma_scene *scene);
+/* name: of the scene's file, next to which a light's image is looked for. */
+koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene *scene);
+
+/* One more shape, zeroed but for light = -1; there is room for the last one until the next call. Errors: MALFORMED
+   (too many; f is named), MEMORY. */
+koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__shape **out);
+
+koksma_status koksma__parse_point(const field *object, const char *key, double out[3]);
+koksma_status koksma__parse_direction(const field *object, const char *key, double out[3]);
+
+/* A number (grey) or an array of red, green and blue; left alone when it is not there and needed is false. */
+koksma_status koksma__parse_colour(const field *object, const char *key, bool needed, double max, double out[3]);
+koksma_status koksma__parse_colour_value(const field *node, double max, double out[3]);
+
+/* The axes of a flat shape from its normal and "up" (default: y; -z for a normal along y). axis_v is up made square
+   to the normal and axis_u = axis_v x normal: seen against the normal u goes right. A floor has u = x, v = -z. */
+koksma_status koksma__parse_axes(const field *object, const double normal[3], double axis_u[3], double axis_v[3]);
+
+/* "half", "radius" (into both halves), checked; "kind", which must be one of the words of `kinds`. */
+koksma_status koksma__parse_half(const field *object, double half[2]);
+koksma_status koksma__parse_radius(const field *object, double half[2]);
+koksma_status koksma__parse_kind(const field *object, const char *kinds, const char **out);
+
+#endif
