@@ -4,7 +4,6 @@
  * blocks of lanes, their luminaires are asked in blocks of shadow rays, and what goes on is queued for the next
  * bounce. Only the shading of a place is done ray by ray. A sample's light is summed in the order of its vertices.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
@@ -12,95 +11,6 @@
 #include "render/vector3.h"
 
 enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queues, which branching makes long */
-
-/* ---- Rooms ------------------------------------------------------------------------------------------------ */
-
-static void close_room(void *opened)
-{
-    koksma__tracer_room *room = opened;
-    if (!room) {
-        return;
-    }
-    for (size_t i = 0; i < room->n_drawn; i++) {
-        free(room->drawn[i].pairs);
-    }
-    koksma__sample_room_fini(&room->draw);
-    free(room->drawn);
-    free(room->queues[0].paths);
-    free(room->queues[1].paths);
-    free(room->sums);
-    free(room);
-}
-
-static koksma_status open_room(const koksma__frame *frame, size_t capacity, void **out)
-{
-    koksma__tracer_room *room = calloc(1, sizeof *room);
-    *out = room;
-    if (!room) {
-        return koksma__fail_memory(sizeof *room);
-    }
-    room->capacity = capacity;
-    room->sums = malloc(3 * capacity * sizeof *room->sums);
-    koksma_status status = koksma__sample_room_init(&room->draw, &frame->sampler);
-    if (!status && !room->sums) {
-        status = koksma__fail_memory(3 * capacity * sizeof *room->sums);
-    }
-    if (status) {
-        close_room(room);
-        *out = NULL;
-    }
-    return status;
-}
-
-koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path)
-{
-    if (queue->n == queue->room) {
-        const size_t room = queue->room ? 2 * queue->room : 4 * KOKSMA__BLOCK;
-        koksma__path *paths = realloc(queue->paths, room * sizeof *paths);
-        if (!paths) {
-            return koksma__fail_memory(room * sizeof *paths);
-        }
-        queue->paths = paths;
-        queue->room = room;
-    }
-    queue->paths[queue->n++] = *path;
-    return KOKSMA_OK;
-}
-
-static koksma_status new_use(koksma__tracer_room *room, uint32_t use, koksma__drawn **out)
-{
-    if (room->n_drawn * room->capacity > KOKSMA__MAX_DRAWN) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "more than %zu samples of this many uses: fewer samples a pixel would do",
-                            room->capacity);
-    }
-    koksma__drawn *list = realloc(room->drawn, (room->n_drawn + 1) * sizeof *list);
-    float *pairs = malloc(2 * room->capacity * sizeof *pairs);
-    room->drawn = list ? list : room->drawn;
-    if (!list || !pairs) {
-        free(pairs);
-        return koksma__fail_memory(2 * room->capacity * sizeof *pairs);
-    }
-    *out = &list[room->n_drawn++];
-    **out = (koksma__drawn){.use = use, .pairs = pairs};
-    return KOKSMA_OK;
-}
-
-koksma_status koksma__tracer_draw(const koksma__trace *trace, uint32_t use, const float **pairs)
-{
-    koksma__tracer_room *room = trace->room;
-    koksma__drawn *drawn = NULL;
-    for (size_t i = 0; i < room->n_drawn && !drawn; i++) {
-        drawn = room->drawn[i].use == use ? &room->drawn[i] : NULL;
-    }
-    koksma_status status = drawn ? KOKSMA_OK : new_use(room, use, &drawn);
-    if (!status && !drawn->done) {
-        status = koksma__group_draw(trace->frame, trace->group, use, false, &room->draw, drawn->pairs);
-        drawn->done = true;
-    }
-    *pairs = status ? NULL : drawn->pairs;
-    return status;
-}
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
 
@@ -413,4 +323,5 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
     return status;
 }
 
-const koksma__pipeline koksma__tracer_pipeline = {.open = open_room, .close = close_room, .trace = trace_group};
+const koksma__pipeline koksma__tracer_pipeline = {
+    .open = koksma__tracer_open, .close = koksma__tracer_close, .trace = trace_group};

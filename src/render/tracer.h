@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tracer.c (paths) and tracer_light.c (luminaires at their vertices) share. */
+/* What tracer.c (paths) and tracer_light.c (luminaires at their vertices) share with tracer_room.c. */
 #ifndef KOKSMA_RENDER_TRACER_H
 #define KOKSMA_RENDER_TRACER_H
 
@@ -55,6 +55,9 @@ typedef struct koksma__vertices {
     bool lit[KOKSMA__BLOCK];
     int n, whole;
 } koksma__vertices;
+
+koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, void **out);
+void koksma__tracer_close(void *opened);
 
 koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path);
 
