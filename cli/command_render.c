@@ -48,27 +48,61 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
     return cli_rows_close(rows);
 }
 
+/* What the picture is, for its file. */
+static void describe(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *o,
+                     char *text, size_t size)
+{
+    char pattern[KOKSMA_MAX_SPEC];
+    koksma_spec_text(&o->pattern, pattern);
+    snprintf(text, size, "koksma %s scene=%s hash=%016llx pattern=%s", koksma_version(), arguments->operands[0],
+             (unsigned long long)koksma_scene_hash(scene), pattern);
+    for (size_t i = 0; koksma_use_at(i); i++) {
+        if (o->patterns[i].pattern) {
+            const size_t used = strlen(text);
+            koksma_spec_text(&o->patterns[i], pattern);
+            snprintf(text + used, size - used, " %s=%s", koksma_use_at(i)->name, pattern);
+        }
+    }
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used,
+             " spp=%d pairing=%s scope=%s lights=%s integrator=%s depth=%d filter=%s%s seed=%llu", o->spp,
+             koksma_pairing_name(o->pairing), koksma_scope_name(o->scope), koksma_light_selection_name(o->lights),
+             o->integrator->name, o->depth < 0 ? o->integrator->depth : o->depth, o->filter->name,
+             o->splat ? " splat" : "", (unsigned long long)o->seed);
+}
+
+static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
+                                 const koksma_render_options *options, const koksma_layers *layers)
+{
+    static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC];
+    const koksma_layer all[] = {{"", &layers->image},          {"albedo", &layers->albedo},
+                                {"normal", &layers->normal},   {"Z", &layers->depth},
+                                {"samples", &layers->samples}, {"variance", &layers->variance}};
+    describe(arguments, scene, options, metadata, sizeof metadata);
+    return koksma_image_write_layers(cli_text(arguments, "output", ""), all, sizeof all / sizeof *all, metadata);
+}
+
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options)
 {
-    char pattern[KOKSMA_MAX_SPEC], metadata[2 * KOKSMA_MAX_SPEC];
     koksma_layers layers;
     cli_work work;
     if (!cli_work_begin(arguments, "rendering", &work)) {
         return CLI_USAGE;
     }
     const double start = now_s();
-    koksma_status status = koksma_render_layers(scene, options, &work.run, &layers);
+    const koksma_status status = koksma_render_layers(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
     cli_work_end(&work);
-    if (!status) {
-        koksma_spec_text(&options->pattern, pattern);
-        snprintf(metadata, sizeof metadata, "koksma %s scene=%s hash=%016llx pattern=%s spp=%d pairing=%s seed=%llu",
-                 koksma_version(), arguments->operands[0], (unsigned long long)koksma_scene_hash(scene), pattern,
-                 options->spp, koksma_pairing_name(options->pairing), (unsigned long long)options->seed);
-        status = koksma_image_write(cli_text(arguments, "output", ""), &layers.image, metadata);
-        koksma_layers_fini(&layers);
+    const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
+    const koksma_status written = done ? write_image(arguments, scene, options, &layers) : KOKSMA_OK;
+    koksma_layers_fini(&layers);
+    if (status == KOKSMA_INTERRUPTED && done && !written) {
+        fprintf(stderr, "koksma render: interrupted; %s has the pixels that were done\n",
+                cli_text(arguments, "output", ""));
+        return koksma_status_exit_code(status);
     }
-    return status ? cli_fail(arguments, status) : put_row(arguments, options, layers.rays, seconds);
+    return status || written ? cli_fail(arguments, status ? status : written)
+                             : put_row(arguments, options, layers.rays, seconds);
 }
 
 static int run(const cli_arguments *arguments)
@@ -82,7 +116,8 @@ static int run(const cli_arguments *arguments)
     if (!cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments, "-o FILE, the image, is missing");
     }
-    koksma_status status = koksma_scene_open(arguments->operands[0], &scene);
+    koksma_status status = koksma_image_check_path(cli_text(arguments, "output", ""));
+    status = status ? status : koksma_scene_open(arguments->operands[0], &scene);
     if (status) {
         return cli_fail(arguments, status);
     }
@@ -104,7 +139,7 @@ static const cli_option options[] = {
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
-    {'o', "output", "FILE", ".exr, .png or .pfm by its ending"},
+    {'o', "output", "FILE", ".exr (with layers), .png or .pfm by its ending"},
     CLI_SAMPLING_OPTIONS,
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,

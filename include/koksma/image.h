@@ -34,9 +34,23 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
    Errors: MISSING, MALFORMED, UNSUPPORTED (DWA-compressed and deep EXR), MEMORY. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
+/* Whether the path's ending says a format that can be written. Errors: ARGUMENT. */
+KOKSMA_API koksma_status koksma_image_check_path(const char *path);
+
 /* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be
    NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending), IO, MEMORY. */
 KOKSMA_API koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata);
+
+/* An image among others of its size in one file; the first has the name "". */
+typedef struct koksma_layer {
+    const char *name; /* to 63 letters */
+    const koksma_image *image;
+} koksma_layer;
+
+/* The same for n layers: all of them in an EXR, the first in the other formats. Errors also: ARGUMENT (sizes differ,
+   or a name is too long). */
+KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
+                                                   const char *metadata);
 
 /* The image as an 8-bit sRGB PNG file in memory; the caller frees *bytes. */
 KOKSMA_API koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size);

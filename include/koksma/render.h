@@ -149,7 +149,8 @@ KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,
                                        const koksma_run *run, koksma_image *out);
 
-/* The same picture with its layers. */
+/* The same picture with its layers. When it is INTERRUPTED out holds the pixels that are done (the others have 0 in
+   `samples`), and the caller frees it too. */
 KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
                                               const koksma_run *run, koksma_layers *out);
 

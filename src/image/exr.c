@@ -8,11 +8,14 @@
  * compression if a bit differs.
  */
 #include <openexr.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "image/formats.h"
+
+enum { NAME = 80 }; /* characters of a channel's name */
 
 typedef struct source {
     const unsigned char *bytes;
@@ -232,16 +235,30 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
     return koksma__bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
 }
 
-static exr_result_t put_header(exr_context_t file, const koksma_image *image, const char *metadata,
+/* What channel k of a layer is called; returns how long the name is. */
+static int channel_name(const koksma_layer *layer, int k, char *name, size_t size)
+{
+    const char *dot = *layer->name ? "." : "";
+    if (layer->image->channels == 1 && *layer->name) {
+        return snprintf(name, size, "%s", layer->name);
+    }
+    return snprintf(name, size, "%s%s%c", layer->name, dot, "YRGB"[layer->image->channels == 3 ? k + 1 : 0]);
+}
+
+static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, size_t n, const char *metadata,
                                exr_compression_t compression)
 {
-    static const char *const names[2][3] = {{"Y"}, {"B", "G", "R"}};
     int part;
+    char name[NAME];
+    const koksma_image *image = layers->image;
     exr_result_t r = exr_add_part(file, NULL, EXR_STORAGE_SCANLINE, &part);
     r = r ? r : exr_initialize_required_attr_simple(file, 0, image->width, image->height, compression);
-    for (int k = 0; !r && k < image->channels; k++) {
-        r = exr_add_channel(file, 0, names[image->channels == 3][k], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1,
-                            1);
+    for (size_t l = 0; l < n; l++) {
+        for (int k = 0; !r && k < layers[l].image->channels; k++) {
+            const exr_perceptual_treatment_t kind = l ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC;
+            channel_name(&layers[l], k, name, sizeof name);
+            r = exr_add_channel(file, 0, name, EXR_PIXEL_FLOAT, kind, 1, 1);
+        }
     }
     if (!r && *metadata) {
         r = exr_attr_set_string(file, 0, "comments", metadata);
@@ -249,33 +266,51 @@ static exr_result_t put_header(exr_context_t file, const koksma_image *image, co
     return r ? r : exr_write_header(file);
 }
 
-static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_image *image, int y)
+/* Where the channel of that name is. */
+static const float *find_channel(const koksma_layer *layers, size_t n, const char *wanted, int *channels)
 {
-    const size_t pixel = sizeof(float) * (size_t)image->channels;
+    char name[NAME];
+    for (size_t l = 0; l < n; l++) {
+        *channels = layers[l].image->channels;
+        for (int k = 0; k < *channels; k++) {
+            channel_name(&layers[l], k, name, sizeof name);
+            if (!strcmp(name, wanted)) {
+                return layers[l].image->pixels + k;
+            }
+        }
+    }
+    return NULL;
+}
+
+static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_layer *layers, size_t n, int y)
+{
+    const size_t width = (size_t)layers->image->width;
     for (int c = 0; c < encoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &encoder->channels[c];
-        const size_t k = (size_t)colour(channel->channel_name, image->channels);
-        const size_t at = (size_t)y * (size_t)image->width * (size_t)image->channels + k;
-        channel->encode_from_ptr = (const uint8_t *)(image->pixels + at);
+        int channels = 1;
+        const float *pixels = find_channel(layers, n, channel->channel_name, &channels);
+        const size_t pixel = sizeof(float) * (size_t)channels;
+        channel->encode_from_ptr = (const uint8_t *)(pixels + (size_t)y * width * (size_t)channels);
         channel->user_bytes_per_element = sizeof(float);
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_pixel_stride = (int32_t)pixel;
-        channel->user_line_stride = (int32_t)(pixel * (size_t)image->width);
+        channel->user_line_stride = (int32_t)(pixel * width);
     }
 }
 
-static exr_result_t put_lines(exr_context_t file, const koksma_image *image, exr_encode_pipeline_t *encoder)
+static exr_result_t put_lines(exr_context_t file, const koksma_layer *layers, size_t n,
+                              exr_encode_pipeline_t *encoder)
 {
     int32_t lines = 1;
     exr_chunk_info_t chunk;
     exr_result_t r = exr_get_scanlines_per_chunk(file, 0, &lines);
-    for (int y = 0; !r && y < image->height; y += lines) {
+    for (int y = 0; !r && y < layers->image->height; y += lines) {
         r = exr_write_scanline_chunk_info(file, 0, y, &chunk);
         r = r   ? r
             : y ? exr_encoding_update(file, 0, &chunk, encoder)
                 : exr_encoding_initialize(file, 0, &chunk, encoder);
         if (!r) {
-            aim_encoder(encoder, image, y);
+            aim_encoder(encoder, layers, n, y);
             r = y ? r : exr_encoding_choose_default_routines(file, 0, encoder);
         }
         r = r ? r : exr_encoding_run(file, 0, encoder);
@@ -283,7 +318,7 @@ static exr_result_t put_lines(exr_context_t file, const koksma_image *image, exr
     return r;
 }
 
-static koksma_status encode(const koksma_image *image, const char *metadata, exr_compression_t compression,
+static koksma_status encode(const koksma_layer *layers, size_t n, const char *metadata, exr_compression_t compression,
                             koksma__bytes *out)
 {
     source s = {.out = out};
@@ -295,8 +330,8 @@ static koksma_status encode(const koksma_image *image, const char *metadata, exr
     exr_result_t r = exr_start_write(&file, "image", EXR_WRITE_FILE_DIRECTLY, &how);
     if (!r) {
         exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
-        r = put_header(file, image, metadata, compression);
-        r = r ? r : put_lines(file, image, &encoder);
+        r = put_header(file, layers, n, metadata, compression);
+        r = r ? r : put_lines(file, layers, n, &encoder);
         exr_encoding_destroy(file, &encoder);
         const exr_result_t finish = exr_finish(&file);
         r = r ? r : finish;
@@ -316,14 +351,14 @@ static bool reads_back(const koksma__bytes *bytes, const koksma_image *image)
     return same;
 }
 
-static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const koksma_status status = encode(image, metadata, EXR_COMPRESSION_ZIP, out);
-    if (status || reads_back(out, image)) {
+    const koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
+    if (status || reads_back(out, layers->image)) {
         return status;
     }
     out->size = 0;
-    return encode(image, metadata, EXR_COMPRESSION_NONE, out);
+    return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
 }
 
 const koksma__image_format koksma__format_exr = {"exr", recognises, read, write};

@@ -20,7 +20,8 @@ typedef struct koksma__image_format {
     bool (*recognises)(const unsigned char *bytes, size_t size);
     /* Errors name no file: the caller puts its name in front. On failure *out is left for the caller to release. */
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
-    koksma_status (*write)(const koksma_image *image, const char *metadata, koksma__bytes *out);
+    /* Of n layers those that it has a place for: the first at least. */
+    koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
 } koksma__image_format;
 
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;

@@ -56,8 +56,10 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     return KOKSMA_OK;
 }
 
-static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
+    const koksma_image *image = layers->image; /* one has a place */
+    (void)n;
     (void)metadata; /* PFM has no place for it */
     char header[64];
     const int used = snprintf(header, sizeof header, "%s\n%d %d\n-1.0\n", image->channels == 3 ? "PF" : "Pf",

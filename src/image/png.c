@@ -138,8 +138,10 @@ static bool put_image(png_structp png, png_infop info, const koksma_image *image
     return true;
 }
 
-static koksma_status write(const koksma_image *image, const char *metadata, koksma__bytes *out)
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
+    const koksma_image *image = layers->image; /* one has a place */
+    (void)n;
     sink s = {.out = out};
     const size_t count = (size_t)image->width * (size_t)image->channels;
     unsigned char *row = malloc(count);

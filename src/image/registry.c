@@ -121,15 +121,30 @@ static const koksma__image_format *format_of_name(const char *path)
     return NULL;
 }
 
-koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)
+koksma_status koksma_image_check_path(const char *path)
 {
-    const koksma__image_format *format = format_of_name(path);
-    if (!format) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
-    }
+    return format_of_name(path)
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
+}
+
+koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
+{
     koksma__bytes bytes = {0};
     koksma__atomic_file file;
-    koksma_status status = format->write(image, metadata ? metadata : "", &bytes);
+    koksma_status status = koksma_image_check_path(path);
+    for (size_t i = 0; !status && i < n; i++) {
+        if (layers[i].image->width != layers->image->width || layers[i].image->height != layers->image->height) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: layer '%s' is of another size", path, layers[i].name);
+        }
+        if (strlen(layers[i].name) > 63) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: the layer's name '%s' is too long", path, layers[i].name);
+        }
+    }
+    if (status) {
+        return status;
+    }
+    status = format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
     if (status) {
         koksma__fail_in(status, path);
     } else if (!(status = koksma__atomic_open(path, &file))) {
@@ -140,10 +155,17 @@ koksma_status koksma_image_write(const char *path, const koksma_image *image, co
     return status;
 }
 
+koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)
+{
+    const koksma_layer only = {"", image};
+    return koksma_image_write_layers(path, &only, 1, metadata);
+}
+
 koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size)
 {
     koksma__bytes out = {0};
-    const koksma_status status = koksma__format_png.write(image, "", &out);
+    const koksma_layer only = {"", image};
+    const koksma_status status = koksma__format_png.write(&only, 1, "", &out);
     if (status) {
         free(out.data);
         out = (koksma__bytes){0};

@@ -254,7 +254,10 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
-    status = status ? status : koksma__film_finish(f, &j->film);
+    if (!status || status == KOKSMA_INTERRUPTED) {
+        const koksma_status finish = koksma__film_finish(f, &j->film);
+        status = status ? status : finish;
+    }
     out->rays = atomic_load(&j->rays);
     koksma__film_fini(&j->film);
     return status;
@@ -350,7 +353,7 @@ static koksma_status render(const koksma_scene *scene, const koksma_render_optio
     status = make_frame(&f, run);
     status = status ? status : render_image(&j, run, all_layers, out);
     fini_frame(&f);
-    if (status) {
+    if (status && !(all_layers && status == KOKSMA_INTERRUPTED)) {
         koksma_layers_fini(out);
         *out = (koksma_layers){0};
     }

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Lens, shutter, pairings, scopes, filters and layers, against closed forms. */
+#include "rendering.h"
+
+/* ---- Lens and shutter ----------------------------------------------------------------------------------- */
+
+/* A lamp that is small and out of focus is a disk of radius lens (d - f) / d on the plane of focus, evenly lit. */
+static void lens_blurs_to_a_disk(void **state)
+{
+    (void)state;
+    static const char *const maps[] = {"concentric", "polar"};
+    for (size_t m = 0; m < 2; m++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"fov_deg\": 53.13010235415598,"
+            "\"lens_radius\": 0.5, \"focus_distance\": 2, \"lens_map\": \"%s\"}, \"materials\": [], \"shapes\": [],"
+            "\"lights\": [{\"kind\": \"disk\", \"centre\": [0, 0, -4], \"normal\": [0, 0, 1], \"radius\": 0.05,"
+            "\"radiance\": 100, \"visible\": true}]}",
+            maps[m]);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "n-rooks", "distribution", 4096, 32);
+        koksma_image image;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        /* The film shows the plane of focus from -1 to 1: a disk of radius 0.25 is 4 pixels of 16. The lamp covers
+           there, seen from a place of the lens, a disk of radius 0.025: it adds that much to the edge. */
+        double inside = 0, total = 0;
+        for (int y = 0; y < 32; y++) {
+            for (int x = 0; x < 32; x++) {
+                const double r = hypot(x + 0.5 - 16, y + 0.5 - 16), value = (double)image.pixels[y * 32 + x];
+                total += value;
+                if (r > 4 + 0.4 + 0.75) {
+                    assert_true(value == 0);
+                } else if (r < 4 - 0.4 - 0.75) {
+                    inside += value;
+                    assert_near(value, 100 * 0.01, 0.45); /* the lamp's disk over the blur's: (0.025 / 0.25)^2 */
+                }
+            }
+        }
+        /* All of its light, as through a pinhole: the lamp is 0.05 x 8 pixels in radius. */
+        assert_near(total / (100 * M_PI * pow(0.05 * 8, 2)), 1, 0.05);
+        assert_true(inside > 0.2 * total);
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+}
+
+/* A ball of radius 1/2 that moves by 4 covers a place in its path for 1/4 of the time, on the axis. */
+static void shutter_sees_the_time(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 0, 50], \"target\": [0, 0, 0], \"fov_deg\": 0.01, \"shutter\": [0, 1]},"
+        "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
+        "{\"kind\": \"sphere\", \"centre\": [-2, 0, 0], \"radius\": 0.5, \"motion\": [4, 0, 0], \"material\": "
+        "\"m\"}]}");
+    koksma_render_options options = options_of(scene, "jittered", "distribution", 1024, 1);
+    assert_near(mean_of(scene, &options, NULL), 0.25, 2.5 / 1024);
+    scene->camera.shutter[1] = 0.5; /* it covers the place from 3/8 to 5/8 */
+    assert_near(mean_of(scene, &options, NULL), 0.25, 2.5 / 1024);
+    scene->camera.shutter[0] = 0.4;
+    assert_near(mean_of(scene, &options, NULL), 1, 1e-6);
+    koksma_scene_close(scene);
+    /* Its shadow moves with it: the floor below is dark for a quarter of the time. */
+    scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 1, 50], \"target\": [0, -1, 0], \"fov_deg\": 0.01},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
+        "{\"kind\": \"plane\", \"centre\": [0, -1, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
+        "{\"kind\": \"sphere\", \"centre\": [-2, 2, 0], \"radius\": 0.5, \"motion\": [4, 0, 0], \"material\": "
+        "\"m\"}],"
+        "\"lights\": [{\"kind\": \"directional\", \"direction\": [0, -1, 0], \"irradiance\": 3.141592653589793}]}");
+    assert_near(mean_of(scene, &options, NULL), 0.75, 2.5 / 1024);
+    koksma_scene_close(scene);
+}
+
+/* ---- Patterns, pairings, scopes, filters -------------------------------------------------------------------- */
+
+static void every_way_of_sampling_has_the_same_mean(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("all", &scene));
+    scene->clamp = INFINITY;
+    double base_error, error;
+    koksma_render_options options = options_of(scene, "random", "distribution", 256, 24);
+    const double base = mean_of(scene, &options, NULL);
+    koksma_image image;
+    base_error = 0;
+    for (int pairing = 0; pairing < 3; pairing++) {
+        for (int scope = 0; scope < 2; scope++) {
+            /* pixels differ by what they show, so that the spread over seeds is the measure of the error */
+            double sum = 0, squares = 0;
+            for (uint64_t seed = 1; seed <= 8; seed++) {
+                options = options_of(scene, "sobol:scramble=owen", "distribution", 16, 24);
+                options.pairing = (koksma_pairing)pairing;
+                options.scope = (koksma_scope)scope;
+                options.seed = seed;
+                assert_ok(koksma_render(scene, &options, NULL, &image));
+                double mean = 0;
+                for (size_t i = 0; i < 24 * 24; i++) {
+                    mean += (double)image.pixels[i] / (24 * 24);
+                }
+                koksma_image_fini(&image);
+                sum += mean;
+                squares += mean * mean;
+            }
+            error = sqrt(fmax(squares / 8 - sum * sum / 64, 0) / 7);
+            base_error = 0.0015; /* of 147,456 random samples of standard deviation about 0.3, twice */
+            if (fabs(sum / 8 - base) > 4 * error + base_error) {
+                fail_msg("pairing %d, scope %d: %.6f +- %.1g, expected %.6f", pairing, scope, sum / 8, error, base);
+            }
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* A constant picture stays constant: splatted exactly, drawn from the filter in the mean. */
+static void filters_keep_a_constant(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"fov_deg\": 40},"
+                                   "\"background\": 0.75, \"materials\": [], \"shapes\": []}");
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        koksma_render_options options = options_of(scene, "n-rooks", "distribution", 64, 16);
+        double error;
+        options.filter = f;
+        assert_near(mean_of(scene, &options, &error), 0.75, 0.01);
+        options.splat = true;
+        koksma_image image;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        for (size_t p = 0; p < 256; p++) {
+            assert_near((double)image.pixels[p], 0.75, 1e-5);
+        }
+        koksma_image_fini(&image);
+    }
+    koksma_scene_close(scene);
+}
+
+/* Filters against their own properties: even, and where they promise it a partition of unity. */
+static void filters_are_what_they_say(void **state)
+{
+    (void)state;
+    static const char *const unity[] = {"box", "tent", "hermite", "mitchell", "b-spline"};
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        for (double x = 0; x < f->radius; x += 0.01) {
+            assert_true(f->value(x) == f->value(-x));
+        }
+        assert_true(f->value(f->radius + 1e-9) == 0);
+    }
+    for (size_t i = 0; i < 5; i++) {
+        f = koksma_filter_find(unity[i]);
+        for (double x = 0.005; x < 1; x += 0.01) {
+            double sum = 0;
+            for (int k = -3; k <= 3; k++) {
+                sum += f->value(x - 0.5 + k);
+            }
+            assert_near(sum, 1, 1e-12);
+        }
+    }
+}
+
+/* A half-plane's edge across a pixel: the filtered value is the integral of the filter up to the edge. */
+static void filters_weigh_an_edge(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90}, \"ambient\": 1,"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
+                 "{\"kind\": \"rectangle\", \"centre\": [-4.95, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 10], "
+                 "\"material\": \"m\"}]}");
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        /* 9 pixels over [-1, 1]: the edge at x = 0.05 is 0.225 pixels right of the middle pixel's centre */
+        double part = 0, whole = 0;
+        for (double x = -2 + 5e-5; x < 2; x += 1e-4) {
+            part += x < 0.225 ? f->value(x) : 0;
+            whole += f->value(x);
+        }
+        koksma_render_options options = options_of(scene, "jittered", "distribution", 16384, 9);
+        options.filter = f;
+        koksma_image image;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        assert_near((double)image.pixels[4 * 9 + 4], part / whole, 2e-3);
+        koksma_image_fini(&image);
+        options.splat = true;
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        assert_near((double)image.pixels[4 * 9 + 4], part / whole, 2e-3);
+        koksma_image_fini(&image);
+    }
+    koksma_scene_close(scene);
+}
+
+/* ---- Layers --------------------------------------------------------------------------------------------- */
+
+static void layers_show_what_is_seen(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 0.01}, \"ambient\": 0.5,"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": [0.2, 0.4, 0.8]}], \"shapes\": ["
+        "{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}]}");
+    koksma_render_options options = options_of(scene, "random", "distribution", 9, 1);
+    koksma_layers layers;
+    assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+    static const double albedo[3] = {0.2, 0.4, 0.8};
+    assert_int_equal(layers.image.channels, 3);
+    for (int k = 0; k < 3; k++) {
+        assert_near((double)layers.albedo.pixels[k], albedo[k], 1e-6);
+        assert_near((double)layers.image.pixels[k], 0.5 * albedo[k], 1e-6);
+        assert_near((double)layers.normal.pixels[k], k == 2, 1e-4);
+    }
+    assert_near((double)layers.depth.pixels[0], 2, 1e-5);
+    assert_near((double)layers.samples.pixels[0], 9, 0);
+    assert_near((double)layers.variance.pixels[0], 0, 1e-12);
+    assert_int_equal(layers.rays, 9);
+    koksma_layers_fini(&layers);
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lens_blurs_to_a_disk),
+        cmocka_unit_test(shutter_sees_the_time),
+        cmocka_unit_test(every_way_of_sampling_has_the_same_mean),
+        cmocka_unit_test(filters_keep_a_constant),
+        cmocka_unit_test(filters_are_what_they_say),
+        cmocka_unit_test(filters_weigh_an_edge),
+        cmocka_unit_test(layers_show_what_is_seen),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
