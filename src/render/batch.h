@@ -15,6 +15,7 @@
 
 enum { KOKSMA__BLOCK = 64, KOKSMA__LANE_STEP = 16 };
 
+#define KOKSMA__LAMPS(name) _Alignas(64) float name[KOKSMA__MAX_LAMPS]
 #define KOKSMA__LANES(type, name) _Alignas(64) type name[KOKSMA__BLOCK]
 
 /* Rays o + t d, t > 0; d need not have length 1. time is read only where something moves. */
@@ -88,6 +89,26 @@ typedef struct koksma__batch_light {
     float corner[3], edge_x[3], edge_y[3], normal[3];
     float power;
 } koksma__batch_light;
+
+enum { KOKSMA__MAX_LAMPS = 256 };
+
+/* Luminaires for choosing one, in lanes: the estimate is
+     fixed + power max(least, n.d / r) max(least, cosine at the luminaire) / r^2,  0 when all of it is out of sight,
+   with d from p to the centre and r = max(|d|, reach). Those far away have their way in (nx, ny, nz) and power 0. */
+typedef struct koksma__batch_lamps {
+    int n, whole; /* of them; up to whole lanes, the rest being dark */
+    KOKSMA__LAMPS(cx);
+    KOKSMA__LAMPS(cy);
+    KOKSMA__LAMPS(cz);
+    KOKSMA__LAMPS(nx);
+    KOKSMA__LAMPS(ny);
+    KOKSMA__LAMPS(nz);
+    KOKSMA__LAMPS(flat);  /* 1: it shines along its normal, 0: all around */
+    KOKSMA__LAMPS(power); /* of those that have a place */
+    KOKSMA__LAMPS(reach);
+    KOKSMA__LAMPS(far);   /* irradiance of a directional one on a surface that faces it */
+    KOKSMA__LAMPS(fixed); /* of an environment */
+} koksma__batch_lamps;
 
 typedef struct koksma__batch_table {
 #define KERNEL(result, name, arguments) result(*name) arguments;

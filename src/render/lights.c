@@ -2,10 +2,13 @@
 #include "render/lights.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/status.h"
 #include "render/vector3.h"
 #include "warps/parts/disk_maps.h"
+
+_Static_assert((int)KOKSMA__MAX_LAMPS >= (int)KOKSMA__MAX_LIGHTS, "every luminaire can be chosen");
 
 #define AWAY 4e6f /* further than anything in a scene */
 
@@ -35,15 +38,12 @@ static koksma__lamp make_lamp(const koksma__light *from)
     const float bright = koksma__luminance3(l.radiance);
     switch (from->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
-        l.reach = sqrtf(l.half[0] * l.half[0] + l.half[1] * l.half[1]);
         l.power = bright * l.area / KOKSMA__PI_F;
         break;
     case KOKSMA__LIGHT_DISK:
-        l.reach = l.half[0];
         l.power = bright * l.area / KOKSMA__PI_F;
         break;
     case KOKSMA__LIGHT_SPHERE: /* seen as a disk from anywhere */
-        l.reach = l.half[0];
         l.power = bright * l.half[0] * l.half[0];
         break;
     default:
@@ -78,6 +78,24 @@ static void accumulate(koksma__lights *lights)
     lights->cdf[lights->n] = 1;
 }
 
+/* What choosing by place needs of luminaire i. */
+static void set_estimate(const koksma__lamp *l, int i, koksma__batch_lamps *to)
+{
+    const bool rectangle = l->kind == KOKSMA__LIGHT_RECTANGLE, away = l->kind >= KOKSMA__LIGHT_DIRECTIONAL;
+    to->cx[i] = l->centre[0];
+    to->cy[i] = l->centre[1];
+    to->cz[i] = l->centre[2];
+    to->nx[i] = l->normal[0];
+    to->ny[i] = l->normal[1];
+    to->nz[i] = l->normal[2];
+    to->flat[i] = rectangle || l->kind == KOKSMA__LIGHT_DISK;
+    to->reach[i] = rectangle ? hypotf(l->half[0], l->half[1]) : l->half[0];
+    to->reach[i] = to->reach[i] > 1e-6f ? to->reach[i] : 1e-6f;
+    to->power[i] = away ? 0 : l->power;
+    to->far[i] = l->kind == KOKSMA__LIGHT_DIRECTIONAL ? l->power : 0;
+    to->fixed[i] = l->kind == KOKSMA__LIGHT_ENVIRONMENT ? l->power * KOKSMA__PI_F : 0;
+}
+
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out)
 {
     const size_t n = scene->n_lights;
@@ -85,7 +103,8 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     out->lamps = calloc(n + 1, sizeof *out->lamps);
     out->rectangles = calloc(n + 1, sizeof *out->rectangles);
     out->cdf = calloc(n + 1, sizeof *out->cdf);
-    if (!out->lamps || !out->rectangles || !out->cdf) {
+    out->estimates = aligned_alloc(64, sizeof *out->estimates);
+    if (!out->lamps || !out->rectangles || !out->cdf || !out->estimates) {
         return koksma__fail_memory((n + 1) * sizeof *out->lamps);
     }
     koksma_status status = KOKSMA_OK;
@@ -105,6 +124,15 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
         }
     }
     accumulate(out);
+    memset(out->estimates, 0, sizeof *out->estimates);
+    for (int i = 0; i < KOKSMA__MAX_LAMPS; i++) {
+        out->estimates->reach[i] = 1; /* dark ones divide by it */
+    }
+    for (size_t i = 0; i < n; i++) {
+        set_estimate(&out->lamps[i], (int)i, out->estimates);
+    }
+    out->estimates->n = (int)n;
+    out->estimates->whole = (int)((n + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP);
     return status;
 }
 
@@ -114,6 +142,7 @@ void koksma__lights_fini(koksma__lights *lights)
     free(lights->lamps);
     free(lights->rectangles);
     free(lights->cdf);
+    free(lights->estimates);
     *lights = (koksma__lights){0};
 }
 
@@ -283,32 +312,4 @@ float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const flo
     default:
         return 0;
     }
-}
-
-/* ---- Choosing -------------------------------------------------------------------------------------------- */
-
-float koksma__lamp_estimate(const koksma__lamp *lamp, const float p[3], const float n[3])
-{
-    /* The cosines are those at the centre, but at least this much where any place of it is above the horizon. */
-    const float least = 0.05f;
-    float d[3];
-    if (lamp->kind == KOKSMA__LIGHT_ENVIRONMENT) {
-        return lamp->power * KOKSMA__PI_F;
-    }
-    if (lamp->kind == KOKSMA__LIGHT_DIRECTIONAL) {
-        const float cosine = -koksma__dot3(lamp->normal, n);
-        return cosine > 0 ? lamp->power * cosine : 0;
-    }
-    for (int k = 0; k < 3; k++) {
-        d[k] = lamp->centre[k] - p[k];
-    }
-    const float square = koksma__dot3(d, d), distance = sqrtf(square), up = koksma__dot3(n, d);
-    const bool flat = lamp->kind == KOKSMA__LIGHT_RECTANGLE || lamp->kind == KOKSMA__LIGHT_DISK;
-    const float down = flat ? -koksma__dot3(lamp->normal, d) : distance;
-    if (!(up + lamp->reach > 0) || !(down > 0)) {
-        return 0;
-    }
-    const float near = distance > lamp->reach ? distance : lamp->reach;
-    const float at_hit = up / near, at_light = down / near;
-    return lamp->power * (at_hit > least ? at_hit : least) * (at_light > least ? at_light : least) / (near * near);
 }

@@ -18,7 +18,6 @@ typedef struct koksma__lamp {
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2], area;
     float radiance[3];
     float power;     /* luminous, for choosing: of the whole surface, over pi */
-    float reach;     /* radius of a ball about the centre that holds it */
     int light_shape; /* id of its own surface, or -1 */
     const koksma__environment *environment;
 } koksma__lamp;
@@ -27,6 +26,7 @@ typedef struct koksma__lights {
     size_t n;
     koksma__lamp *lamps;
     float *cdf;                       /* of the powers; n + 1 numbers */
+    koksma__batch_lamps *estimates;   /* for choosing by place */
     koksma__batch_light *rectangles;  /* for direct.c; only where all are rectangles */
     koksma__environment *environment; /* or NULL */
     int environment_lamp;             /* its number, or -1 */
@@ -53,9 +53,6 @@ bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__bea
 /* The density with which sample() would choose the way w (of length 1) from p, which meets the luminaire at distance
    t. */
 float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t);
-
-/* What a surface at p facing n may get, roughly and never 0 where anything can come: for choosing one. */
-float koksma__lamp_estimate(const koksma__lamp *lamp, const float p[3], const float n[3]);
 
 /* Radiance along the way w from far away. */
 void koksma__environment_radiance(const koksma__environment *environment, const float w[3], float out[3]);

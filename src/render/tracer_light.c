@@ -16,19 +16,16 @@ typedef struct choice {
     float chance;
 } choice;
 
-static choice choose_by_estimate(const koksma__lights *lights, const float p[3], const float n[3], float u)
+static choice choose_by_estimate(const koksma__frame *frame, const float p[3], const float n[3], float u)
 {
-    float estimates[KOKSMA__MAX_LIGHTS], total = 0;
-    for (size_t l = 0; l < lights->n; l++) {
-        estimates[l] = koksma__lamp_estimate(&lights->lamps[l], p, n);
-        total += estimates[l];
-    }
+    float estimates[KOKSMA__MAX_LAMPS];
+    const koksma__batch_lamps *lamps = frame->lights.estimates;
+    const float total = frame->batch->estimate(lamps, p, n, estimates);
     choice chosen = {-1, 0};
     float rest = u * total;
-    for (size_t l = 0; l < lights->n && total > 0; l++) {
+    for (int l = 0; l < lamps->n && total > 0; l++) {
         if (estimates[l] > 0) {
-            chosen =
-                (choice){(int)l, estimates[l] / total}; /* the last one that can be, when rounding eats the rest */
+            chosen = (choice){l, estimates[l] / total}; /* the last one that can be, when rounding eats the rest */
             if (rest < estimates[l]) {
                 break;
             }
@@ -53,14 +50,14 @@ static choice choose(const koksma__frame *frame, const koksma__surface *s, float
         }
         return (choice){lamp, lights->cdf[lamp + 1] - lights->cdf[lamp]};
     default:
-        return choose_by_estimate(lights, s->p, s->n, u);
+        return choose_by_estimate(frame, s->p, s->n, u);
     }
 }
 
 float koksma__lamp_chance(const koksma__frame *frame, const float p[3], const float n[3], int lamp)
 {
     const koksma__lights *lights = &frame->lights;
-    float total = 0;
+    float estimates[KOKSMA__MAX_LAMPS], total;
     switch (frame->options->lights) {
     case KOKSMA_LIGHTS_ALL:
         return 1;
@@ -69,10 +66,8 @@ float koksma__lamp_chance(const koksma__frame *frame, const float p[3], const fl
     case KOKSMA_LIGHTS_POWER:
         return lights->cdf[lamp + 1] - lights->cdf[lamp];
     default:
-        for (size_t l = 0; l < lights->n; l++) {
-            total += koksma__lamp_estimate(&lights->lamps[l], p, n);
-        }
-        return total > 0 ? koksma__lamp_estimate(&lights->lamps[lamp], p, n) / total : 0;
+        total = frame->batch->estimate(lights->estimates, p, n, estimates);
+        return total > 0 ? estimates[lamp] / total : 0;
     }
 }
 
