@@ -79,7 +79,7 @@ static void gather(const koksma__path *paths, int n, int whole, koksma__rays *ra
 static float chance_weight(const koksma__frame *frame, const koksma__path *path, int lamp, const float w[3], float t)
 {
     if (!(path->density > 0)) {
-        return 1; /* from the eye or a mirror: no other way to see it */
+        return path->density < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
     }
     const float sampled = koksma__lamp_density(&frame->lights.lamps[lamp], path->o, w, t) *
                           koksma__lamp_chance(frame, path->o, path->n, lamp);
@@ -217,21 +217,24 @@ static koksma_status scatter(const koksma__trace *trace, const koksma__path *pat
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
 
-static void add_local(const koksma__frame *frame, const koksma__path *path, const koksma__surface *s, float *sum)
+static koksma_status add_local(const koksma__frame *frame, const koksma__path *path, const koksma__surface *s,
+                               float *sum)
 {
     float light[3] = {0, 0, 0};
+    koksma_status status = KOKSMA_OK;
     if (frame->rules->ambient) {
         for (int k = 0; k < 3; k++) {
             light[k] = (float)frame->scene->ambient[k];
         }
     }
     if (frame->rules->indirect && s->substance->lobes & KOKSMA__LOBE_DIFFUSE) {
-        frame->rules->indirect(frame, s, light);
+        status = frame->rules->indirect(frame, s, path->time, light);
     }
     for (int k = 0; k < 3; k++) {
         light[k] *= s->albedo[k];
     }
     add_scaled(path->beta, light, 1, sum);
+    return status;
 }
 
 static koksma_status trace_block(const koksma__trace *trace, const koksma__path *paths, int n, koksma__values *values)
@@ -243,7 +246,7 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
     koksma__vertices v = {.paths = paths, .hits = &hits, .n = n, .whole = whole};
     KOKSMA__LANES(int32_t, from);
     gather(paths, n, whole, &rays, from);
-    frame->geometry.closest(&frame->geometry, &rays, trace->bounce ? from : NULL, whole, &hits);
+    frame->geometry.closest(&frame->geometry, &rays, paths->from >= 0 || trace->bounce ? from : NULL, whole, &hits);
     memcpy(hits.time, rays.time, sizeof hits.time);
     values->rays += (uint64_t)n;
     for (int i = 0; i < n; i++) {
@@ -252,13 +255,16 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
         v.lit[i] = hits.primitive[i] >= 0 && hits.material[i] >= 0;
         if (v.lit[i]) {
             set_surface(frame, path, &hits, i, &v.surfaces[i]);
-            add_local(frame, path, &v.surfaces[i], sum);
+            const koksma_status status = add_local(frame, path, &v.surfaces[i], sum);
+            if (status) {
+                return status;
+            }
         } else if (hits.primitive[i] >= 0) {
             add_luminaire(frame, path, &hits, i, sum);
         } else {
             add_miss(frame, path, sum);
         }
-        if (values->albedo && !trace->bounce) {
+        if (values->albedo && trace->bounce == trace->first) {
             note_first(values, path->sample, path, &hits, i, v.lit[i] ? &v.surfaces[i] : NULL);
         }
     }
@@ -284,13 +290,11 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     }
 }
 
-/* Samples first .. end - 1 of the group, through all their bounces. */
-static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
+koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values)
 {
     koksma__tracer_room *room = trace->room;
-    room->queues[0].n = 0;
-    trace->bounce = 0;
-    koksma_status status = start_paths(trace, values, first, end);
+    koksma_status status = KOKSMA_OK;
+    trace->first = trace->bounce;
     for (int now = 0; !status && room->queues[now].n; now = 1 - now) {
         const koksma__queue *queue = &room->queues[now];
         trace->next = &room->queues[1 - now];
@@ -303,6 +307,15 @@ static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t en
         trace->bounce++;
     }
     return status;
+}
+
+/* Samples first .. end - 1 of the group, through all their bounces. */
+static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
+{
+    trace->room->queues[0].n = 0;
+    trace->bounce = 0;
+    const koksma_status status = start_paths(trace, values, first, end);
+    return status ? status : koksma__tracer_follow(trace, values);
 }
 
 static koksma_status trace_group(const koksma__frame *frame, void *opened, const koksma__group *group,

@@ -11,8 +11,9 @@
 /* A ray on its way, and what its light will count for its sample. */
 typedef struct koksma__path {
     float o[3], d[3], beta[3];
-    float n[3];    /* of the surface that it leaves */
-    float density; /* with which its way was chosen; 0: by a mirror, or from the eye */
+    float n[3]; /* of the surface that it leaves */
+    float
+        density; /* with which its way was chosen; 0: by a mirror, or from the eye; -1: it must not see luminaires */
     float time;
     int32_t from; /* the primitive that it starts on, or -1 */
     uint32_t sample;
@@ -44,7 +45,7 @@ typedef struct koksma__trace {
     koksma__tracer_room *room;
     const koksma__group *group;
     koksma__queue *next;
-    int bounce;
+    int bounce, first; /* the bounce at which paths started: 0 at the eye */
 } koksma__trace;
 
 /* A block of vertices; those that are lit have a surface. */
@@ -63,6 +64,10 @@ koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path
 
 /* The pairs of a use: pair i is sample i's. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
 koksma_status koksma__tracer_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
+
+/* Follows the paths that are in the first queue, at trace->bounce, to their ends; their light is added to the sums of
+   their samples. */
+koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values);
 
 /* Adds the light of the luminaires at the vertices to the sums of their samples. */
 koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);

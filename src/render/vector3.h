@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "warps/parts/disk_maps.h"
+
 #define KOKSMA__PI_F 3.14159265358979f
 
 static inline float koksma__dot3(const float a[3], const float b[3])
@@ -50,6 +52,20 @@ static inline void koksma__mirror3(const float w[3], const float n[3], float out
     const float twice = 2 * koksma__dot3(w, n);
     for (int k = 0; k < 3; k++) {
         out[k] = twice * n[k] - w[k];
+    }
+}
+
+/* A way about n with density cosine / pi: the concentric map of the square to the disk, lifted (Malley's method). */
+static inline void koksma__cosine_way(const float n[3], const float u[2], float w[3])
+{
+    const double square[2] = {(double)u[0], (double)u[1]};
+    double disk[3];
+    float a[3], b[3];
+    koksma__map_concentric(square, disk);
+    koksma__lift_cosine(disk);
+    koksma__frame3(n, a, b);
+    for (int k = 0; k < 3; k++) {
+        w[k] = (float)disk[0] * a[k] + (float)disk[1] * b[k] + (float)disk[2] * n[k];
     }
 }
 

@@ -160,9 +160,8 @@ static void seen_lights_give_the_same(void **state)
 /* In a closed room of albedo a and area A, a lamp of power P is absorbed by the walls: (1 - a) A times their mean
    irradiance is P, so that the mean radiance is a / (1 - a) P / (pi A). From the middle of a cube each wall fills a
    square picture evenly. Paths of every length count. */
-static void paths_of_every_length_count(void **state)
+static double closed_room(const char *integrator, int spp, double *total_error)
 {
-    (void)state;
     static const char *const sides[] = {"1, 0, 0", "-1, 0, 0", "0, 1, 0", "0, -1, 0", "0, 0, 1", "0, 0, -1"};
     double sum = 0, squares = 0;
     for (size_t i = 0; i < 6; i++) {
@@ -177,14 +176,44 @@ static void paths_of_every_length_count(void **state)
             "\"radiance\": 10}]}",
             sides[i], i / 2 == 1 ? "1, 0, 0" : "0, 1, 0");
         koksma_scene *scene = scene_of(text);
-        koksma_render_options options = options_of(scene, "random", "path", 64, 16);
+        koksma_render_options options = options_of(scene, "random", integrator, spp, 16);
         options.depth = 64;
         options.seed = i;
         sum += mean_of(scene, &options, &error);
         squares += error * error;
         koksma_scene_close(scene);
     }
-    assert_mean(sum / 6, sqrt(squares) / 6, 10 * 0.16 / 24);
+    *total_error = sqrt(squares) / 6;
+    return sum / 6;
+}
+
+static void paths_of_every_length_count(void **state)
+{
+    (void)state;
+    const double expected = 10 * 0.16 / 24;
+    double error;
+    const double paths = closed_room("path", 64, &error);
+    assert_mean(paths, error, expected);
+    /* interpolation may be a little off */
+    assert_near(closed_room("irradiance-cache", 4, &error), expected, 0.03 * expected);
+}
+
+/* Records are computed by several threads and entered in order. */
+static void cache_is_the_same_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("cornell", &scene));
+    koksma_render_options options = options_of(scene, "n-rooks", "irradiance-cache", 1, 24);
+    koksma_image one, many;
+    koksma_run run = {.threads = 1};
+    assert_ok(koksma_render(scene, &options, &run, &one));
+    run.threads = 3;
+    assert_ok(koksma_render(scene, &options, &run, &many));
+    assert_memory_equal(one.pixels, many.pixels, 24 * 24 * 3 * sizeof(float));
+    koksma_image_fini(&one);
+    koksma_image_fini(&many);
+    koksma_scene_close(scene);
 }
 
 /* ---- Choosing luminaires ------------------------------------------------------------------------------- */
@@ -228,6 +257,7 @@ int main(void)
         cmocka_unit_test(lights_are_their_form_factors),
         cmocka_unit_test(seen_lights_give_the_same),
         cmocka_unit_test(paths_of_every_length_count),
+        cmocka_unit_test(cache_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(one_light_stands_for_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

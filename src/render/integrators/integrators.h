@@ -15,10 +15,10 @@ typedef struct koksma__rules {
     bool branches; /* glass sends two rays */
     bool roulette; /* dim paths end at random */
     /* NULL, or: what is made before the picture, kept in frame->cache; and what it says of the light that diffuse
-       surfaces send to s, as irradiance / pi. */
+       surfaces send to s at a time, as irradiance / pi, added to out. */
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
     void (*close)(struct koksma__frame *frame);
-    void (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float out[3]);
+    koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
 } koksma__rules;
 
 #define INTEGRATOR(name) extern const koksma_integrator koksma__integrator_##name;

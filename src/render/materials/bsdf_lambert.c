@@ -13,7 +13,7 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
     if (!(lobes & KOKSMA__LOBE_DIFFUSE)) {
         return false;
     }
-    koksma__lambert_way(s, u, out->w);
+    koksma__cosine_way(s->n, u, out->w);
     out->density = koksma__dot3(s->n, out->w) / KOKSMA__PI_F;
     out->lobe = KOKSMA__LOBE_DIFFUSE;
     for (int k = 0; k < 3; k++) {

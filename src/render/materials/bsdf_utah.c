@@ -29,7 +29,7 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
         return false;
     }
     if (choice < share(s, lobes)) {
-        koksma__lambert_way(s, u, out->w);
+        koksma__cosine_way(s->n, u, out->w);
         out->lobe = KOKSMA__LOBE_DIFFUSE;
     } else {
         out->lobe = KOKSMA__LOBE_GLOSSY;

@@ -5,9 +5,8 @@
 
 #include "render/materials/materials.h"
 #include "render/vector3.h"
-#include "warps/parts/disk_maps.h"
 
-/* Lambert: albedo / pi; ways with density cosine / pi, by the concentric map lifted (Malley). */
+/* Lambert: albedo / pi; the density of koksma__cosine_way. */
 static inline float koksma__lambert_value(const koksma__surface *s, const float w[3], float value[3])
 {
     const float cosine = koksma__dot3(s->n, w);
@@ -18,19 +17,6 @@ static inline float koksma__lambert_value(const koksma__surface *s, const float 
         value[k] += s->albedo[k] * cosine / KOKSMA__PI_F;
     }
     return cosine / KOKSMA__PI_F;
-}
-
-static inline void koksma__lambert_way(const koksma__surface *s, const float u[2], float w[3])
-{
-    const double square[2] = {(double)u[0], (double)u[1]};
-    double disk[3];
-    float a[3], b[3];
-    koksma__map_concentric(square, disk);
-    koksma__lift_cosine(disk);
-    koksma__frame3(s->n, a, b);
-    for (int k = 0; k < 3; k++) {
-        w[k] = (float)disk[0] * a[k] + (float)disk[1] * b[k] + (float)disk[2] * s->n[k];
-    }
 }
 
 /* The cosine lobe of Shirley (1991, section 5.5.6): ways about the mirror's with density (e + 1) / (2 pi) cos^e, each

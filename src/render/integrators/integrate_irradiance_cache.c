@@ -1,0 +1,396 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * irradiance-cache: distribution ray tracing in which the light between diffuse surfaces is not the scene's ambient
+ * but interpolated from places where it was computed (Ward, Rubinstein & Clear 1988). A record is the irradiance E at
+ * a place, from RAYS paths over the hemisphere, and R, the harmonic mean of the distances that they go. It may be
+ * used at p with normal n when 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i)  <  ACCURACY, and E(p) is the mean of such
+ * records by w. R is kept between what LEAST and MOST pixels show at the place.
+ *
+ * Records are made before the picture, on ever finer grids of pixels: those places of a grid that no record covers
+ * are computed by all threads, and entered one after the other, so that threads change nothing. A place of the
+ * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation; without light
+ * that a mirror throws on a diffuse surface from a lamp.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/parallel.h"
+#include "core/status.h"
+#include "render/tracer.h"
+#include "render/vector3.h"
+
+enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 24, BUCKETS = 1 << 16, MAX_RECORDS = 1 << 22 };
+
+#define ACCURACY 0.2f
+#define LEAST 3.0f
+#define MOST 150.0f
+
+typedef struct record {
+    float p[3], n[3], light[3], reach; /* light: irradiance / pi; reach: R */
+    int32_t level, next;               /* of its bucket, or -1 */
+} record;
+
+typedef struct cache {
+    koksma__frame paths; /* the frame, with path tracing and samples of its own */
+    koksma_render_options options;
+    record *records;
+    size_t n, room;
+    float smallest; /* cell of level 0; level k has 2^k of it */
+    bool used[LEVELS];
+    int32_t buckets[BUCKETS]; /* the last record of each, or -1 */
+    float pixel;              /* size of a pixel at distance 1 */
+} cache;
+
+static const koksma__rules path_rules = {.followed =
+                                             KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
+                                         .areas = true,
+                                         .shadows = true,
+                                         .roulette = true};
+
+/* ---- Looking up ------------------------------------------------------------------------------------------- */
+
+static uint32_t bucket_of(int level, const int64_t cell[3])
+{
+    uint64_t h = (uint64_t)level;
+    for (int k = 0; k < 3; k++) {
+        h = (h ^ (uint64_t)cell[k]) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 32;
+    }
+    return (uint32_t)(h % BUCKETS);
+}
+
+static float cell_size(const cache *c, int level)
+{
+    return ldexpf(c->smallest, level);
+}
+
+static void cell_of(const float p[3], float size, int64_t cell[3])
+{
+    for (int k = 0; k < 3; k++) {
+        cell[k] = (int64_t)floorf(p[k] / size);
+    }
+}
+
+/* 1/w. */
+static float distance(const record *r, const float p[3], const float n[3])
+{
+    const float d[3] = {p[0] - r->p[0], p[1] - r->p[1], p[2] - r->p[2]};
+    const float cosine = koksma__dot3(n, r->n);
+    /* A record in front of the place sees other things (Ward's test). */
+    const float mean[3] = {n[0] + r->n[0], n[1] + r->n[1], n[2] + r->n[2]};
+    if (koksma__dot3(d, mean) < -0.1f * r->reach) {
+        return INFINITY;
+    }
+    return sqrtf(koksma__dot3(d, d)) / r->reach + sqrtf(cosine < 1 ? 1 - cosine : 0);
+}
+
+/* Adds the records of one cell that may be used. */
+static void look_in(const cache *c, int level, const int64_t cell[3], const float p[3], const float n[3],
+                    float sum[4])
+{
+    for (int32_t k = c->buckets[bucket_of(level, cell)]; k >= 0; k = c->records[k].next) {
+        const record *r = &c->records[k];
+        int64_t own[3];
+        cell_of(r->p, cell_size(c, level), own);
+        const bool here = r->level == level && !memcmp(own, cell, sizeof own); /* else another cell in the bucket */
+        const float inverse = here ? distance(r, p, n) : INFINITY;
+        if (inverse < ACCURACY) {
+            const float w = 1 / (inverse > 1e-4f ? inverse : 1e-4f);
+            sum[3] += w;
+            for (int j = 0; j < 3; j++) {
+                sum[j] += w * r->light[j];
+            }
+        }
+    }
+}
+
+/* False when no record covers the place. A cell is twice as wide as its records reach, so that those which do lie in
+   the place's own cell or in the nearer neighbour along each axis. */
+static bool look_up(const cache *c, const float p[3], const float n[3], float out[3])
+{
+    float sum[4] = {0, 0, 0, 0};
+    for (int level = 0; level < LEVELS; level++) {
+        int64_t at[3], cell[3], side[3];
+        if (!c->used[level]) {
+            continue;
+        }
+        const float size = cell_size(c, level);
+        cell_of(p, size, at);
+        for (int k = 0; k < 3; k++) {
+            side[k] = p[k] / size - (float)at[k] < 0.5f ? -1 : 1;
+        }
+        for (int i = 0; i < 8; i++) {
+            for (int k = 0; k < 3; k++) {
+                cell[k] = at[k] + (i >> k & 1 ? side[k] : 0);
+            }
+            look_in(c, level, cell, p, n, sum);
+        }
+    }
+    for (int j = 0; j < 3; j++) {
+        out[j] = sum[3] > 0 ? sum[j] / sum[3] : 0;
+    }
+    return sum[3] > 0;
+}
+
+static koksma_status enter(cache *c, const record *from)
+{
+    if (c->n == c->room) {
+        const size_t room = c->room ? 2 * c->room : 1024;
+        record *records = room <= MAX_RECORDS ? realloc(c->records, room * sizeof *records) : NULL;
+        if (!records) {
+            return koksma__fail_memory(room * sizeof *records);
+        }
+        c->records = records;
+        c->room = room;
+    }
+    record *r = &c->records[c->n];
+    int64_t cell[3];
+    *r = *from;
+    r->level = 0;
+    while (r->level < LEVELS - 1 && cell_size(c, r->level) < 2 * ACCURACY * r->reach) {
+        r->level++;
+    }
+    cell_of(r->p, cell_size(c, r->level), cell);
+    const uint32_t bucket = bucket_of(r->level, cell);
+    c->used[r->level] = true;
+    r->next = c->buckets[bucket];
+    c->buckets[bucket] = (int32_t)c->n++;
+    return KOKSMA_OK;
+}
+
+/* ---- Computing a record --------------------------------------------------------------------------------- */
+
+/* Room for the paths of one record. */
+typedef struct desk {
+    void *room;
+    koksma__values values;
+} desk;
+
+static void close_desk(desk *d)
+{
+    koksma__tracer_close(d->room);
+    free(d->values.albedo);
+    free(d->values.normal);
+    free(d->values.depth);
+}
+
+static koksma_status open_desk(const cache *c, desk *d)
+{
+    *d = (desk){.values = {.albedo = malloc(3 * RAYS * sizeof(float)),
+                           .normal = malloc(3 * RAYS * sizeof(float)),
+                           .depth = malloc(RAYS * sizeof(float))}};
+    if (!d->values.albedo || !d->values.normal || !d->values.depth) {
+        close_desk(d);
+        return koksma__fail_memory(7 * RAYS * sizeof(float));
+    }
+    const koksma_status status = koksma__tracer_open(&c->paths, RAYS, &d->room);
+    if (status) {
+        close_desk(d);
+    }
+    return status;
+}
+
+/* E / pi at (p, n) on a primitive, and R. key: of the place's random numbers. */
+static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma__surface *s, float time, record *out)
+{
+    koksma__tracer_room *room = d->room;
+    const koksma__group group = {.first = (size_t)key, .count = 1, .start = {0, RAYS}};
+    koksma__trace trace = {.frame = &c->paths, .room = room, .group = &group, .bounce = 1};
+    const float *us;
+    memset(room->sums, 0, 3 * RAYS * sizeof *room->sums);
+    for (size_t i = 0; i < room->n_drawn; i++) {
+        room->drawn[i].done = false;
+    }
+    room->queues[0].n = 0;
+    koksma_status status = koksma__tracer_draw(&trace, KOKSMA__USE_LOBE, &us);
+    for (uint32_t i = 0; !status && i < RAYS; i++) {
+        koksma__path path = {.beta = {1, 1, 1}, .density = -1, .time = time, .from = s->primitive, .sample = i};
+        memcpy(path.o, s->p, sizeof path.o);
+        memcpy(path.n, s->n, sizeof path.n);
+        koksma__cosine_way(s->n, us + 2 * i, path.d);
+        status = koksma__tracer_push(&room->queues[0], &path);
+    }
+    status = status ? status : koksma__tracer_follow(&trace, &d->values);
+    double sums[3] = {0, 0, 0}, inverse = 0;
+    for (size_t i = 0; !status && i < RAYS; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            sums[k] += (double)room->sums[3 * i + k];
+        }
+        inverse += d->values.depth[i] > 0 ? 1 / (double)d->values.depth[i] : 0;
+    }
+    *out = (record){.reach = inverse > 0 ? (float)(RAYS / inverse) : INFINITY};
+    memcpy(out->p, s->p, sizeof out->p);
+    memcpy(out->n, s->n, sizeof out->n);
+    for (int k = 0; k < 3; k++) {
+        out->light[k] = (float)(sums[k] / RAYS);
+    }
+    return status;
+}
+
+static koksma_status indirect(const koksma__frame *frame, const koksma__surface *s, float time, float out[3])
+{
+    const cache *c = frame->cache;
+    float light[3];
+    koksma_status status = KOKSMA_OK;
+    if (!look_up(c, s->p, s->n, light)) {
+        desk d;
+        record r;
+        uint32_t bits[4];
+        memcpy(bits, s->p, sizeof s->p);
+        memcpy(bits + 3, &s->n[1], sizeof *bits);
+        status = open_desk(c, &d);
+        if (status) {
+            return status;
+        }
+        status = compute(c, &d, koksma__hash(bits, sizeof bits), s, time, &r);
+        memcpy(light, r.light, sizeof light);
+        close_desk(&d);
+    }
+    for (int k = 0; k < 3; k++) {
+        out[k] += light[k];
+    }
+    return status;
+}
+
+/* ---- Before the picture --------------------------------------------------------------------------------- */
+
+typedef struct grid {
+    cache *cache;
+    int step, columns, rows;
+    record *found; /* a row of the grid a task; reach 0: nothing to enter */
+    float time;
+} grid;
+
+/* The diffuse place behind a pixel's middle, through a pinhole; false for none. */
+static bool look(const cache *c, int x, int y, float time, koksma__surface *s, float *far)
+{
+    const koksma__frame *f = &c->paths;
+    koksma__rays rays;
+    koksma__hits hits;
+    const float film[2 * KOKSMA__LANE_STEP] = {(float)x + 0.5f, (float)y + 0.5f};
+    f->batch->camera(&f->camera, film, KOKSMA__LANE_STEP, &rays);
+    for (int i = 0; i < KOKSMA__LANE_STEP; i++) {
+        rays.time[i] = time;
+    }
+    f->geometry.closest(&f->geometry, &rays, NULL, KOKSMA__LANE_STEP, &hits);
+    if (hits.primitive[0] < 0 || hits.material[0] < 0) {
+        return false;
+    }
+    *s = (koksma__surface){.substance = &f->substances[hits.material[0]],
+                           .p = {hits.px[0], hits.py[0], hits.pz[0]},
+                           .n = {hits.nx[0], hits.ny[0], hits.nz[0]},
+                           .primitive = hits.primitive[0]};
+    *far = hits.t[0];
+    return (s->substance->lobes & KOKSMA__LOBE_DIFFUSE) != 0;
+}
+
+static koksma_status compute_row(void *context, size_t row)
+{
+    const grid *g = context;
+    cache *c = g->cache;
+    desk d;
+    koksma_status status = open_desk(c, &d);
+    if (status) {
+        return status;
+    }
+    for (int column = 0; !status && column < g->columns; column++) {
+        record *r = &g->found[row * (size_t)g->columns + (size_t)column];
+        const int x = column * g->step, y = (int)row * g->step;
+        koksma__surface s;
+        float far, light[3];
+        if (look(c, x, y, g->time, &s, &far) && !look_up(c, s.p, s.n, light)) {
+            const uint64_t key = (uint64_t)y * (uint64_t)c->options.width + (uint64_t)x;
+            status = compute(c, &d, key, &s, g->time, r);
+            const float pixel = far * c->pixel;
+            r->reach = fminf(fmaxf(r->reach, LEAST * pixel / ACCURACY), MOST * pixel / ACCURACY);
+        }
+    }
+    close_desk(&d);
+    return status;
+}
+
+static koksma_status fill_grid(cache *c, int step, float time, const koksma_run *run)
+{
+    const int width = c->options.width, height = c->options.height;
+    grid g = {.cache = c,
+              .step = step,
+              .columns = (width + step - 1) / step,
+              .rows = (height + step - 1) / step,
+              .time = time};
+    const size_t n = (size_t)g.columns * (size_t)g.rows;
+    g.found = calloc(n, sizeof *g.found);
+    if (!g.found) {
+        return koksma__fail_memory(n * sizeof *g.found);
+    }
+    koksma_status status = koksma__parallel(run, (size_t)g.rows, compute_row, &g);
+    for (size_t i = 0; !status && i < n; i++) {
+        float light[3];
+        if (g.found[i].reach > 0 && !look_up(c, g.found[i].p, g.found[i].n, light)) {
+            status = enter(c, &g.found[i]);
+        }
+    }
+    free(g.found);
+    return status;
+}
+
+static void close_cache(koksma__frame *frame)
+{
+    cache *c = frame->cache;
+    if (c) {
+        if (c->paths.sampler.release) {
+            c->paths.sampler.release(&c->paths.sampler);
+        }
+        free(c->records);
+        free(c);
+    }
+    frame->cache = NULL;
+}
+
+static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
+{
+    cache *c = calloc(1, sizeof *c);
+    if (!c) {
+        return koksma__fail_memory(sizeof *c);
+    }
+    frame->cache = c;
+    c->paths = *frame;
+    c->paths.cache = NULL;
+    c->paths.rules = &path_rules;
+    c->paths.sampler = (koksma__sampler){0};
+    c->options = *frame->options;
+    c->paths.options = &c->options;
+    memset(c->options.patterns, 0, sizeof c->options.patterns);
+    c->options.spp = RAYS;
+    c->options.pairing = KOKSMA_PAIRING_SHUFFLED;
+    c->pixel = (float)(2 * tan(frame->scene->camera.fov_rad / 2) / c->options.height);
+    c->smallest = c->pixel * LEAST * 0.01f;
+    memset(c->buckets, -1, sizeof c->buckets);
+    const koksma__use_list uses = {.lights = c->options.lights == KOKSMA_LIGHTS_ALL ? (int)frame->lights.n : 1,
+                                   .light_choice = c->options.lights != KOKSMA_LIGHTS_ALL,
+                                   .vertices = frame->depth + 1};
+    koksma_status status = koksma_pattern_spec("sobol:scramble=owen", &c->options.pattern);
+    status = status ? status : koksma__pixel_samples(&c->options, &uses, &c->paths.sampler);
+    const double *shutter = frame->scene->camera.shutter;
+    const float time = (float)(0.5 * (shutter[0] + shutter[1]));
+    for (int step = COARSEST; !status && step >= FINEST; step /= 2) {
+        status = fill_grid(c, step, time, run);
+    }
+    return status;
+}
+
+static const koksma__rules rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
+                                    .areas = true,
+                                    .shadows = true,
+                                    .open = open_cache,
+                                    .close = close_cache,
+                                    .indirect = indirect};
+
+const koksma_integrator koksma__integrator_irradiance_cache = {
+    .name = "irradiance-cache",
+    .title = "diffuse light between surfaces, interpolated",
+    .cite = "ward1988",
+    .depth = 6,
+    .rules = &rules,
+};
