@@ -16,3 +16,12 @@ add_library(openexr-core INTERFACE)
 target_include_directories(openexr-core SYSTEM INTERFACE ${OPENEXR_INCLUDE_DIRS})
 target_link_libraries(openexr-core INTERFACE ${OPENEXR_CORE_LIBRARY})
 set(OPENEXR_CORE openexr-core)
+
+# The same as link options, for who links the static libkoksma-lab through pkg-config.
+foreach(name ${PNG_LIBRARIES} ${JANSSON_LIBRARIES} ${CAIRO_LIBRARIES} ${SQLITE_LIBRARIES})
+  list(APPEND KOKSMA_LAB_LINKS -l${name})
+endforeach()
+get_filename_component(openexr_name ${OPENEXR_CORE_LIBRARY} NAME_WE)
+string(REGEX REPLACE "^lib" "-l" openexr_name ${openexr_name})
+list(APPEND KOKSMA_LAB_LINKS ${openexr_name})
+list(REMOVE_DUPLICATES KOKSMA_LAB_LINKS)

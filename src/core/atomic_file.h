@@ -7,6 +7,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 typedef struct koksma__atomic_file {
     FILE *stream;
     char *path, *temporary; /* NULL for standard output */
@@ -14,9 +16,9 @@ typedef struct koksma__atomic_file {
 
 /* Opens the temporary file for writing; "-" is standard output. temporary may be handed to a library that wants
    a name; it then overwrites what the open made. */
-koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file);
+KOKSMA__LAB koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file);
 
 /* With keep: flushes, syncs and renames; without, or when that fails: removes the temporary. Releases all. */
-koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
+KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
 
 #endif

@@ -8,12 +8,15 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 typedef koksma_status (*koksma__block_function)(void *context, size_t block);
 
 /* Runs f(context, 0) .. f(context, n_blocks-1), in any order, on run->threads threads (the caller's is one of
    them). Asks run->keep_going between blocks; stops early on the first failure, whose text it hands on.
    run may be NULL. */
-koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f, void *context);
+KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f,
+                                           void *context);
 
 /* The number of threads that run asks for. */
 int koksma__threads(const koksma_run *run);

@@ -10,6 +10,8 @@
 #include <Random123/philox.h>
 #include <stdint.h>
 
+#include "core/visibility.h"
+
 /* What a random number is used for. Numbers with different purposes are independent.
    Add at the end only: the bits of every pattern depend on these. */
 typedef enum koksma__purpose {
@@ -64,6 +66,6 @@ static inline uint32_t koksma__below(uint32_t word, uint32_t n)
 }
 
 /* Fills permutation with a random order of 0 .. n-1, n < 2^32 (Fisher-Yates; Durstenfeld 1964). */
-void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
+KOKSMA__LAB void koksma__random_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
 
 #endif

@@ -4,8 +4,10 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* A whole file in memory, with a 0 behind its end; the caller frees *bytes. "-" is standard input.
    Errors: MISSING (absent, unreadable, a directory), MALFORMED (more than max bytes), MEMORY. */
-koksma_status koksma__read_file(const char *path, size_t max, unsigned char **bytes, size_t *size);
+KOKSMA__LAB koksma_status koksma__read_file(const char *path, size_t max, unsigned char **bytes, size_t *size);
 
 #endif

@@ -4,15 +4,17 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* Keeps the text for koksma_error_text() and returns status, so that a failing function ends with
    `return koksma__fail(KOKSMA_N, "jittered: …", …);`. The text is one line; control characters in it (a file's
    name may hold any) are shown as '?'. */
-koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
+KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* malloc's and realloc's failure, said in one place. */
-koksma_status koksma__fail_memory(size_t bytes);
+KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
-koksma_status koksma__fail_in(koksma_status status, const char *name);
+KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 
 #endif

@@ -4,6 +4,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 typedef struct koksma__kernel_table {
     const char *isa; /* "ref", "baseline", "avx2", "avx512" */
 #define KERNEL(result, name, arguments) result(*name) arguments;
@@ -13,10 +15,10 @@ typedef struct koksma__kernel_table {
 
 /* The fastest table that this machine runs; the reference twins with KOKSMA_KERNELS=ref in the environment, and
    another table by its name. Chosen once. */
-const koksma__kernel_table *koksma__kernels(void);
+KOKSMA__LAB const koksma__kernel_table *koksma__kernels(void);
 
 /* A table by its name; NULL if this build or machine has none. For tests and benchmarks. */
-const koksma__kernel_table *koksma__kernels_find(const char *isa);
+KOKSMA__LAB const koksma__kernel_table *koksma__kernels_find(const char *isa);
 
 /* In a kernel's source file, KERNEL_NAME(uniform) is the symbol for the instruction set being compiled. */
 #define KOKSMA__JOIN3(a, b, c) a##b##_##c

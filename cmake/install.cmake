@@ -1,0 +1,29 @@
+# What `cmake --install` puts where: a tree that can be moved, found through pkg-config or find_package(koksma).
+include(CMakePackageConfigHelpers)
+
+set_target_properties(koksma-shared PROPERTIES EXPORT_NAME koksma)
+set_target_properties(koksma-lab-shared PROPERTIES EXPORT_NAME lab)
+set_target_properties(koksma PROPERTIES EXPORT_NAME koksma-static)
+install(TARGETS koksma-program koksma-lab)
+install(TARGETS koksma-shared koksma-lab-shared koksma EXPORT koksma-targets)
+install(DIRECTORY include/koksma DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(KOKSMA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/koksma)
+install(EXPORT koksma-targets NAMESPACE koksma:: DESTINATION ${KOKSMA_PACKAGE_DIR})
+configure_package_config_file(cmake/koksma-config.cmake.in ${CMAKE_BINARY_DIR}/koksma-config.cmake
+                              INSTALL_DESTINATION ${KOKSMA_PACKAGE_DIR})
+# Before 1.0 a minor version may break programs, so that find_package(koksma 0.1) takes 0.1.x only.
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/koksma-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/koksma-config.cmake ${CMAKE_BINARY_DIR}/koksma-config-version.cmake
+        DESTINATION ${KOKSMA_PACKAGE_DIR})
+
+# pkg-config: paths from where the file lies.
+set(KOKSMA_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH KOKSMA_PC_PREFIX /${KOKSMA_PC_DIR} /)
+string(REGEX REPLACE "/$" "" KOKSMA_PC_PREFIX "${KOKSMA_PC_PREFIX}")
+list(JOIN KOKSMA_LAB_LINKS " " KOKSMA_LAB_LINKS)
+foreach(package koksma koksma-lab)
+  configure_file(cmake/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
+endforeach()
