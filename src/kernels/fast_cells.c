@@ -7,9 +7,19 @@
 #include "kernels/lanes64.h"
 
 void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs);
-void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs);
+void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
+                           double *xs);
 
 enum { POINTS = LANES64 / 2 };
+
+/* The words that lie at an even and at an odd place, from lanes of two. */
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#define LOW_WORD(lanes) ((lanes)&0xffffffffu)
+#define HIGH_WORD(lanes) ((lanes) >> 32)
+#else
+#define LOW_WORD(lanes) ((lanes) >> 32)
+#define HIGH_WORD(lanes) ((lanes)&0xffffffffu)
+#endif
 
 /* Numbers of cells along x and y; the lanes alternate. exact: both are powers of two. */
 typedef struct grid {
@@ -79,32 +89,46 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
     }
 }
 
-static inline __attribute__((always_inline)) void place_rooks(const grid *g, bool exact, const uint32_t *rows,
-                                                              size_t n, double *xs)
+typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
+
+/* cell + word 2^-32, exact for cells below 2^20: as a whole number in the mantissa of 2^52, less 2^52. */
+static inline lanes64_d place(lanes64_u cell, lanes64_u word)
 {
-    size_t i = 0;
-    for (; i + POINTS <= n; i += POINTS, xs += LANES64) {
-        lanes64_d u, cells;
-        for (int l = 0; l < LANES64; l += 2) {
-            cells[l] = (double)(int64_t)(i + (size_t)l / 2);
-            cells[l + 1] = (double)(int64_t)rows[i + (size_t)l / 2];
-        }
-        memcpy(&u, xs, sizeof u);
-        u = in_cells(g, cells, u, exact);
-        memcpy(xs, &u, sizeof u);
-    }
-    for (; i < n; i++, xs += 2) {
-        xs[0] = in_cell(g, 0, (double)i, xs[0]);
-        xs[1] = in_cell(g, 1, (double)rows[i], xs[1]);
-    }
+    const lanes64_u exponent = 0x4330000000000000u - (lanes64_u){0};
+    return ((lanes64_d)(cell << 32 | word | exponent) - 0x1p52) * 0x1p-32;
 }
 
-void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs)
+/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
+ * it. */
+static inline __attribute__((always_inline)) size_t
+place_rooks(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, double n, bool exact, double *xs)
 {
+    const lanes64_d whole = n - (lanes64_d){0}, inverse = 1 / whole;
+    lanes64_u column = lanes64_count() + (uint64_t)first;
+    size_t i = 0;
+    for (; i + LANES64 <= count; i += LANES64, column += LANES64) {
+        half_lanes row;
+        lanes64_u word;
+        memcpy(&row, rows + i, sizeof row);
+        memcpy(&word, words + 2 * i, sizeof word);
+        const lanes64_d x = place(column, LOW_WORD(word));
+        const lanes64_d y = place(__builtin_convertvector(row, lanes64_u), HIGH_WORD(word));
+        lanes64_interleave(exact ? x * inverse : x / whole, exact ? y * inverse : y / whole, xs + 2 * i);
+    }
+    return i;
+}
+
+void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
+                           double *xs)
+{
+    size_t i = 0;
+    if (n <= (size_t)1 << 20) {
+        i = (n & (n - 1)) == 0 ? place_rooks(words, rows, first, count, (double)n, true, xs)
+                               : place_rooks(words, rows, first, count, (double)n, false, xs);
+    }
     const grid g = make_grid(n, n);
-    if (g.exact) {
-        place_rooks(&g, true, rows, n, xs);
-    } else {
-        place_rooks(&g, false, rows, n, xs);
+    for (; i < count; i++) {
+        xs[2 * i] = in_cell(&g, 0, (double)(first + i), words[2 * i] * 0x1p-32);
+        xs[2 * i + 1] = in_cell(&g, 1, (double)rows[i], words[2 * i + 1] * 0x1p-32);
     }
 }

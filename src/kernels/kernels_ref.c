@@ -204,11 +204,12 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
     }
 }
 
-void KERNEL_NAME(rooks_2d)(const uint32_t *rows, size_t n, double *xs)
+void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
+                           double *xs)
 {
-    for (size_t i = 0; i < n; i++) {
-        xs[2 * i] = in_cell((double)i, xs[2 * i], (double)n);
-        xs[2 * i + 1] = in_cell((double)rows[i], xs[2 * i + 1], (double)n);
+    for (size_t i = 0; i < count; i++) {
+        xs[2 * i] = in_cell((double)(first + i), ldexp(words[2 * i], -32), (double)n);
+        xs[2 * i + 1] = in_cell((double)rows[i], ldexp(words[2 * i + 1], -32), (double)n);
     }
 }
 

@@ -12,6 +12,7 @@
  */
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -19,23 +20,41 @@
 #include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
 
-static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+enum { FEW = 256, GROUP = 1 << 15 };
+
+/* In 2D u has 32 bits: two points for one draw of 128. */
+typedef struct plane {
+    uint64_t seed;
+    const uint32_t *rows;
+    koksma_points *out;
+} plane;
+
+static koksma_status place(void *context, size_t group)
+{
+    const plane *p = context;
+    const koksma__kernel_table *kernels = koksma__kernels();
+    const size_t n = p->out->n, end = n - group * GROUP < GROUP ? n : (group + 1) * GROUP;
+    uint32_t words[2 * FEW + 2];
+    for (size_t first = group * GROUP; first < end; first += FEW) {
+        const size_t count = end - first < FEW ? end - first : FEW;
+        kernels->words(p->seed, KOKSMA__PURPOSE_POINT, first / 2, 0, (count + 1) / 2, words);
+        kernels->rooks_2d(words, p->rows + first, first, count, n, p->out->xs + 2 * first);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status fill_plane(uint64_t seed, const koksma_run *run, uint32_t *rows, koksma_points *out)
+{
+    plane p = {seed, rows, out};
+    koksma__fill_permutation(seed, 1, (uint32_t)out->n, rows);
+    return out->n <= GROUP ? place(&p, 0) : koksma__parallel(run, (out->n + GROUP - 1) / GROUP, place, &p);
+}
+
+static koksma_status fill_space(uint64_t seed, const koksma_run *run, uint32_t *permutation, koksma_points *out)
 {
     const size_t n = out->n, dim = (size_t)out->dim;
-    koksma_status status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, n * dim, out->xs);
-    if (status) {
-        return status;
-    }
-    uint32_t few[256];
-    uint32_t *permutation = n <= 256 ? few : malloc(n * sizeof *permutation);
-    if (!permutation) {
-        return koksma__fail_memory(n * sizeof *permutation);
-    }
-    if (dim == 2) {
-        koksma__fill_permutation(seed, 1, (uint32_t)n, permutation);
-        koksma__kernels()->rooks_2d(permutation, n, out->xs);
-    }
-    for (size_t k = 0; dim != 2 && k < dim; k++) {
+    const koksma_status status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, run, n * dim, out->xs);
+    for (size_t k = 0; !status && k < dim; k++) {
         if (k) {
             koksma__fill_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
         }
@@ -44,10 +63,21 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             *x = koksma__in_cell((double)(k ? permutation[i] : i), *x, (double)n);
         }
     }
+    return status;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    uint32_t few[FEW], *permutation = out->n <= FEW ? few : malloc(out->n * sizeof *permutation);
+    if (!permutation) {
+        return koksma__fail_memory(out->n * sizeof *permutation);
+    }
+    const koksma_status status =
+        out->dim == 2 ? fill_plane(seed, args->run, permutation, out) : fill_space(seed, args->run, permutation, out);
     if (permutation != few) {
         free(permutation);
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 const koksma_pattern koksma__pattern_n_rooks = {

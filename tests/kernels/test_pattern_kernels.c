@@ -110,6 +110,18 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
+static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const size_t sides[] = {(size_t)1 << 20, ((size_t)1 << 20) - 1, 1000003, 300, 2000000};
+    uint32_t rows[MAX];
+    for (size_t s = 0; s < sizeof sides / sizeof *sides; s++) {
+        for (size_t i = 0; i < count; i++) {
+            rows[i] = (uint32_t)((words[i] * (uint64_t)sides[s]) >> 32);
+        }
+        t->rooks_2d(words, rows, sides[s] - count, count, sides[s], (double *)out + 240 * s);
+    }
+}
+
 #define TEST(name, most)                                                                                             \
     static void name##_equals_reference(void **state)                                                                \
     {                                                                                                                \
@@ -128,6 +140,7 @@ TEST(pascal, MAX)
 TEST(grow, MAX)
 TEST(near, 250)
 TEST(nearest_offset, MAX)
+TEST(rooks_2d, 120)
 
 int main(void)
 {
@@ -137,7 +150,7 @@ int main(void)
         cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_at_equals_reference),
         cmocka_unit_test(owen_hash_equals_reference),      cmocka_unit_test(pascal_equals_reference),
         cmocka_unit_test(grow_equals_reference),           cmocka_unit_test(near_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(rooks_2d_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

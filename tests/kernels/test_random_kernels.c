@@ -67,27 +67,6 @@ static void cells_equal_reference(void **state)
     }
 }
 
-static void rooks_equal_reference(void **state)
-{
-    (void)state;
-    for (size_t isa = 0; isa < 3; isa++) {
-        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
-        for (size_t n = 1; fast && n <= MAX; n += 1 + n / 7) {
-            double a[2 * MAX], b[2 * MAX];
-            uint32_t rows[MAX];
-            for (size_t i = 0; i < n; i++) {
-                rows[i] = (uint32_t)(n - 1 - i);
-            }
-            koksma__kernels_find("ref")->uniform(n, 3, 0, 0, n, a);
-            a[0] = 1 - 0x1p-53;
-            memcpy(b, a, sizeof b);
-            koksma__kernels_find("ref")->rooks_2d(rows, n, a);
-            fast->rooks_2d(rows, n, b);
-            assert_memory_equal(a, b, 2 * n * sizeof *a);
-        }
-    }
-}
-
 /* Random123's known-answer vector for philox4x32-10 with counter and key of all ones. */
 static void philox_known_answer(void **state)
 {
@@ -100,8 +79,9 @@ static void philox_known_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_equals_reference), cmocka_unit_test(words_equal_reference),
-        cmocka_unit_test(cells_equal_reference),    cmocka_unit_test(rooks_equal_reference),
+        cmocka_unit_test(uniform_equals_reference),
+        cmocka_unit_test(words_equal_reference),
+        cmocka_unit_test(cells_equal_reference),
         cmocka_unit_test(philox_known_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
