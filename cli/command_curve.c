@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <koksma/spectrum.h>
+#include <koksma/image.h>
 
-#include "cli.h"
-#include "source.h"
+#include "curves.h"
 
 typedef struct curve_job {
-    const cli_arguments *arguments;
-    uint64_t seed, trials, half, bins;
-    double r_max;
-    koksma_spectrum_method method;
-    cli_work work;
+    cli_curves curves;
+    const char *output; /* a file for the power, or NULL */
     cli_rows *rows;
 } curve_job;
 
@@ -24,8 +19,52 @@ static void put_head(const curve_job *j, const char *source, const char *curve)
     cli_row_text(j->rows, "curve", curve);
 }
 
-static void put_power(const curve_job *j, const char *source, const koksma_spectrum *s)
+/* The grid as an image, ky = half on top. */
+static koksma_status write_image(const char *path, const koksma_spectrum *s)
 {
+    const int side = 2 * s->half + 1;
+    koksma_image image;
+    koksma_status status = koksma_image_init(&image, side, side, 1);
+    for (int row = 0; row < side && !status; row++) {
+        for (int column = 0; column < side; column++) {
+            image.pixels[(size_t)row * (size_t)side + (size_t)column] =
+                (float)koksma_spectrum_power(s, column - s->half, s->half - row);
+        }
+    }
+    if (!status) {
+        status = koksma_image_write(path, &image, NULL);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+/* The grid as numbers: rows from ky = -half to half, of kx = -half to half. */
+static koksma_status write_numbers(const char *path, const koksma_spectrum *s)
+{
+    const int side = 2 * s->half + 1;
+    koksma_points grid;
+    koksma_status status = koksma_points_init(&grid, (size_t)side, side);
+    for (int row = 0; row < side && !status; row++) {
+        for (int column = 0; column < side; column++) {
+            grid.xs[(size_t)row * (size_t)side + (size_t)column] =
+                koksma_spectrum_power(s, column - s->half, row - s->half);
+        }
+    }
+    if (!status) {
+        status = koksma_points_write(path, &grid, "power, rows of ky from below, columns of kx");
+        koksma_points_fini(&grid);
+    }
+    return status;
+}
+
+static int put_power(const curve_job *j, const char *source, const koksma_spectrum *s)
+{
+    if (j->output) {
+        const char *dot = strrchr(j->output, '.');
+        const bool image = dot && (!strcmp(dot, ".exr") || !strcmp(dot, ".png") || !strcmp(dot, ".pfm"));
+        const koksma_status status = (image ? write_image : write_numbers)(j->output, s);
+        return status ? cli_fail(j->curves.arguments, status) : CLI_YES;
+    }
     for (int ky = 0; ky <= s->half; ky++) {
         for (int kx = -s->half; kx <= s->half; kx++) {
             put_head(j, source, "power");
@@ -35,16 +74,17 @@ static void put_power(const curve_job *j, const char *source, const koksma_spect
             cli_row_end(j->rows);
         }
     }
+    return CLI_YES;
 }
 
-static void put_rings(const curve_job *j, const char *source, const koksma_spectrum *s)
+static int put_rings(const curve_job *j, const char *source, const koksma_spectrum *s)
 {
     koksma_ring *rings = malloc((size_t)s->half * sizeof *rings);
     if (!rings) {
-        return;
+        return koksma_status_exit_code(KOKSMA_MEMORY);
     }
-    koksma_spectrum_rings(s, rings);
-    for (int r = 0; r < s->half; r++) {
+    const koksma_status status = koksma_spectrum_rings(s, rings);
+    for (int r = 0; r < s->half && !status; r++) {
         put_head(j, source, "rings");
         cli_row_number(j->rows, "frequency", rings[r].frequency);
         cli_row_number(j->rows, "value", rings[r].power);
@@ -53,119 +93,90 @@ static void put_rings(const curve_job *j, const char *source, const koksma_spect
         cli_row_end(j->rows);
     }
     free(rings);
+    return status ? cli_fail(j->curves.arguments, status) : CLI_YES;
 }
 
-static void put_quality(const curve_job *j, const char *source, const koksma_spectrum *s)
+static int put_quality(const curve_job *j, const char *source, const koksma_spectrum *s)
 {
-    double nyquist, oscillation;
-    koksma_spectrum_quality(s, &nyquist, &oscillation);
+    koksma_spectrum_quality_values q;
+    koksma_spectrum_quality(s, &q);
     put_head(j, source, "quality");
-    cli_row_number(j->rows, "effective_nyquist", nyquist);
-    cli_row_number(j->rows, "relative_to_sqrt_n", nyquist / sqrt(s->points));
-    cli_row_number(j->rows, "oscillation", oscillation);
+    cli_row_number(j->rows, "effective_nyquist", q.effective_nyquist);
+    cli_row_number(j->rows, "relative_nyquist", q.relative_nyquist);
+    cli_row_number(j->rows, "oscillation", q.oscillation);
     cli_row_end(j->rows);
+    return CLI_YES;
 }
 
-/* half = 0: twice the square root of n each way. */
-static koksma_status add_spectrum(curve_job *j, koksma_spectrum *s, const koksma_points *points)
+static void put_pairs(const curve_job *j, const char *source, const koksma_tally *tallies, double r_max)
 {
-    koksma_status status = KOKSMA_OK;
-    if (!s->power) {
-        const double wish = ceil(2 * sqrt((double)points->n));
-        status = koksma_spectrum_init(s, j->half ? (int)j->half : wish < 2048 ? (int)wish : 2048);
-    }
-    return status ? status : koksma_spectrum_add(s, points, j->method, &j->work.run);
-}
-
-static void put_pairs(const curve_job *j, const char *source, const double *sums, uint64_t sets)
-{
-    for (uint64_t b = 0; b < j->bins; b++) {
-        const double mean = sums[b] / (double)sets, variance = sums[j->bins + b] / (double)sets - mean * mean;
+    for (uint64_t b = 0; b < j->curves.bins; b++) {
         put_head(j, source, "pairs");
-        cli_row_number(j->rows, "distance", ((double)b + 0.5) * j->r_max / (double)j->bins);
-        cli_row_number(j->rows, "value", mean);
-        cli_row_number(j->rows, "standard_error",
-                       sets > 1 ? sqrt(fmax(variance, 0) / ((double)sets - 1)) : (double)NAN);
+        cli_row_number(j->rows, "distance", ((double)b + 0.5) * r_max / (double)j->curves.bins);
+        cli_row_number(j->rows, "value", tallies[b].mean);
+        cli_row_number(j->rows, "standard_error", koksma_tally_error(&tallies[b]));
         cli_row_end(j->rows);
     }
 }
 
-static koksma_status add_pairs(const curve_job *j, const koksma_points *points, double *sums)
+static int pairs_of(curve_job *j, const char *source)
 {
-    double *values = sums + 2 * j->bins;
-    const koksma_status status = koksma_pair_correlation(points, j->r_max, j->bins, values);
-    for (uint64_t b = 0; b < j->bins && !status; b++) {
-        sums[b] += values[b];
-        sums[j->bins + b] += values[b] * values[b];
+    double r_max;
+    koksma_tally *tallies = calloc(j->curves.bins, sizeof *tallies);
+    const int code =
+        tallies ? cli_curves_pairs(&j->curves, source, tallies, &r_max) : koksma_status_exit_code(KOKSMA_MEMORY);
+    if (tallies && tallies[0].count > 0) {
+        put_pairs(j, source, tallies, r_max);
     }
-    return status;
+    free(tallies);
+    return code;
 }
 
-static int curve_of(curve_job *j, const char *kind, const char *source)
+static int spectrum_of(curve_job *j, const char *kind, const char *source)
 {
-    const bool pairs = !strcmp(kind, "pairs");
-    koksma_spectrum spectrum = {0};
-    double *sums = calloc(3 * j->bins, sizeof *sums);
-    int code = sums ? CLI_YES : 4;
-    uint64_t sets = 0;
-    while (sets < j->trials && !code) {
-        koksma_points points;
-        code = cli_source_points(j->arguments, source, j->seed + sets, &j->work.run, &points);
-        if (!code) {
-            const koksma_status status = cli_interrupted() ? KOKSMA_INTERRUPTED
-                                         : pairs           ? add_pairs(j, &points, sums)
-                                                           : add_spectrum(j, &spectrum, &points);
-            cli_work_end(&j->work);
-            code = status ? cli_fail(j->arguments, status) : CLI_YES;
-            sets += !status;
-        }
-        koksma_points_fini(&points);
-    }
-    if (sets > 0 && pairs) {
-        put_pairs(j, source, sums, sets);
-    } else if (sets > 0) {
-        (!strcmp(kind, "power") ? put_power : !strcmp(kind, "rings") ? put_rings : put_quality)(j, source, &spectrum);
+    koksma_spectrum spectrum;
+    int code = cli_curves_spectrum(&j->curves, source, !strcmp(kind, "quality") ? 7 : 2, &spectrum);
+    if (spectrum.sets > 0) {
+        const int put = (!strcmp(kind, "power")   ? put_power
+                         : !strcmp(kind, "rings") ? put_rings
+                                                  : put_quality)(j, source, &spectrum);
+        code = code ? code : put;
     }
     koksma_spectrum_fini(&spectrum);
-    free(sums);
     return code;
 }
 
 static int run(const cli_arguments *arguments)
 {
     static const char *const kinds[] = {"power", "rings", "quality", "pairs"};
-    curve_job j = {.arguments = arguments};
+    const char *kind = arguments->n_operands > 0 ? arguments->operands[0] : "";
+    curve_job j = {.output = cli_text(arguments, "output", NULL)};
     bool known = false;
-    for (size_t k = 0; k < 4 && arguments->n_operands > 0; k++) {
-        known = known || !strcmp(arguments->operands[0], kinds[k]);
+    for (size_t k = 0; k < 4; k++) {
+        known = known || !strcmp(kind, kinds[k]);
     }
     if (!known || arguments->n_operands < 2) {
         return cli_usage_error(arguments, "it takes one of power, rings, quality, pairs, and points");
     }
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
-        !cli_whole(arguments, "trials", 1, 1, 1000000000, &j.trials) ||
-        !cli_whole(arguments, "half", 0, 1, KOKSMA_SPECTRUM_MAX_HALF, &j.half) ||
-        !cli_whole(arguments, "bins", 100, 1, 1000000, &j.bins) ||
-        !cli_real(arguments, "r-max", 0.1, 1e-6, 0.5, &j.r_max) || !cli_work_begin(arguments, "spectrum", &j.work)) {
+    if (j.output && (strcmp(kind, "power") != 0 || arguments->n_operands > 2)) {
+        return cli_usage_error(arguments, "--output: it takes power of one source");
+    }
+    if (!cli_curves_begin(arguments, &j.curves)) {
         return CLI_USAGE;
     }
-    j.method = cli_flag(arguments, "exact") ? KOKSMA_SPECTRUM_EXACT : KOKSMA_SPECTRUM_FAST;
     j.rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = j.rows ? CLI_YES : 4;
+    int code = j.rows ? CLI_YES : koksma_status_exit_code(KOKSMA_MEMORY);
     for (int i = 1; i < arguments->n_operands && !code; i++) {
-        code = curve_of(&j, arguments->operands[0], arguments->operands[i]);
+        const char *source = arguments->operands[i];
+        code = !strcmp(kind, "pairs") ? pairs_of(&j, source) : spectrum_of(&j, kind, source);
     }
     const int rows_code = cli_rows_close(j.rows);
     return code ? code : rows_code;
 }
 
 static const cli_option options[] = {
-    {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
-    {'t', "trials", "T", "the mean over T sets with seeds S, S+1, .., with standard errors"},
-    {0, "half", "H", "frequencies up to H in each coordinate (default: twice the square root of n)"},
-    {0, "exact", NULL, "sum over all points at each frequency instead of the fast transform"},
-    {0, "r-max", "R", "pairs: distances up to R (default: 0.1)"},
-    {0, "bins", "B", "pairs: rings of distances (default: 100)"},
+    CLI_CURVE_OPTIONS,
+    {'o', "output", "OUT", "power: the grid to a file: .npy, .csv, text, or grey .exr, .pfm, .png"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -177,7 +188,8 @@ const cli_command cli_command_curve = {
     .synopsis = "power|rings|quality|pairs FILE|-|pattern:SPEC@N... [--trials T] [--json]",
     .details =
         "power: (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency. rings: its mean over |k|, and the anisotropy.\n"
-        "quality: effective Nyquist frequency and oscillation. pairs: pair correlation on the torus.",
+        "quality: effective Nyquist frequency, also over sqrt(n)/2, and oscillation (Heck, Schlomer, Deussen 2013).\n"
+        "pairs: pair correlation on the torus. `koksma plot --curve` draws them.",
     .options = options,
     .run = run,
 };

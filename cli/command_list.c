@@ -30,6 +30,7 @@ static const struct {
     {KOKSMA_CLAIM_LATTICE, "lattice"},
     {KOKSMA_CLAIM_BLUE, "blue"},
     {KOKSMA_CLAIM_LATIN_PREFIXES, "latin-prefixes"},
+    {KOKSMA_CLAIM_INDEPENDENT, "independent"},
 };
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)

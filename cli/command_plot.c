@@ -3,92 +3,171 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <koksma/plot.h>
-
-#include "cli.h"
+#include "plots.h"
 #include "source.h"
 
-typedef struct plot_job {
-    const cli_arguments *arguments;
-    const char *source, *output, *witness;
-    uint64_t seed, columns, rows, size;
-    koksma_plot_format format;
-    cli_work work;
-} plot_job;
+enum { MAX_PANELS = 16 };
 
-static koksma_status draw(plot_job *j, const koksma_points *points)
+/* --grid M or MxN, --rooks, --columns and --rows. */
+static bool choose_cells(const plot_job *j, const koksma_points *points, koksma_scatter_options *out)
 {
-    koksma_scatter_options options = {.size = (double)j->size, .columns = j->columns, .rows = j->rows};
-    koksma_value value;
+    uint64_t columns, rows;
+    const char *grid = cli_text(j->curves.arguments, "grid", NULL);
+    if (!cli_whole(j->curves.arguments, "columns", 0, 1, MAX_CELLS, &columns) ||
+        !cli_whole(j->curves.arguments, "rows", 0, 1, MAX_CELLS, &rows)) {
+        return false;
+    }
+    if (grid) {
+        char *end;
+        columns = rows = strtoull(grid, &end, 10);
+        bool good = grid[0] >= '0' && grid[0] <= '9';
+        if (good && *end == 'x') {
+            const char *second = end + 1;
+            rows = strtoull(second, &end, 10);
+            good = second[0] >= '0' && second[0] <= '9';
+        }
+        if (!good || *end || columns < 1 || rows < 1 || columns > MAX_CELLS || rows > MAX_CELLS) {
+            cli_usage_error(j->curves.arguments, "--grid %s: it takes M, or MxN columns and rows, up to %d", grid,
+                            MAX_CELLS);
+            return false;
+        }
+    }
+    if (cli_flag(j->curves.arguments, "rooks")) {
+        columns = rows = points->n < MAX_CELLS ? points->n : 0; /* closer than a line is wide */
+    }
+    out->columns = columns;
+    out->rows = rows;
+    return true;
+}
+
+/* One panel's points, its cells and its witness; caption has room for KOKSMA_MAX_SPEC characters. */
+static int add_points(plot_job *j, const char *source, koksma_points *points, koksma_panel *panel,
+                      koksma_value *value, char *caption)
+{
     koksma_spec measure;
-    unsigned char *bytes;
-    size_t size;
-    char caption[KOKSMA_MAX_SPEC];
-    koksma_status status = KOKSMA_OK;
+    int code = cli_source_points(j->curves.arguments, source, j->curves.seed, &j->curves.work.run, points);
+    if (code) {
+        return code;
+    }
+    *panel = (koksma_panel){.points = points};
+    if (!choose_cells(j, points, &panel->scatter)) {
+        return CLI_USAGE;
+    }
     if (j->witness) {
-        status = koksma_measure_spec(j->witness, &measure);
+        koksma_status status = koksma_measure_spec(j->witness, &measure);
         if (!status) {
-            status = koksma_evaluate(&measure, points, &j->work.run, &value);
+            status = koksma_evaluate(&measure, points, &j->curves.work.run, value);
         }
+        cli_work_end(&j->curves.work);
         if (status) {
-            return status;
+            return cli_fail(j->curves.arguments, status);
         }
-        snprintf(caption, sizeof caption, "%.200s = %.6f", j->witness, value.value);
-        options.witness = &value.witness;
-        options.caption = caption;
+        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s = %.6f", j->witness, value->value);
+        panel->scatter.witness = &value->witness;
+        panel->caption = caption;
+    } else if (j->curves.arguments->n_operands > 1) {
+        panel->caption = plot_label(source);
     }
-    status = koksma_plot_scatter(points, &options, j->format, &bytes, &size);
-    if (!status) {
-        status = koksma_plot_write(j->output, bytes, size);
-        free(bytes);
+    return CLI_YES;
+}
+
+static int plot_points(plot_job *j)
+{
+    const int n = j->curves.arguments->n_operands;
+    koksma_points points[MAX_PANELS] = {{0}};
+    koksma_panel panels[MAX_PANELS] = {{0}};
+    koksma_value values[MAX_PANELS];
+    char captions[MAX_PANELS][KOKSMA_MAX_SPEC];
+    int code = CLI_YES;
+    for (int i = 0; i < n && !code; i++) {
+        code = add_points(j, j->curves.arguments->operands[i], &points[i], &panels[i], &values[i], captions[i]);
     }
-    return status;
+    if (!code) {
+        code = plot_panels(j, panels, (size_t)n);
+    }
+    for (int i = 0; i < n; i++) {
+        koksma_points_fini(&points[i]);
+    }
+    return code;
+}
+
+static int plot_power(plot_job *j)
+{
+    const int n = j->curves.arguments->n_operands;
+    koksma_spectrum spectra[MAX_PANELS] = {{0}};
+    koksma_panel panels[MAX_PANELS] = {{0}};
+    double white;
+    int code = cli_real(j->curves.arguments, "white", 2, 1e-9, 1e9, &white) ? CLI_YES : CLI_USAGE;
+    for (int i = 0; i < n && !code; i++) {
+        const char *source = j->curves.arguments->operands[i];
+        code = cli_curves_spectrum(&j->curves, source, 2, &spectra[i]);
+        panels[i] = (koksma_panel){.spectrum = &spectra[i], .white = white, .caption = plot_label(source)};
+    }
+    if (!code) {
+        code = plot_panels(j, panels, (size_t)n);
+    }
+    for (int i = 0; i < n; i++) {
+        koksma_spectrum_fini(&spectra[i]);
+    }
+    return code;
 }
 
 static int run(const cli_arguments *arguments)
 {
-    plot_job j = {.arguments = arguments, .output = cli_text(arguments, "output", NULL)};
-    if (arguments->n_operands != 1 || !j.output) {
-        return cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
+    static const struct {
+        const char *name;
+        int (*plot)(plot_job *j);
+    } kinds[] = {{"points", plot_points},     {"power", plot_power}, {"radial", plot_radial},
+                 {"anisotropy", plot_radial}, {"pairs", plot_pairs}, {"convergence", plot_convergence}};
+    plot_job j = {.output = cli_text(arguments, "output", NULL),
+                  .witness = cli_text(arguments, "witness", NULL),
+                  .curve = cli_text(arguments, "curve", "points")};
+    if (arguments->n_operands < 1 || arguments->n_operands > MAX_PANELS || !j.output) {
+        return cli_usage_error(
+            arguments, "it takes points (up to %d sets) and a picture, as in points.txt -o points.svg", MAX_PANELS);
     }
-    j.source = arguments->operands[0];
-    j.witness = cli_text(arguments, "witness", NULL);
-    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
-        !cli_whole(arguments, "columns", 0, 1, 4096, &j.columns) ||
-        !cli_whole(arguments, "rows", 0, 1, 4096, &j.rows) || !cli_whole(arguments, "size", 320, 16, 8192, &j.size) ||
-        !cli_work_begin(arguments, "plotting", &j.work)) {
+    if (!cli_whole(arguments, "size", 0, 16, 8192, &j.size) || !cli_curves_begin(arguments, &j.curves)) {
         return CLI_USAGE;
     }
-    koksma_points points = {0};
-    koksma_status status = koksma_plot_format_of(j.output, &j.format);
+    const koksma_status status = koksma_plot_format_of(j.output, &j.format);
     if (status) {
         return cli_fail(arguments, status);
     }
-    int code = cli_source_points(arguments, j.source, j.seed, &j.work.run, &points);
-    if (!code) {
-        status = draw(&j, &points);
-        cli_work_end(&j.work);
-        code = status ? cli_fail(arguments, status) : CLI_YES;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        if (!strcmp(j.curve, kinds[k].name)) {
+            return kinds[k].plot(&j);
+        }
     }
-    koksma_points_fini(&points);
-    return code;
+    return cli_usage_error(arguments, "--curve %s: it takes points, power, radial, anisotropy, pairs or convergence",
+                           j.curve);
 }
 
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
-    {0, "columns", "C", "draw C columns of cells"},
-    {0, "rows", "R", "draw R rows of cells"},
-    {0, "witness", "MEASURE", "draw the region where this measure's supremum is reached, with its value below"},
-    {0, "size", "S", "side of the picture in points or pixels (default: 320)"},
-    {'s', "seed", "S", "seed for a pattern: source (default: 0)"},
+    {'c', "curve", "KIND", "points (default), power, radial, anisotropy, pairs or convergence"},
+    {0, "size", "S", "side or width of a picture in points or pixels (default: 320, charts 480)"},
+    {0, "columns", "C", "points: draw C columns of cells"},
+    {0, "rows", "R", "points: draw R rows of cells"},
+    {0, "grid", "M[xN]", "points: draw M x M cells, or M columns and N rows"},
+    {0, "rooks", NULL, "points: draw n columns and n rows"},
+    {0, "witness", "MEASURE", "points: draw the region where this measure's supremum is reached, with its value"},
+    {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
+    {'m', "measure", "MEASURE", "convergence: of this measure (default: l2-star)"},
+    {0, "sizes", "LIST", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},
+    CLI_CURVE_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
 };
 
 const cli_command cli_command_plot = {
     .name = "plot",
-    .summary = "draw points, and where a measure finds them worst",
-    .synopsis = "FILE|-|pattern:SPEC@N -o OUT.svg|.pdf|.png [--columns C --rows R] [--witness MEASURE]",
+    .summary = "draw points, where a measure finds them worst, spectra and convergence",
+    .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
+    .details =
+        "Points and power spectra of several sources are drawn side by side, curves in one chart. power leaves out\n"
+        "the frequency 0. radial and pairs show the level 1 of random points. convergence is the mean over trials\n"
+        "against n on logarithmic axes, with the fitted slope and its standard error, and dashed the slopes that\n"
+        "theory gives for the pattern, or else the best that any points can have. A file's sizes are its prefixes.",
     .options = options,
     .run = run,
 };

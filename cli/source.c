@@ -30,33 +30,36 @@ static bool split(char *text, size_t *n, int *dim)
     return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
 }
 
-static koksma_status generate(const char *text, size_t n, int dim, uint64_t seed, const koksma_run *run,
-                              koksma_points *points)
+int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
-    koksma_spec spec;
-    koksma_status status = koksma_pattern_spec(text, &spec);
-    if (!status) {
-        status = koksma_points_init(points, n, dim);
+    char copy[KOKSMA_MAX_SPEC];
+    *source = (cli_source){.is_pattern = strncmp(text, prefix, sizeof prefix - 1) == 0};
+    if (!source->is_pattern) {
+        return CLI_YES;
     }
-    return status ? status : koksma_generate(&spec, seed, run, points);
+    snprintf(copy, sizeof copy, "%s", text + sizeof prefix - 1);
+    if (!split(copy, &source->n, &source->dim)) {
+        return cli_usage_error(arguments, "'%s' is not of the form pattern:SPEC@N or pattern:SPEC@N@DIM", text);
+    }
+    const koksma_status status = koksma_pattern_spec(copy, &source->spec);
+    return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
-int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
+int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t seed, const koksma_run *run,
                       koksma_points *points)
 {
-    koksma_status status;
+    cli_source source;
     *points = (koksma_points){0};
-    if (strncmp(source, prefix, sizeof prefix - 1) != 0) {
-        status = koksma_points_read(source, points);
+    const int code = cli_source_open(arguments, text, &source);
+    if (code) {
+        return code;
+    }
+    koksma_status status;
+    if (source.is_pattern) {
+        status = koksma_points_init(points, source.n, source.dim);
+        status = status ? status : koksma_generate(&source.spec, seed, run, points);
     } else {
-        char text[KOKSMA_MAX_SPEC];
-        size_t n;
-        int dim;
-        snprintf(text, sizeof text, "%s", source + sizeof prefix - 1);
-        if (!split(text, &n, &dim)) {
-            return cli_usage_error(arguments, "'%s' is not of the form pattern:SPEC@N or pattern:SPEC@N@DIM", source);
-        }
-        status = generate(text, n, dim, seed, run, points);
+        status = koksma_points_read(text, points);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }

@@ -9,4 +9,15 @@
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
+/* What an operand names: "pattern:SPEC@N[@DIM]" taken apart, or a file. */
+typedef struct cli_source {
+    bool is_pattern;
+    koksma_spec spec;
+    size_t n;
+    int dim;
+} cli_source;
+
+/* Reads no file. Returns the exit code, after an error on stderr unless it is 0. */
+int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
+
 #endif

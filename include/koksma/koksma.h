@@ -176,8 +176,9 @@ enum {
     KOKSMA_CLAIM_LATTICE = 1u << 17,       /* the differences of the points are a group on the torus */
     KOKSMA_CLAIM_BLUE = 1u << 18,          /* 2D, 100 points or more: the smallest distance on the torus is above half
                                               of the densest packing's */
-    KOKSMA_CLAIM_LATIN_PREFIXES = 1u << 19 /* the first b^m points have one point in each [j/b^m, (j+1)/b^m) of
-                                              coordinate k, b being the k-th prime */
+    KOKSMA_CLAIM_LATIN_PREFIXES = 1u << 19, /* the first b^m points have one point in each [j/b^m, (j+1)/b^m) of
+                                               coordinate k, b being the k-th prime */
+    KOKSMA_CLAIM_INDEPENDENT = 1u << 20     /* the points are random and independent of each other */
 };
 
 struct koksma_pattern {
@@ -239,8 +240,17 @@ typedef struct koksma_value {
     koksma_witness witness;
 } koksma_value;
 
+/* The regions that a measure looks at; what theory says about decay goes by them. */
+typedef enum koksma_family {
+    KOKSMA_FAMILY_NONE, /* another kind of number: distances, digital quality */
+    KOKSMA_FAMILY_BOXES,
+    KOKSMA_FAMILY_EDGES,
+    KOKSMA_FAMILY_DISKS
+} koksma_family;
+
 struct koksma_measure {
     const char *name, *title, *cite, *cost; /* cost: "n log n", "n^2 d" */
+    koksma_family family;
     int min_dim, max_dim;
     const koksma_param *params; /* NULL: none */
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);

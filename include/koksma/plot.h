@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pictures of point sets. Part of koksma-lab. */
+/* Pictures of point sets, power spectra and curves. Part of koksma-lab. */
 #ifndef KOKSMA_PLOT_H
 #define KOKSMA_PLOT_H
 
 #include <koksma/koksma.h>
+#include <koksma/spectrum.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,6 +27,43 @@ KOKSMA_API koksma_status koksma_plot_format_of(const char *path, koksma_plot_for
    same on every run. Errors: DIM (fewer than 2), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                              koksma_plot_format format, unsigned char **bytes, size_t *size);
+
+/* One of several square pictures side by side: points, or a power spectrum. */
+typedef struct koksma_panel {
+    const koksma_points *points; /* NULL: spectrum is drawn */
+    koksma_scatter_options scatter;
+    const koksma_spectrum *spectrum; /* (0, 0) in the middle, where it is left out; black is 0 */
+    double white;                    /* the power that is drawn white; 0: 2, so that random points are mid-grey */
+    const char *caption;             /* below, NULL: none */
+} koksma_panel;
+
+/* Draws panels of the given side (0: 320) in a row. A spectrum's picture says its scale. Errors: as above. */
+KOKSMA_API koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size,
+                                            koksma_plot_format format, unsigned char **bytes, size_t *n_bytes);
+
+/* A curve of a chart: straight lines between points, with bars of +- errors. */
+typedef struct koksma_curve {
+    const char *label; /* NULL: not in the legend */
+    size_t n;
+    const double *xs, *ys, *errors; /* errors: NULL for none. Points that are not finite leave a gap */
+    bool marks;                     /* dots at the points */
+    bool dashed;                    /* a guide: grey, dashed, not looked at for the range of the axes */
+    size_t colour;                  /* curves of equal number have equal colours */
+} koksma_curve;
+
+typedef struct koksma_chart {
+    const char *x_label, *y_label;
+    bool log_x, log_y; /* points that aren't positive are left out */
+    const koksma_curve *curves;
+    size_t n_curves;
+    bool has_level; /* a horizontal guide at level: what random points give */
+    double level;
+    double size; /* width in points or pixels; 0: 480 */
+} koksma_chart;
+
+/* Errors: ARGUMENT (nothing that can be drawn), MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format,
+                                           unsigned char **bytes, size_t *n_bytes);
 
 /* Writes bytes to a file whole or not at all; "-" is standard output. Errors: IO. */
 KOKSMA_API koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size);

@@ -13,6 +13,7 @@
 #define KOKSMA_SPECTRUM_H
 
 #include <koksma/koksma.h>
+#include <koksma/series.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -27,9 +28,9 @@ typedef enum koksma_spectrum_method { KOKSMA_SPECTRUM_EXACT, KOKSMA_SPECTRUM_FAS
 typedef struct koksma_spectrum {
     int half;
     size_t sets;
-    double points; /* the mean number of points of a set */
-    double *power; /* the sum over sets at [ky * (2 half + 1) + half + kx] */
-    double *rings; /* two numbers a ring: sum and sum of squares, over sets, of the set's ring mean */
+    double points;       /* the mean number of points of a set */
+    double *power;       /* the mean over sets at [ky * (2 half + 1) + half + kx] */
+    koksma_tally *rings; /* [frequency]: of the sets' ring means */
 } koksma_spectrum;
 
 enum { KOKSMA_SPECTRUM_MAX_HALF = 4096 };
@@ -52,14 +53,22 @@ typedef struct koksma_ring {
     double anisotropy_db;         /* 10 log10 of the variance along the ring, of the mean over sets, over power^2 */
 } koksma_ring;
 
-/* rings[0 .. half-1] for frequencies 1 .. half. At least one set was added. */
-KOKSMA_API void koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings);
+/* rings[0 .. half-1] for frequencies 1 .. half. At least one set was added. Errors: MEMORY. */
+KOKSMA_API koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings);
 
-/* After Heck, Schlomer and Deussen 2013, on the radial mean p(f). The effective Nyquist frequency is the largest f
-   such that the mean of p over the frequencies up to f, by area, is at most 0.1; the oscillation is 10 sqrt of the
-   mean of (p - 1)^2 over the frequencies from there to half, by area. */
-KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, double *effective_nyquist,
-                                        double *oscillation);
+/* Heck, Schlomer and Deussen 2013, on the radial mean p(f) of sets of n points. */
+typedef struct koksma_spectrum_quality_values {
+    /* Half of the largest f, before the mean of p over all frequencies up to f, by area, passes 1/2 (at sqrt(n)/2 or
+       beyond), at which that mean is at most 1/10: a signal of that frequency and its mirror are that far apart. */
+    double effective_nyquist;
+    double relative_nyquist; /* over sqrt(n)/2, which is a square lattice's */
+    /* 10 sqrt of the mean, by area, of (p - 1)^2 from where p first comes to 0.98 up to 5 sqrt(n) beyond. NaN when
+       the spectrum ends before that: half >= 6.5 sqrt(n) is enough for blue noise. */
+    double oscillation;
+} koksma_spectrum_quality_values;
+
+/* At least one set was added. */
+KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out);
 
 /* Pair correlation on the unit torus: values[b] = the density of pairs at distances b .. b+1 (times r_max/bins) over
    that of random points, n(n-1)/2 pairs in the ring's share of the area. r_max <= 1/2. Cell lists: O(n (1 + n

@@ -30,6 +30,7 @@ const koksma_measure koksma__measure_diaphony = {
     .title = "diaphony (weighted trigonometric sums)",
     .cite = "zinterhof1976",
     .cost = "n log n in 2D, n^2 d",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,

@@ -133,6 +133,7 @@ const koksma_measure koksma__measure_disk = {
     .title = "discrepancy of disks on the torus, up to a radius",
     .cite = "mitchell1992 megiddo1983",
     .cost = "n^3",
+    .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

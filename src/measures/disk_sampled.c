@@ -93,6 +93,7 @@ const koksma_measure koksma__measure_disk_sampled = {
     .title = "L2 discrepancy of disks on the torus from sampled disks",
     .cite = "mitchell1992",
     .cost = "disks n",
+    .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

@@ -60,6 +60,7 @@ const koksma_measure koksma__measure_edge = {
     .title = "L-infinity discrepancy of half-planes",
     .cite = "mitchell1992 dobkin1993 dobkin1996",
     .cost = "n^2 log n",
+    .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
     .max_dim = 2,
     .eval = eval,

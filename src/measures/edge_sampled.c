@@ -96,6 +96,7 @@ const koksma_measure koksma__measure_edge_sampled = {
     .title = "L2 discrepancy of half-planes from sampled lines",
     .cite = "mitchell1992",
     .cost = "lines n",
+    .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

@@ -36,6 +36,7 @@ const koksma_measure koksma__measure_extreme = {
     .title = "Stroud's discrepancy (all axis-parallel boxes)",
     .cite = "stroud1971 shirley1991",
     .cost = "n^3 in 2D, n^5 in 3D",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = 3,
     .params = params,

@@ -123,6 +123,7 @@ const koksma_measure koksma__measure_l2_disk = {
     .title = "L2 discrepancy of disks on the torus (root mean square over disks)",
     .cite = "mitchell1992",
     .cost = "n^2; n * points within 2r for r <= 1/8",
+    .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

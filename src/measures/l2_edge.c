@@ -104,6 +104,7 @@ const koksma_measure koksma__measure_l2_edge = {
     .title = "L2 discrepancy of half-planes (root mean square over random lines)",
     .cite = "mitchell1992 alexander1990",
     .cost = "n^2",
+    .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
     .max_dim = 2,
     .params = params,

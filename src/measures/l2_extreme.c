@@ -22,6 +22,7 @@ const koksma_measure koksma__measure_l2_extreme = {
     .title = "L2 discrepancy over all boxes lo < hi, not divided by their measure",
     .cite = "morokoff1994 hickernell1998",
     .cost = "n log n in 2D, n^2 d",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,

@@ -23,6 +23,7 @@ const koksma_measure koksma__measure_l2_mixture = {
     .title = "mixture L2 discrepancy",
     .cite = "zhou2013",
     .cost = "n log n in 2D, n^2 d",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,

@@ -22,6 +22,7 @@ const koksma_measure koksma__measure_l2_periodic = {
     .title = "L2 discrepancy over boxes on the torus (root mean square)",
     .cite = "lev1995 hinrichs2020",
     .cost = "n log n in 2D, n^2 d",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,

@@ -23,6 +23,7 @@ const koksma_measure koksma__measure_l2_star = {
     .title = "L2 star discrepancy (root mean square over anchored boxes)",
     .cite = "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992",
     .cost = "n log n in 2D, n^2 d",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,

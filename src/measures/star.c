@@ -50,6 +50,7 @@ const koksma_measure koksma__measure_star = {
     .title = "L-infinity star discrepancy (anchored boxes)",
     .cite = "zaremba1968 niederreiter1972 dobkin1996 thiemard2001 shirley1991",
     .cost = "n log n in 2D, n^(1+d/2)",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA__STAR_MAX_DIM,
     .eval = eval,

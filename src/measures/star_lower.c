@@ -33,6 +33,7 @@ const koksma_measure koksma__measure_star_lower = {
     .title = "lower bound of the star discrepancy by threshold accepting",
     .cite = "gnewuch2012",
     .cost = "steps n d^2",
+    .family = KOKSMA_FAMILY_BOXES,
     .min_dim = 1,
     .max_dim = KOKSMA__STAR_MAX_DIM,
     .params = params,

@@ -23,7 +23,7 @@ const koksma_pattern koksma__pattern_half_jittered = {
     .cite = "shirley1991",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
-    .claims = KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_CENTRED,
+    .claims = KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_CENTRED | KOKSMA_CLAIM_INDEPENDENT,
     .params = params,
     .generate = generate,
 };

@@ -23,7 +23,7 @@ const koksma_pattern koksma__pattern_jittered = {
     .cite = "cook1984 shirley1991",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
-    .claims = KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_UNBIASED,
+    .claims = KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_INDEPENDENT,
     .params = params,
     .generate = generate,
 };

@@ -20,6 +20,7 @@ const koksma_pattern koksma__pattern_random = {
     .cite = "shirley1991 mitchell1992",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
-    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |
+              KOKSMA_CLAIM_INDEPENDENT,
     .generate = generate,
 };

@@ -100,6 +100,39 @@ void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double ra
     stroke_or_fill(canvas, thickness, colour);
 }
 
+void koksma__canvas_dash(koksma__canvas *canvas, bool on)
+{
+    static const double dashes[] = {4, 3};
+    cairo_set_dash(canvas->cairo, dashes, on ? 2 : 0, 0);
+}
+
+bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                         int rows, const unsigned char *grey)
+{
+    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows);
+    unsigned char *data = cairo_image_surface_get_data(image);
+    const size_t stride = (size_t)cairo_image_surface_get_stride(image);
+    for (size_t row = 0; data && row < (size_t)rows; row++) {
+        for (size_t column = 0; column < (size_t)columns; column++) {
+            const uint32_t pixel = 0x010101u * grey[row * (size_t)columns + column];
+            memcpy(data + row * stride + 4 * column, &pixel, sizeof pixel);
+        }
+    }
+    cairo_surface_mark_dirty(image);
+    cairo_save(canvas->cairo);
+    cairo_translate(canvas->cairo, x, y);
+    cairo_scale(canvas->cairo, width / columns, height / rows);
+    cairo_set_source_surface(canvas->cairo, image, 0, 0);
+    /* Squares stay squares when they are enlarged; when there are more than pixels, they are averaged. */
+    const bool enlarged = canvas->format != KOKSMA_PLOT_PNG || width >= columns;
+    cairo_pattern_set_filter(cairo_get_source(canvas->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    cairo_rectangle(canvas->cairo, 0, 0, columns, rows);
+    cairo_fill(canvas->cairo);
+    cairo_restore(canvas->cairo);
+    cairo_surface_destroy(image);
+    return data != NULL;
+}
+
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                          koksma__colour colour)
 {

@@ -21,6 +21,11 @@ void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width
                         koksma__colour colour); /* thickness 0: filled */
 void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
                            koksma__colour colour); /* thickness 0: filled */
+/* Lines are dashed from here on, or whole again. */
+void koksma__canvas_dash(koksma__canvas *canvas, bool on);
+/* columns x rows grey squares, from the upper left corner; false when memory runs out. */
+bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                         int rows, const unsigned char *grey);
 /* anchor 0: x is the left end, 0.5: the middle, 1: the right end. */
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                          koksma__colour colour);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991. */
+/* Point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991, and power spectra, one beside another.
+ */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/atomic_file.h"
@@ -10,6 +12,8 @@
 
 static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, guide = {0.75, 0.78, 0.85, 1},
                             mark = {0.85, 0.25, 0.1, 0.9}, wash = {0.95, 0.5, 0.3, 0.25};
+
+enum { MARGIN = 6, LINE = 20, MAX_WIDTH = 32767 };
 
 typedef struct plot {
     koksma__canvas *canvas;
@@ -56,39 +60,114 @@ static void draw_witness(const plot *p, const koksma_witness *w)
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
         const double a = w->lo[0], b = w->lo[1], norm = hypot(a, b), reach = 2;
         const double x = a * w->hi[0] / (norm * norm), y = b * w->hi[0] / (norm * norm);
+        /* the half-plane: a band as wide as `reach`, inwards from the line */
+        const double in_x = x - reach / 2 * a / norm, in_y = y - reach / 2 * b / norm;
+        koksma__canvas_line(p->canvas, at_x(p, in_x - reach * b / norm), at_y(p, in_y + reach * a / norm),
+                            at_x(p, in_x + reach * b / norm), at_y(p, in_y - reach * a / norm), reach * p->side,
+                            wash);
         koksma__canvas_line(p->canvas, at_x(p, x - reach * b / norm), at_y(p, y + reach * a / norm),
                             at_x(p, x + reach * b / norm), at_y(p, y - reach * a / norm), 1.2, mark);
     }
 }
 
+static void draw_points(const plot *p, const koksma_points *points, const koksma_scatter_options *options)
+{
+    koksma__canvas_clip(p->canvas, p->left - 1, p->top - 1, p->side + 2, p->side + 2);
+    draw_guides(p, options->columns, options->rows);
+    if (options->witness) {
+        draw_witness(p, options->witness);
+    }
+    koksma__canvas_box(p->canvas, p->left, p->top, p->side, p->side, 1, frame);
+    koksma__canvas_clip(p->canvas, p->left - MARGIN, p->top - MARGIN, p->side + 2 * MARGIN, p->side + 2 * MARGIN);
+    const double radius = fmax(0.6, fmin(4, 0.14 * p->side / sqrt((double)points->n)));
+    for (size_t i = 0; i < points->n; i++) {
+        const double *x = points->xs + i * (size_t)points->dim;
+        koksma__canvas_circle(p->canvas, at_x(p, x[0]), at_y(p, x[1]), radius, 0, ink);
+    }
+}
+
+static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, double white)
+{
+    const int half = s->half, side = 2 * half + 1;
+    unsigned char *grey = malloc((size_t)side * (size_t)side);
+    if (!grey) {
+        return koksma__fail_memory((size_t)side * (size_t)side);
+    }
+    for (int ky = -half; ky <= half; ky++) {
+        for (int kx = -half; kx <= half; kx++) {
+            const double power = kx || ky ? koksma_spectrum_power(s, kx, ky) : 0; /* at 0 it is n for all points */
+            grey[(size_t)(half - ky) * (size_t)side + (size_t)(kx + half)] =
+                (unsigned char)(255 * fmin(power / white, 1) + 0.5);
+        }
+    }
+    koksma__canvas_clip(p->canvas, p->left - 1, p->top - 1, p->side + 2, p->side + 2);
+    const bool drawn = koksma__canvas_grey(p->canvas, p->left, p->top, p->side, p->side, side, side, grey);
+    free(grey);
+    koksma__canvas_box(p->canvas, p->left, p->top, p->side, p->side, 1, frame);
+    return drawn ? KOKSMA_OK : koksma__fail_memory((size_t)side * (size_t)side * 4);
+}
+
+static koksma_status draw_panel(koksma__canvas *canvas, const koksma_panel *panel, double left, double size,
+                                bool scale)
+{
+    const plot p = {canvas, left + MARGIN, MARGIN, size - 2 * MARGIN};
+    koksma_status status = KOKSMA_OK;
+    double line = size + 13;
+    const double white = panel->white > 0 ? panel->white : 2;
+    if (panel->points) {
+        draw_points(&p, panel->points, &panel->scatter);
+    } else {
+        status = draw_spectrum(&p, panel->spectrum, white);
+    }
+    koksma__canvas_clip(canvas, left, 0, size, size + 2 * LINE);
+    if (panel->caption) {
+        koksma__canvas_text(canvas, left + size / 2, line, 12, 0.5, panel->caption, ink);
+        line += LINE;
+    }
+    if (scale && panel->spectrum) {
+        char text[128];
+        snprintf(text, sizeof text, "power 0 (black) to %g (white), frequencies to %d", white, panel->spectrum->half);
+        koksma__canvas_text(canvas, left + size / 2, line, 11, 0.5, text, ink);
+    }
+    return status;
+}
+
+koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size, koksma_plot_format format,
+                                 unsigned char **bytes, size_t *n_bytes)
+{
+    const double side = size > 0 ? size : 320;
+    bool captions = false, scales = false;
+    for (size_t i = 0; i < n; i++) {
+        if (panels[i].points && panels[i].points->dim < 2) {
+            return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
+        }
+        captions = captions || panels[i].caption;
+        scales = scales || !panels[i].points;
+    }
+    if (n == 0 || side * (double)n > MAX_WIDTH) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side, MAX_WIDTH);
+    }
+    koksma__canvas *canvas =
+        koksma__canvas_open(format, side * (double)n, side + LINE * ((captions ? 1 : 0) + (scales ? 1 : 0)));
+    if (!canvas) {
+        return koksma__fail_memory(sizeof(plot));
+    }
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < n && !status; i++) {
+        status = draw_panel(canvas, &panels[i], side * (double)i, side, scales);
+    }
+    const koksma_status closed = koksma__canvas_close(canvas, bytes, n_bytes);
+    if (status && !closed) {
+        free(*bytes);
+    }
+    return status ? status : closed;
+}
+
 koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                   koksma_plot_format format, unsigned char **bytes, size_t *size)
 {
-    if (points->dim < 2) {
-        return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
-    }
-    const double width = options->size > 0 ? options->size : 320, margin = 6;
-    const double caption = options->caption ? 20 : 0;
-    const plot p = {koksma__canvas_open(format, width, width + caption), margin, margin, width - 2 * margin};
-    if (!p.canvas) {
-        return koksma__fail_memory(sizeof(plot));
-    }
-    koksma__canvas_clip(p.canvas, p.left - 1, p.top - 1, p.side + 2, p.side + 2);
-    draw_guides(&p, options->columns, options->rows);
-    if (options->witness) {
-        draw_witness(&p, options->witness);
-    }
-    koksma__canvas_box(p.canvas, p.left, p.top, p.side, p.side, 1, frame);
-    koksma__canvas_clip(p.canvas, 0, 0, width, width + caption);
-    const double radius = fmax(0.6, fmin(4, 0.14 * p.side / sqrt((double)points->n)));
-    for (size_t i = 0; i < points->n; i++) {
-        const double *x = points->xs + i * (size_t)points->dim;
-        koksma__canvas_circle(p.canvas, at_x(&p, x[0]), at_y(&p, x[1]), radius, 0, ink);
-    }
-    if (options->caption) {
-        koksma__canvas_text(p.canvas, width / 2, width + 13, 12, 0.5, options->caption, ink);
-    }
-    return koksma__canvas_close(p.canvas, bytes, size);
+    const koksma_panel panel = {.points = points, .scatter = *options, .caption = options->caption};
+    return koksma_plot_panels(&panel, 1, options->size, format, bytes, size);
 }
 
 koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format)

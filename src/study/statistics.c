@@ -3,21 +3,9 @@
 
 #include <math.h>
 
-#include "core/sum.h"
+#include <koksma/series.h>
 
-double koksma__student_975(size_t degrees)
-{
-    const double z = 1.959963984540054, v = (double)degrees;
-    if (degrees == 1) {
-        return 12.706204736174705;
-    }
-    if (degrees == 2) {
-        return 4.302652729749464;
-    }
-    const double z2 = z * z;
-    return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
-           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
-}
+#include "core/sum.h"
 
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
 {
@@ -37,7 +25,7 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
         koksma__sum_add(&squares, t * t);
     }
     s.sd = n > 1 ? sqrt(koksma__sum_value(&squares) / (double)(n - 1)) : 0;
-    const double half = n > 1 ? koksma__student_975(n - 1) * s.sd / sqrt((double)n) : 0;
+    const double half = n > 1 ? koksma_student_975(n - 1) * s.sd / sqrt((double)n) : 0;
     s.low = s.mean - half;
     s.high = s.mean + half;
     return s;

@@ -97,12 +97,117 @@ static void radial_means_have_known_values(void **state)
             assert_near(rings[r - 1].power, expected / count, 5 * rings[r - 1].standard_error + 1e-12);
             assert_true(rings[r - 1].standard_error < 0.05 && rings[r - 1].frequency == r);
         }
-        double nyquist, oscillation;
-        koksma_spectrum_quality(&s, &nyquist, &oscillation);
-        assert_true(jittered ? nyquist >= 1 && nyquist <= 4 : nyquist == 0);
-        assert_true(oscillation >= 0 && oscillation < 5);
+        koksma_spectrum_quality_values quality;
+        koksma_spectrum_quality(&s, &quality);
+        assert_true(jittered ? quality.effective_nyquist >= 0.5 && quality.effective_nyquist <= 2
+                             : quality.effective_nyquist == 0);
+        assert_near(quality.relative_nyquist, quality.effective_nyquist / 4, 1e-15);
+        assert_true(isnan(quality.oscillation)); /* the spectrum ends too early */
         koksma_spectrum_fini(&s);
     }
+}
+
+/* Radial mean, error and anisotropy by the definitions, over all frequencies of both halves of the plane. */
+static void rings_equal_the_definition(void **state)
+{
+    (void)state;
+    enum { HALF = 9, SETS = 3 };
+    for (int kind = 0; kind < SETS_KINDS; kind++) {
+        koksma_points p[SETS];
+        koksma_spectrum s;
+        koksma_ring rings[HALF];
+        assert_ok(koksma_spectrum_init(&s, HALF));
+        for (uint64_t t = 0; t < SETS; t++) {
+            p[t] = sets_points(23, 2, kind, 50 + t);
+            assert_ok(koksma_spectrum_add(&s, &p[t], KOKSMA_SPECTRUM_EXACT, NULL));
+        }
+        assert_ok(koksma_spectrum_rings(&s, rings));
+        for (int r = 1; r <= HALF; r++) {
+            double powers[SETS][200], means[SETS] = {0}, mean = 0, spread = 0, along = 0;
+            int count = 0;
+            for (int kx = -HALF; kx <= HALF; kx++) {
+                for (int ky = -HALF; ky <= HALF; ky++) {
+                    const int norm = kx * kx + ky * ky; /* r - 1/2 <= |k| < r + 1/2 in whole numbers */
+                    if (4 * norm >= (2 * r - 1) * (2 * r - 1) && 4 * norm < (2 * r + 1) * (2 * r + 1)) {
+                        for (int t = 0; t < SETS; t++) {
+                            powers[t][count] = direct_power(&p[t], kx, ky);
+                        }
+                        count++;
+                    }
+                }
+            }
+            for (int i = 0; i < SETS * count; i++) {
+                means[i / count] += powers[i / count][i % count] / count;
+                mean += powers[i / count][i % count] / count / SETS;
+            }
+            for (int t = 0; t < SETS; t++) {
+                spread += (means[t] - mean) * (means[t] - mean) / (SETS - 1);
+            }
+            for (int i = 0; i < count; i++) {
+                const double off = (powers[0][i] + powers[1][i] + powers[2][i]) / SETS - mean;
+                along += off * off / (count / 2.0 - 1) / 2; /* each frequency stands beside its mirror */
+            }
+            assert_near(rings[r - 1].power, mean, 1e-11);
+            assert_near(rings[r - 1].standard_error, sqrt(spread / SETS), 1e-11);
+            assert_near(rings[r - 1].anisotropy_db, 10 * log10(along / mean / mean), 1e-8);
+        }
+        koksma_spectrum_fini(&s);
+        for (int t = 0; t < SETS; t++) {
+            koksma_points_fini(&p[t]);
+        }
+    }
+}
+
+static void equal_sets_have_no_error(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("jittered", 100, 2, 3);
+    koksma_spectrum s;
+    koksma_ring rings[20];
+    assert_ok(koksma_spectrum_init(&s, 20));
+    for (int t = 0; t < 7; t++) {
+        assert_ok(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_FAST, NULL));
+    }
+    assert_ok(koksma_spectrum_rings(&s, rings));
+    for (int r = 0; r < 20; r++) {
+        assert_true(rings[r].standard_error == 0);
+    }
+    koksma_spectrum_fini(&s);
+    koksma_points_fini(&p);
+}
+
+/* The size of a spectrum that is large enough changes no quality; smaller ones give none. Random points have no
+   oscillation but noise, which more sets make smaller. */
+static void quality_does_not_depend_on_half(void **state)
+{
+    (void)state;
+    static const int halves[] = {60, 112, 150, 260};
+    static const char *const patterns[] = {"random", "jittered", "poisson-disk-maximal"};
+    double oscillations[3] = {0};
+    for (int i = 0; i < 3; i++) {
+        koksma_spectrum_quality_values first = {0};
+        for (int h = 0; h < 4; h++) {
+            koksma_spectrum_quality_values quality;
+            koksma_spectrum s;
+            assert_ok(koksma_spectrum_init(&s, halves[h]));
+            for (uint64_t seed = 0; seed < 6; seed++) {
+                koksma_points p = test_points(patterns[i], 256, 2, seed);
+                assert_ok(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_EXACT, NULL));
+                koksma_points_fini(&p);
+            }
+            koksma_spectrum_quality(&s, &quality);
+            koksma_spectrum_fini(&s);
+            if (h == 0) {
+                assert_true(isnan(quality.oscillation));
+            } else {
+                first = h == 1 ? quality : first;
+                assert_near(quality.oscillation, first.oscillation, 1e-10);
+                assert_near(quality.effective_nyquist, first.effective_nyquist, 0);
+            }
+        }
+        oscillations[i] = first.oscillation;
+    }
+    assert_true(oscillations[0] < 0.8 && oscillations[1] < 0.8 && oscillations[2] > 1.2);
 }
 
 static double distance_on_torus(const double *a, const double *b, bool torus)
@@ -149,6 +254,29 @@ static void distances_equal_all_pairs(void **state)
     koksma_points p = test_points("regular", 49, 2, 0);
     assert_near(test_measure("relative-radius", &p).value, sqrt(sqrt(3) / 2), 1e-14);
     koksma_points_fini(&p);
+}
+
+/* The sum over frequencies in closed form: n^2 (diaphony^2 + 1) = sum over pairs of prod (1 + 2 pi^2 B2({x - y})). */
+static void diaphony_equals_all_pairs(void **state)
+{
+    (void)state;
+    for (int t = 0; t < 120; t++) {
+        koksma_points p = sets_points(1 + (size_t)t / 2, 1 + t % 4, t % SETS_KINDS, (uint64_t)t);
+        const size_t dim = (size_t)p.dim;
+        const long double pi = acosl(-1);
+        long double sum = 0;
+        for (size_t i = 0; i < p.n * p.n; i++) {
+            long double product = 1;
+            for (size_t k = 0; k < dim; k++) {
+                const long double d = fabsl((long double)p.xs[i / p.n * dim + k] - p.xs[i % p.n * dim + k]);
+                product *= 1 + 2 * pi * pi * (d * d - d + 1.0L / 6);
+            }
+            sum += product;
+        }
+        const double square = (double)(sum / ((long double)p.n * (long double)p.n) - 1);
+        assert_near(test_measure("diaphony", &p).square, square, 1e-12 * (1 + square));
+        koksma_points_fini(&p);
+    }
 }
 
 static void diaphony_has_known_values(void **state)
@@ -246,7 +374,9 @@ int main(void)
         cmocka_unit_test(spectra_equal_the_definition),   cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(radial_means_have_known_values), cmocka_unit_test(distances_equal_all_pairs),
         cmocka_unit_test(diaphony_has_known_values),      cmocka_unit_test(t_has_known_values),
-        cmocka_unit_test(kernels_equal_reference),
+        cmocka_unit_test(kernels_equal_reference),        cmocka_unit_test(rings_equal_the_definition),
+        cmocka_unit_test(equal_sets_have_no_error),       cmocka_unit_test(quality_does_not_depend_on_half),
+        cmocka_unit_test(diaphony_equals_all_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

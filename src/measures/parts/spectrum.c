@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Power spectra and what is read from them. Definitions: Ulichney 1988 for the radial mean and the anisotropy; Heck,
+/* Power spectra and what is read from them. Definitions: Ulichney 1987 for the radial mean and the anisotropy; Heck,
    Schlomer and Deussen 2013 for the effective Nyquist frequency and the oscillation, as koksma/spectrum.h words them.
- */
+   Means over sets and their errors are updated set by set (Welford 1962), so that equal sets have no error. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,18 +10,30 @@
 #include "core/status.h"
 #include "measures/parts/amplitudes.h"
 
+/* What the quality numbers are made with: see koksma/spectrum.h. */
+#define NYQUIST_SHARE 0.1
+#define SIGNAL_SHARE 0.5
+#define RISEN 0.98
+#define BAND 5.0
+
+static size_t side_of(int half)
+{
+    return 2 * (size_t)half + 1;
+}
+
 koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half)
 {
     *spectrum = (koksma_spectrum){0};
     if (half < 1 || half > KOKSMA_SPECTRUM_MAX_HALF) {
         return koksma__fail(KOKSMA_ARGUMENT, "spectrum: half = %d: it takes 1 to %d", half, KOKSMA_SPECTRUM_MAX_HALF);
     }
-    const size_t rows = (size_t)half + 1, count = rows * (2 * (size_t)half + 1) + 2 * rows;
-    spectrum->power = calloc(count, sizeof(double));
-    if (!spectrum->power) {
-        return koksma__fail_memory(count * sizeof(double));
+    const size_t rows = (size_t)half + 1, count = rows * side_of(half);
+    const size_t bytes = rows * sizeof(koksma_tally) + count * sizeof(double);
+    spectrum->rings = calloc(1, bytes);
+    if (!spectrum->rings) {
+        return koksma__fail_memory(bytes);
     }
-    spectrum->rings = spectrum->power + rows * (2 * (size_t)half + 1);
+    spectrum->power = (double *)(spectrum->rings + rows);
     spectrum->half = half;
     return KOKSMA_OK;
 }
@@ -29,7 +41,7 @@ koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half)
 void koksma_spectrum_fini(koksma_spectrum *spectrum)
 {
     if (spectrum) {
-        free(spectrum->power);
+        free(spectrum->rings);
         *spectrum = (koksma_spectrum){0};
     }
 }
@@ -40,43 +52,48 @@ void koksma_spectrum_fini(koksma_spectrum *spectrum)
         for (int kx = ky ? -(half) : 1; kx <= (half); kx++)                                                          \
             for (int ring = (int)floor(hypot(kx, ky) + 0.5), once_ = 1; once_ && ring <= (half); once_ = 0)
 
-/* Sums of the values and of their squares, and counts, by ring. */
-static void sum_rings(int half, const double *power, double scale, double *sums, double *squares, double *counts)
+static double power_at(int half, const double *power, int kx, int ky)
+{
+    return power[(size_t)ky * side_of(half) + (size_t)(half + kx)];
+}
+
+/* Ring means, and counts. */
+static void find_means(int half, const double *power, double *means, double *counts)
 {
     FOR_EACH_FREQUENCY(half, kx, ky, ring)
     {
-        const double value = power[(size_t)ky * (2 * (size_t)half + 1) + (size_t)(half + kx)] * scale;
-        sums[ring] += value;
-        squares[ring] += value * value;
+        means[ring] += power_at(half, power, kx, ky);
         counts[ring] += 1;
+    }
+    for (int ring = 1; ring <= half; ring++) {
+        means[ring] /= counts[ring];
     }
 }
 
 koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                   koksma_spectrum_method method, const koksma_run *run)
 {
-    const size_t rows = (size_t)spectrum->half + 1, count = rows * (2 * (size_t)spectrum->half + 1);
+    const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
     }
-    double *power = calloc(count + 3 * rows, sizeof *power), *sums = power + count;
+    double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     if (!power) {
-        return koksma__fail_memory(count * sizeof *power);
+        return koksma__fail_memory((count + 2 * rows) * sizeof *power);
     }
     const koksma_status status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(
         points, spectrum->half, run, power);
     if (!status) {
-        for (size_t i = 0; i < count; i++) {
-            spectrum->power[i] += power[i];
-        }
-        sum_rings(spectrum->half, power, 1, sums, sums + rows, sums + 2 * rows);
-        for (size_t ring = 1; ring < rows; ring++) {
-            const double mean = sums[ring] / sums[2 * rows + ring];
-            spectrum->rings[2 * ring] += mean;
-            spectrum->rings[2 * ring + 1] += mean * mean;
-        }
-        spectrum->points += ((double)points->n - spectrum->points) / (double)(spectrum->sets + 1);
         spectrum->sets++;
+        const double sets = (double)spectrum->sets;
+        for (size_t i = 0; i < count; i++) {
+            spectrum->power[i] += (power[i] - spectrum->power[i]) / sets;
+        }
+        find_means(spectrum->half, power, means, means + rows);
+        for (size_t ring = 1; ring < rows; ring++) {
+            koksma_tally_add(&spectrum->rings[ring], means[ring]);
+        }
+        spectrum->points += ((double)points->n - spectrum->points) / sets;
     }
     free(power);
     return status;
@@ -85,50 +102,64 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
 double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
 {
     const int half = spectrum->half, x = ky < 0 ? -kx : kx, y = abs(ky);
-    if (abs(kx) > half || y > half) {
-        return NAN;
-    }
-    return spectrum->power[(size_t)y * (2 * (size_t)half + 1) + (size_t)(half + x)] / (double)spectrum->sets;
+    return abs(kx) > half || y > half ? (double)NAN : power_at(half, spectrum->power, x, y);
 }
 
-void koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
+koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
 {
     const int half = spectrum->half;
-    const double sets = (double)spectrum->sets;
-    double *sums = calloc(3 * ((size_t)half + 1), sizeof *sums);
-    if (sums) {
-        sum_rings(half, spectrum->power, 1 / sets, sums, sums + half + 1, sums + 2 * (half + 1));
+    const size_t rows = (size_t)half + 1;
+    double *means = calloc(3 * rows, sizeof *means), *counts = means + rows, *spreads = counts + rows;
+    if (!means) {
+        return koksma__fail_memory(3 * rows * sizeof *means);
+    }
+    find_means(half, spectrum->power, means, counts);
+    FOR_EACH_FREQUENCY(half, kx, ky, ring)
+    {
+        const double off = power_at(half, spectrum->power, kx, ky) - means[ring];
+        spreads[ring] += off * off;
     }
     for (int ring = 1; ring <= half; ring++) {
-        const double mean = spectrum->rings[2 * ring] / sets;
-        const double variance = fmax(spectrum->rings[2 * ring + 1] / sets - mean * mean, 0);
-        double anisotropy = NAN;
-        if (sums) {
-            const double count = sums[2 * (half + 1) + ring], along = sums[ring] / count;
-            const double spread = fmax(sums[half + 1 + ring] / count - along * along, 0) * count / (count - 1);
-            anisotropy = 10 * log10(spread / (along * along));
-        }
-        rings[ring - 1] = (koksma_ring){ring, mean, sets > 1 ? sqrt(variance / (sets - 1)) : (double)NAN, anisotropy};
+        const koksma_tally *t = &spectrum->rings[ring];
+        const double variance = spreads[ring] / (counts[ring] - 1);
+        rings[ring - 1] =
+            (koksma_ring){ring, t->mean, koksma_tally_error(t), 10 * log10(variance / (means[ring] * means[ring]))};
     }
-    free(sums);
+    free(means);
+    return KOKSMA_OK;
 }
 
-void koksma_spectrum_quality(const koksma_spectrum *spectrum, double *effective_nyquist, double *oscillation)
+/* Of rings from the first that has risen to 1, up to BAND sqrt(n) beyond: a band that the size of the spectrum
+   doesn't change. */
+static double oscillation(const koksma_spectrum *s)
 {
-    const double sets = (double)spectrum->sets;
-    double energy = 0, area = 0, waves = 0, beyond = 0;
-    *effective_nyquist = 0;
-    for (int ring = 1; ring <= spectrum->half; ring++) {
-        energy += ring * spectrum->rings[2 * ring] / sets;
+    int from = 1;
+    while (from <= s->half && s->rings[from].mean < RISEN) {
+        from++;
+    }
+    const double to = from + BAND * sqrt(s->points);
+    double waves = 0, area = 0;
+    for (int ring = from; ring <= s->half && ring <= to; ring++) {
+        const double off = s->rings[ring].mean - 1;
+        waves += ring * off * off;
         area += ring;
-        if (energy <= 0.1 * area) {
-            *effective_nyquist = ring;
+    }
+    return to <= s->half ? 10 * sqrt(waves / area) : (double)NAN;
+}
+
+void koksma_spectrum_quality(const koksma_spectrum *s, koksma_spectrum_quality_values *out)
+{
+    const double lattice = sqrt(s->points) / 2;
+    double energy = 0, area = 0;
+    int last = 0;
+    for (int ring = 1; ring <= s->half; ring++) {
+        energy += ring * s->rings[ring].mean;
+        area += ring;
+        if (energy <= NYQUIST_SHARE * area) {
+            last = ring;
+        } else if (ring >= lattice && energy > SIGNAL_SHARE * area) {
+            break;
         }
     }
-    for (int ring = (int)*effective_nyquist + 1; ring <= spectrum->half; ring++) {
-        const double off = spectrum->rings[2 * ring] / sets - 1;
-        waves += ring * off * off;
-        beyond += ring;
-    }
-    *oscillation = beyond > 0 ? 10 * sqrt(waves / beyond) : 0;
+    *out = (koksma_spectrum_quality_values){last / 2.0, last / 2.0 / lattice, oscillation(s)};
 }

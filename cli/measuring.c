@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measuring.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "source.h"
+
+bool measuring_open(measuring *j)
+{
+    j->tallies = calloc(2 * MAX_PREFIXES * (j->n_measures + 1), sizeof *j->tallies);
+    j->differences = j->tallies ? j->tallies + MAX_PREFIXES * (j->n_measures + 1) : NULL;
+    return j->tallies != NULL;
+}
+
+void measuring_close(measuring *j)
+{
+    free(j->tallies);
+    free(j->firsts);
+}
+
+/* The columns that all rows of trials begin with; theirs and the first's when it is a difference. */
+static void put_head(measuring *j, const char *source, size_t n, int dim, const char *measure, bool difference)
+{
+    char text[2 * KOKSMA_MAX_SPEC];
+    const bool two_sources = difference && strcmp(source, j->first_source) != 0;
+    snprintf(text, sizeof text, two_sources ? "%.500s minus %.500s" : "%.500s", source, j->first_source);
+    cli_row_text(j->rows, "source", text);
+    cli_row_whole(j->rows, "n", n);
+    cli_row_whole(j->rows, "dim", (uint64_t)dim);
+    cli_row_text(j->rows, "measure", measure);
+    if (j->warp) {
+        const bool two_warps = difference && j->warp != j->first_warp;
+        snprintf(text, sizeof text, two_warps ? "%s minus %s" : "%s", j->warp->name,
+                 two_warps ? j->first_warp->name : "");
+        cli_row_text(j->rows, "warp", text);
+    }
+}
+
+/* The columns that only some rows have something for: the 95 % interval of the mean, and theory. */
+static void put_tail(measuring *j, double low, double high, double theory, double best)
+{
+    if (j->paired) {
+        cli_row_number(j->rows, "low", low);
+        cli_row_number(j->rows, "high", high);
+    }
+    if (j->powers || cli_text(j->arguments, "prefixes", NULL)) {
+        cli_row_number(j->rows, "theory", theory);
+        cli_row_number(j->rows, "best", best);
+    }
+    cli_row_end(j->rows);
+}
+
+static void put_tally(measuring *j, const koksma_tally *t)
+{
+    cli_row_number(j->rows, "value", t->mean);
+    cli_row_whole(j->rows, "trials", (uint64_t)t->count);
+    cli_row_number(j->rows, "sd", koksma_tally_sd(t));
+    cli_row_number(j->rows, "min", t->min);
+    cli_row_number(j->rows, "max", t->max);
+    cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
+    put_tail(j, t->mean - koksma_tally_interval(t), t->mean + koksma_tally_interval(t), NAN, NAN);
+}
+
+/* The slope of log value over log n, beside the exponents of theory. */
+static void put_slope(measuring *j, const char *source, size_t measure, int dim)
+{
+    double sizes[MAX_PREFIXES], means[MAX_PREFIXES];
+    char name[KOKSMA_MAX_SPEC + 16], text[KOKSMA_MAX_SPEC];
+    koksma_line line;
+    cli_source parts;
+    for (size_t i = 0; i < j->n_prefixes; i++) {
+        const koksma_tally *t = &j->tallies[i * j->n_measures + measure];
+        sizes[i] = (double)j->prefixes[i];
+        means[i] = t->count > 0 ? t->mean : (double)NAN;
+    }
+    if (!koksma_log_line(j->n_prefixes, sizes, means, &line) || cli_source_open(j->arguments, source, &parts)) {
+        return;
+    }
+    const koksma_measure *m = j->measures[measure].measure;
+    const bool known = parts.is_pattern && !j->warp; /* of mapped points there is no theorem */
+    koksma_spec_text(&j->measures[measure], text);
+    snprintf(name, sizeof name, "slope of %s", text);
+    put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);
+    cli_row_number(j->rows, "value", line.slope);
+    cli_row_whole(j->rows, "trials", (uint64_t)j->tallies[measure].count);
+    cli_row_number(j->rows, "sd", NAN);
+    cli_row_number(j->rows, "min", NAN);
+    cli_row_number(j->rows, "max", NAN);
+    cli_row_number(j->rows, "standard_error", line.slope_error);
+    put_tail(j, NAN, NAN, known ? -koksma_rate(parts.spec.pattern, m, dim) : (double)NAN,
+             j->warp ? (double)NAN : -koksma_best_rate(m, dim));
+}
+
+static void put_tallies(measuring *j, const char *source, int dim)
+{
+    for (size_t m = 0; m < j->n_measures; m++) {
+        char name[KOKSMA_MAX_SPEC];
+        koksma_spec_text(&j->measures[m], name);
+        for (int which = 0; which <= j->paired; which++) {
+            const koksma_tally *tallies = which ? j->differences : j->tallies;
+            for (size_t i = 0; i < j->n_prefixes; i++) {
+                if (tallies[i * j->n_measures + m].count > 0) {
+                    put_head(j, source, j->prefixes[i], dim, name, which == 1);
+                    put_tally(j, &tallies[i * j->n_measures + m]);
+                }
+            }
+        }
+        put_slope(j, source, m, dim);
+    }
+}
+
+/* The prefixes that a set of n has; the whole set without --prefixes. */
+static void choose_prefixes(measuring *j, size_t n)
+{
+    if (j->powers || !cli_text(j->arguments, "prefixes", NULL)) {
+        j->n_prefixes = 0;
+        for (size_t k = 1; j->powers && k < n; k *= 2) {
+            j->prefixes[j->n_prefixes++] = k;
+        }
+        j->prefixes[j->n_prefixes++] = n;
+    }
+}
+
+/* Room for the first source's values, once it is known how many there are; false after an error. */
+static bool open_firsts(measuring *j, const char *source)
+{
+    const size_t count = j->n_prefixes * j->n_measures;
+    if (j->firsts || !j->paired) {
+        if (j->paired && count != j->n_firsts) {
+            cli_usage_error(j->arguments, "--paired: %s has other prefixes than %s", source, j->first_source);
+        }
+        return !j->paired || count == j->n_firsts;
+    }
+    j->firsts = malloc(j->trials * count * sizeof *j->firsts);
+    if (!j->firsts) {
+        cli_usage_error(j->arguments, "--paired: no memory for %zu values of %zu trials", count, (size_t)j->trials);
+        return false;
+    }
+    j->n_firsts = count;
+    j->first_source = source;
+    j->first_warp = j->warp;
+    return true;
+}
+
+static koksma_status tally_points(measuring *j, const koksma_points *points, uint64_t trial, bool first)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < j->n_prefixes && !status; i++) {
+        const koksma_points prefix = {j->prefixes[i], points->dim, points->xs};
+        for (size_t m = 0; m < j->n_measures && !status; m++) {
+            const size_t at = i * j->n_measures + m;
+            double *kept = j->paired ? &j->firsts[trial * j->n_firsts + at] : NULL;
+            koksma_value value = {.value = NAN};
+            status = prefix.n <= points->n ? measuring_evaluate(j, m, &prefix, &value) : KOKSMA_N;
+            const bool measured = !status;
+            status = prefix.n <= points->n ? measuring_forgive(j, status) : KOKSMA_OK;
+            if (measured) {
+                koksma_tally_add(&j->tallies[at], value.value);
+            }
+            if (kept && first) {
+                *kept = measured ? value.value : (double)NAN;
+            } else if (kept && measured && isfinite(value.value - *kept)) {
+                koksma_tally_add(&j->differences[at], value.value - *kept);
+            }
+        }
+    }
+    return status;
+}
+
+int measuring_trials(measuring *j, const char *source)
+{
+    int code = CLI_YES, dim = 0;
+    const bool first = !j->firsts;
+    memset(j->tallies, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->tallies);
+    for (uint64_t t = 0; t < j->trials && !code; t++) {
+        koksma_points points = {0};
+        code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
+        if (!code) {
+            dim = points.dim;
+            choose_prefixes(j, points.n);
+            code = open_firsts(j, source) ? CLI_YES : CLI_USAGE;
+        }
+        if (!code) {
+            const koksma_status status = tally_points(j, &points, t, first);
+            cli_work_end(&j->work);
+            code = status ? cli_fail(j->arguments, status) : CLI_YES;
+        }
+        koksma_points_fini(&points);
+    }
+    put_tallies(j, source, dim);
+    return code;
+}

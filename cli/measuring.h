@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_CLI_MEASURING_H
+#define KOKSMA_CLI_MEASURING_H
+
+#include <koksma/series.h>
+#include <koksma/warp.h>
+
+#include "cli.h"
+
+enum { MAX_MEASURES = 64, MAX_PREFIXES = 64, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
+
+/* What `measure` is told, and where it is. */
+typedef struct measuring {
+    const cli_arguments *arguments;
+    koksma_spec measures[MAX_MEASURES];
+    size_t n_measures;
+    bool all; /* -m all: measures that can't serve a set are left out */
+    uint64_t seed, trials;
+    const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the present one, or NULL */
+    size_t n_warps;
+    size_t prefixes[MAX_PREFIXES], n_prefixes;
+    bool powers; /* prefixes are the powers of two */
+    double time_limit_s;
+    cli_work work;
+    cli_rows *rows;
+    koksma_tally *tallies; /* [prefix][measure] */
+    /* --paired: the first source's values by trial, [prefix][measure] each, and tallies of what others have more */
+    bool paired;
+    double *firsts;
+    koksma_tally *differences;
+    size_t n_firsts;
+    const char *first_source;
+    const koksma_warp *first_warp;
+} measuring;
+
+bool measuring_open(measuring *j); /* room for tallies; false when memory runs out */
+void measuring_close(measuring *j);
+
+koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
+koksma_status measuring_forgive(const measuring *j, koksma_status status);
+
+/* Many sets, or prefixes: what was done is printed even if it was cut short. Returns the exit code. */
+int measuring_trials(measuring *j, const char *source);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Exponents of decay. Boxes: no points do better than 1/n, powers of log n aside (Roth 1954; Schmidt 1972); edges and
+ * disks: n^(-1/2 - 1/(2 dim)) (Schmidt 1969; Beck and Chen 1987; Alexander 1990).
+ *
+ * Of patterns, by their claims:
+ *   points that are independent                         1/2: the sum of n independent terms
+ *   also one uniform in each cell of a cubic grid       1/2 + 1/(2 dim): only the cells that a border cuts have any
+ *                                                       variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
+ *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly
+ *   Latin sets without more, unbiased                   1/2: the variance that is left beside the main effects
+ *                                                       (Stein 1987)
+ *   nets, and Halton's sequence, for boxes              1 (Niederreiter 1992)
+ */
+#include <math.h>
+
+#include <koksma/series.h>
+
+#include "core/status.h"
+
+koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_points *points, const size_t *sizes,
+                                       size_t n_sizes, const koksma_run *run, koksma_value *values)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < n_sizes && !status; i++) {
+        const koksma_points prefix = {sizes[i], points->dim, points->xs};
+        if (prefix.n == 0 || prefix.n > points->n) {
+            return koksma__fail(KOKSMA_N, "prefixes: %zu points: the set has %zu", prefix.n, points->n);
+        }
+        status = koksma_evaluate(measure, &prefix, run, &values[i]);
+    }
+    return status;
+}
+
+double koksma_rate(const koksma_pattern *pattern, const koksma_measure *measure, int dim)
+{
+    const unsigned claims = pattern->claims;
+    const unsigned more = KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_LATTICE;
+    const unsigned nets = KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_NET_PREFIXES;
+    const bool boxes = measure->family == KOKSMA_FAMILY_BOXES, unbiased = claims & KOKSMA_CLAIM_UNBIASED;
+    if (measure->family == KOKSMA_FAMILY_NONE) {
+        return NAN;
+    }
+    if (unbiased && claims & KOKSMA_CLAIM_INDEPENDENT) {
+        return claims & KOKSMA_CLAIM_STRATIFIED ? 0.5 + 0.5 / dim : 0.5;
+    }
+    if (boxes && claims & KOKSMA_CLAIM_STRATIFIED && claims & KOKSMA_CLAIM_CENTRED) {
+        return 1.0 / dim;
+    }
+    if (boxes && ((claims & nets && (dim == 2 || claims & KOKSMA_CLAIM_NET_PREFIXES)) ||
+                  claims & KOKSMA_CLAIM_LATIN_PREFIXES)) {
+        return 1;
+    }
+    return claims & KOKSMA_CLAIM_LATIN && unbiased && !(claims & more) && dim > 1 ? 0.5 : (double)NAN;
+}
+
+double koksma_best_rate(const koksma_measure *measure, int dim)
+{
+    switch (measure->family) {
+    case KOKSMA_FAMILY_BOXES:
+        return 1;
+    case KOKSMA_FAMILY_EDGES:
+    case KOKSMA_FAMILY_DISKS:
+        return 0.5 + 0.5 / dim;
+    default:
+        return NAN;
+    }
+}
