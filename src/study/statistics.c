@@ -43,12 +43,12 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
     return s;
 }
 
-void koksma__largest_of(const double *values, size_t n, size_t block, double *mean, double *sd)
+void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
 {
     koksma__sum sum = {0}, squares = {0};
     const size_t blocks = n / block;
     for (size_t b = 0; b < blocks; b++) {
-        const koksma__summary s = koksma__summarize(values + b * block, block, 1);
+        const koksma__summary s = koksma__summarize(values + b * block * stride, block, stride);
         koksma__sum_add(&sum, s.max);
         koksma__sum_add(&squares, s.max * s.max);
     }

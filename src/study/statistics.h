@@ -19,6 +19,6 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
 double koksma__student_975(size_t degrees);
 
 /* Mean over whole blocks of `block` values of each block's largest, and the sample SD of those; NaN without one. */
-void koksma__largest_of(const double *values, size_t n, size_t block, double *mean, double *sd);
+void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd);
 
 #endif
