@@ -116,7 +116,9 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
-static koksma_status run_kind(koksma_study *study, bool images, const koksma_run *run, koksma_study_summary *summary)
+/* With a status that is not OK already, only counts. */
+static koksma_status run_kind(koksma_study *study, bool images, const koksma_run *run, koksma_status before,
+                              koksma_study_summary *summary)
 {
     koksma__tasks tasks;
     koksma_status status = koksma__tasks_open(study, images, &tasks);
@@ -131,12 +133,12 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
         done_before += (size_t)tasks.at[i].done_before;
     }
     summary->done_before += done_before;
-    if (!status && done_before < tasks.n_jobs) {
+    if (!status && !before && done_before < tasks.n_jobs) {
         status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool, run) : koksma__pool_threads(&pool, run);
     }
     summary->done_now += atomic_load(&pool.done);
     koksma__tasks_close(&tasks);
-    return status;
+    return before ? before : status;
 }
 
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
@@ -154,8 +156,8 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     const double start_s = now_s();
     watch w = {.run = run, .end_s = run && run->time_limit_s > 0 ? start_s + run->time_limit_s : 0};
     const koksma_run inner = {.threads = koksma__threads(run), .keep_going = keep_going, .context = &w};
-    koksma_status status = run_kind(study, false, &inner, summary);
-    status = status ? status : run_kind(study, true, &inner, summary);
+    koksma_status status = run_kind(study, false, &inner, KOKSMA_OK, summary);
+    status = run_kind(study, true, &inner, status, summary);
     summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : inner.threads;
     summary->seconds = now_s() - start_s;
     summary->store_seconds = koksma__store_seconds(study->store);

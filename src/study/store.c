@@ -100,9 +100,7 @@ static koksma_status fail(koksma__store *store)
     if (code == SQLITE_NOMEM) {
         return koksma__fail(KOKSMA_MEMORY, "%s: out of memory", store->path);
     }
-    const int reason = sqlite3_system_errno(store->database);
-    return koksma__fail(KOKSMA_IO, "%s: %s%s%s", store->path, sqlite3_errmsg(store->database), reason ? ": " : "",
-                        reason ? strerror(reason) : "");
+    return koksma__fail(KOKSMA_IO, "%s: %s", store->path, sqlite3_errmsg(store->database));
 }
 
 static koksma_status execute(koksma__store *store, const char *sql)
@@ -281,6 +279,8 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
     koksma_status status = KOKSMA_OK;
     if (!write && access(path, F_OK)) {
         status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(errno));
+    } else if (access(path, W_OK) && errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
+        status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
     }
     const int flags = SQLITE_OPEN_READWRITE | (write ? SQLITE_OPEN_CREATE : 0);
     if (!status && sqlite3_open_v2(path, &store->database, flags, NULL) != SQLITE_OK) {
