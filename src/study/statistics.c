@@ -5,13 +5,15 @@
 
 #include "core/sum.h"
 
-double koksma__student_975(size_t degrees)
+static const double Z_975 = 1.959963984540054;
+
+double koksma__student(double z, size_t degrees)
 {
-    const double z = 1.959963984540054, v = (double)degrees;
-    if (degrees == 1) {
+    const double v = (double)degrees;
+    if (z == Z_975 && degrees == 1) {
         return 12.706204736174705;
     }
-    if (degrees == 2) {
+    if (z == Z_975 && degrees == 2) {
         return 4.302652729749464;
     }
     const double z2 = z * z;
@@ -19,21 +21,33 @@ double koksma__student_975(size_t degrees)
            z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
 }
 
-koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+double koksma__student_975(size_t degrees)
+{
+    return koksma__student(Z_975, degrees);
+}
+
+/* a[i] - b[i], or a[i] without b. */
+static double item(const double *a, const double *b, size_t i)
+{
+    return b ? a[i] - b[i] : a[i];
+}
+
+koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride)
 {
     koksma__summary s = {n, NAN, NAN, NAN, NAN, NAN};
     if (n == 0) {
         return s;
     }
     koksma__sum sum = {0}, squares = {0};
-    s.max = values[0];
+    s.max = item(a, b, 0);
     for (size_t i = 0; i < n; i++) {
-        koksma__sum_add(&sum, values[i * stride]);
-        s.max = fmax(s.max, values[i * stride]);
+        const double value = item(a, b, i * stride);
+        koksma__sum_add(&sum, value);
+        s.max = fmax(s.max, value);
     }
     s.mean = koksma__sum_value(&sum) / (double)n;
     for (size_t i = 0; i < n; i++) {
-        const double t = values[i * stride] - s.mean;
+        const double t = item(a, b, i * stride) - s.mean;
         koksma__sum_add(&squares, t * t);
     }
     s.sd = n > 1 ? sqrt(koksma__sum_value(&squares) / (double)(n - 1)) : 0;
@@ -41,6 +55,11 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
     s.low = s.mean - half;
     s.high = s.mean + half;
     return s;
+}
+
+koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+{
+    return koksma__paired(values, NULL, n, stride);
 }
 
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
