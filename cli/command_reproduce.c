@@ -34,11 +34,11 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
     return KOKSMA_OK;
 }
 
-static koksma_status reproduce(const cli_arguments *arguments, const char *plan, const char *folder, uint64_t trials,
-                               cli_work *work, cli_rows *rows, koksma_study_summary *summary)
+static koksma_status reproduce(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
+                               cli_rows *rows, koksma_study_summary *summary)
 {
     koksma_study *study;
-    koksma_status status = koksma_study_open(plan, folder, (long long)trials, &study);
+    koksma_status status = koksma_study_open(options, &study);
     if (status) {
         return status;
     }
@@ -61,7 +61,7 @@ static int run(const cli_arguments *arguments)
     cli_work work;
     uint64_t trials;
     const char *folder = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands != 1 || !folder) {
+    if (arguments->n_operands < 1 || !folder) {
         return cli_usage_error(arguments, "it takes a paper and a folder, as in shirley1991 -o DIR");
     }
     if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
@@ -73,7 +73,12 @@ static int run(const cli_arguments *arguments)
         return koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_study_summary summary;
-    const koksma_status status = reproduce(arguments, arguments->operands[0], folder, trials, &work, rows, &summary);
+    const koksma_study_options options = {.plans = (const char *const *)arguments->operands,
+                                          .n_plans = (size_t)arguments->n_operands,
+                                          .folder = folder,
+                                          .trials = (long long)trials,
+                                          .quick = cli_flag(arguments, "quick")};
+    const koksma_status status = reproduce(arguments, &options, &work, rows, &summary);
     cli_work_end(&work);
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {
@@ -92,9 +97,10 @@ static int run(const cli_arguments *arguments)
     return code;
 }
 
-static const cli_option options[] = {
+static const cli_option option_table[] = {
     {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
+    {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
     {0, "table", "ID", "table to print at the end, or none (default: the plan's first)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -103,12 +109,12 @@ static const cli_option options[] = {
 
 const cli_command cli_command_reproduce = {
     .name = "reproduce",
-    .summary = "reproduce the tables and figures of a paper",
-    .synopsis = "PAPER -o DIR [--trials T] [--table ID] [--json]",
+    .summary = "reproduce the tables and figures of papers",
+    .synopsis = "PAPER... -o DIR [--quick] [--trials T] [--table ID] [--json]",
     .details =
         "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
         "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
         "on where it was and ends with the same report.",
-    .options = options,
+    .options = option_table,
     .run = run,
 };

@@ -71,6 +71,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     *work = (cli_work){.what = what, .started_s = now_s()};
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
+    signal(SIGXFSZ, SIG_IGN); /* a full disk, or a limit, is an error of the write */
     signal(SIGINT, on_signal);
     signal(SIGTERM, on_signal);
     return true;

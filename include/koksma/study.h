@@ -3,8 +3,10 @@
  * Studies: patterns x measures and patterns x scenes, over many trials, with the results in DIR/results.sqlite and a
  * report in DIR/report.html. Part of koksma-lab.
  *
+ *     const char *plans[] = {"shirley1991"};
+ *     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = "out"};
  *     koksma_study *study;
- *     if (!koksma_study_open("shirley1991", "out", 0, &study) && !koksma_study_run(study, NULL, NULL))
+ *     if (!koksma_study_open(&options, &study) && !koksma_study_run(study, NULL, NULL))
  *         koksma_study_report(study, NULL);
  *     koksma_study_close(study);
  *
@@ -25,23 +27,50 @@ typedef struct koksma_study koksma_study;
 /* The name of shipped plan i, NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
-/* Opens a plan (a shipped name, or a JSON file when the text has a '/' or ends in ".json") on a folder, which is made
-   when it does not exist. trials > 0 replaces the numbers of trials of the plan.
-   Errors: UNKNOWN, MISSING, MALFORMED (with file, line and reason), IO (the folder can't be written, another run
+typedef struct koksma_study_options {
+    const char *const *plans; /* shipped names, or JSON files when the text has a '/' or ends in ".json". Several
+                                 become one plan, "a+b" */
+    size_t n_plans;           /* 0: the plan that the folder's results were made with */
+    const char *folder;       /* made when it does not exist; NULL: for koksma_study_estimate only */
+    long long trials;         /* > 0: instead of the plan's numbers of trials */
+    bool quick;               /* each block's `quick` number of trials, where it has one */
+} koksma_study_options;
+
+/* Errors: UNKNOWN, MISSING, MALFORMED (with file, line and reason), IO (the folder can't be written, another run
    holds it), MEMORY. */
-KOKSMA_API koksma_status koksma_study_open(const char *plan, const char *folder, long long trials,
-                                           koksma_study **out);
+KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out);
 
 /* Commits what is not yet on disk. Takes NULL. Errors: IO. */
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
 typedef struct koksma_study_summary {
     size_t jobs, done_before, done_now; /* a job is one point set or one render */
+    double seconds, store_seconds;      /* store_seconds: of them in the database */
+    int workers;                        /* threads, or MPI ranks */
+    bool complete;                      /* false when the time was up */
 } koksma_study_summary;
 
-/* Does the jobs that are not done. run and summary may be NULL. Errors: INTERRUPTED (what is done is kept), IO, and
-   what generating, measuring or rendering says. */
+/* Does the jobs that are not done, until run->time_limit_s. run and summary may be NULL.
+   Errors: INTERRUPTED (what is done is kept), IO, and what generating, measuring or rendering says. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
+
+typedef struct koksma_study_cost {
+    size_t jobs, references;  /* point sets and renders; reference images */
+    uint64_t rows;            /* of the table of results */
+    double seconds;           /* on one thread, from measured samples */
+    double reference_seconds; /* of them for the references */
+    double bytes;             /* on disk */
+} koksma_study_cost;
+
+/* What the whole study would cost, from one job of every kind, as many as fit in run->time_limit_s (0: 5 s); the rest
+   is extrapolated by the number of points or samples. */
+KOKSMA_API koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out);
+
+typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSMA_EXPORT_NPY } koksma_export_format;
+
+/* Writes all results of a folder, sorted by their keys: the same bytes however they were made. Path "-" is standard
+   output. JSON is an object a line; NPY is an array of records with byte strings. */
+KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
 /* Writes DIR/report.html: one file that needs no network. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);

@@ -19,12 +19,12 @@ KOKSMA__LAB koksma_status koksma__parallel(const koksma_run *run, size_t n_block
                                            void *context);
 
 /* The number of threads that run asks for. */
-int koksma__threads(const koksma_run *run);
+KOKSMA__LAB int koksma__threads(const koksma_run *run);
 
 /* False when run says stop. */
-bool koksma__keep_going(const koksma_run *run, double fraction_done);
+KOKSMA__LAB bool koksma__keep_going(const koksma_run *run, double fraction_done);
 
 /* The status of a call that was told to stop. */
-koksma_status koksma__fail_interrupted(void);
+KOKSMA__LAB koksma_status koksma__fail_interrupted(void);
 
 #endif

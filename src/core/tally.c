@@ -28,18 +28,21 @@ double koksma_tally_interval(const koksma_tally *t)
     return t->count > 1 ? koksma_student_975((size_t)t->count - 1) * koksma_tally_error(t) : (double)NAN;
 }
 
-double koksma_student_975(size_t degrees)
+static const double Z_975 = 1.959963984540054;
+
+double koksma_student(double z, size_t degrees)
 {
-    const double z = 1.959963984540054, v = (double)degrees;
-    if (degrees == 1) {
-        return 12.706204736174705;
+    const double v = (double)degrees, z2 = z * z;
+    if (z == Z_975 && degrees <= 2) {
+        return degrees == 1 ? 12.706204736174705 : 4.302652729749464;
     }
-    if (degrees == 2) {
-        return 4.302652729749464;
-    }
-    const double z2 = z * z;
     return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
            z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
+}
+
+double koksma_student_975(size_t degrees)
+{
+    return koksma_student(Z_975, degrees);
 }
 
 /* Two passes: sums of squares of what is left when the means are taken off lose no digits. */

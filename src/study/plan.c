@@ -8,10 +8,12 @@
 
 #include <koksma/render.h>
 #include <koksma/study.h>
+#include <koksma/warp.h>
 
 #include "scene/json.h"
 #include "study/plan_parts.h"
 #include "study/plans_embedded.h"
+#include "study/variants.h"
 
 enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20 };
 
@@ -33,25 +35,61 @@ const char *koksma__plan_shipped(const char *name, size_t *size)
 
 /* ---- The parts that discrepancies and images share ------------------------------------------------------- */
 
-static koksma_status parse_discrepancy(const koksma__json_node *node, long long trials, void *item)
+/* How often a block is done: by the run, by its `quick` in a quick run, by its `trials`. */
+static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
 {
-    static const char *const keys[] = {"patterns", "measures", "n", "dim", "trials", NULL};
+    long long quick = 0;
+    koksma_status status = koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, out);
+    status = status ? status : koksma__json_get_whole(node, "quick", false, 1, MAX_TRIALS, &quick);
+    *out = given->quick && quick ? quick : *out;
+    *out = given->trials > 0 ? given->trials : *out;
+    return status;
+}
+
+/* A warp must know every measure: that is tried on one point. */
+static koksma_status check_warps(const koksma__json_node *node, const koksma__discrepancy_block *b)
+{
+    double xs[] = {0.5, 0.5};
+    const koksma_points point = {1, 2, xs};
+    for (size_t w = 0; w < b->warps.n; w++) {
+        const koksma_warp *warp = koksma_warp_find(b->warps.at[w]);
+        if (!warp) {
+            return koksma__json_fail(node, "no warp '%s'; 'koksma measure --help' names them", b->warps.at[w]);
+        }
+        for (size_t m = 0; m < b->measures.n; m++) {
+            koksma_spec spec;
+            koksma_value value;
+            if (koksma_measure_spec(b->measures.at[m], &spec) ||
+                koksma_warp_evaluate(warp, &spec, &point, NULL, &value)) {
+                return koksma__json_fail(node, "%s", koksma_error_text());
+            }
+        }
+    }
+    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps take dim 2") : KOKSMA_OK;
+}
+
+static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "patterns", "measures", "warps", "n",
+                                       "dim",     "trials",   "quick",    NULL};
     koksma__discrepancy_block *b = item;
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_specs(node, "measures", koksma_measure_spec, &b->measures);
+    if (!status && koksma__json_has(node, "warps")) {
+        status = koksma__plan_texts(node, "warps", &b->warps);
+    }
     status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
-    status = status ? status : koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, &b->trials);
+    status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
-    b->trials = trials > 0 ? trials : b->trials;
-    return status;
+    return status ? status : check_warps(node, b);
 }
 
-static koksma_status parse_reference(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_reference(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"name", "pattern", "spp", "replicates", NULL};
+    static const char *const keys[] = {"comment", "name", "pattern", "spp", "replicates", NULL};
     (void)trials;
     koksma__reference *r = item;
     r->replicates = 1;
@@ -84,17 +122,22 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__t
     return status;
 }
 
-static koksma_status parse_image(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"scenes", "patterns", "spp", "trials", "references", NULL};
+    static const char *const keys[] = {"comment", "scenes", "patterns", "spp",        "options",
+                                       "size",    "trials", "quick",    "references", NULL};
     koksma__image_block *b = item;
+    double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
-    status = status ? status : koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, &b->trials);
-    b->trials = trials > 0 ? trials : b->trials;
+    status = status ? status : koksma__variants_parse(node, &b->variants);
+    status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
+    status = status ? status : parse_trials(node, trials, &b->trials);
+    b->width = (int)size[0];
+    b->height = (int)size[1];
     return status ? status
                   : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,
                                       (void **)&b->references, &b->n_references);
@@ -117,9 +160,9 @@ static koksma_status parse_published(const koksma__json_node *node, double publi
     return status;
 }
 
-static koksma_status parse_row(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_row(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"pattern", "label", "published", NULL};
+    static const char *const keys[] = {"comment", "pattern", "label", "published", NULL};
     (void)trials;
     koksma__table_row *r = item;
     koksma_status status = koksma__json_only(node, keys);
@@ -128,9 +171,9 @@ static koksma_status parse_row(const koksma__json_node *node, long long trials, 
     return status ? status : parse_published(node, r->published);
 }
 
-static koksma_status parse_note(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_note(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"pattern", "statistic", "reason", NULL};
+    static const char *const keys[] = {"comment", "pattern", "statistic", "reason", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
     (void)trials;
     koksma__note *n = item;
@@ -147,9 +190,10 @@ static koksma_status parse_note(const koksma__json_node *node, long long trials,
     return status;
 }
 
-static koksma_status parse_table(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"id", "title", "scene", "measure", "also", "n", "dim", "rows", "notes", NULL};
+    static const char *const keys[] = {"comment", "id",  "title", "scene", "measure", "also",
+                                       "n",       "dim", "rows",  "notes", NULL};
     koksma__table *t = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "id", true, &t->id);
@@ -171,9 +215,9 @@ static koksma_status parse_table(const koksma__json_node *node, long long trials
                                       &t->n_notes);
 }
 
-static koksma_status parse_figure(const koksma__json_node *node, long long trials, void *item)
+static koksma_status parse_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"id", "title", "pattern", "scene", "n", "cells", NULL};
+    static const char *const keys[] = {"comment", "id", "title", "pattern", "scene", "n", "cells", NULL};
     (void)trials;
     koksma__figure *f = item;
     koksma_status status = koksma__json_only(node, keys);
@@ -213,8 +257,8 @@ static bool has_whole(const koksma__wholes *wholes, long long value)
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
                               long long n, long long dim)
 {
-    return block->dim == dim && has_text(&block->measures, measure) && has_text(&block->patterns, pattern) &&
-           has_whole(&block->n, n);
+    return !block->warps.n && block->dim == dim && has_text(&block->measures, measure) &&
+           has_text(&block->patterns, pattern) && has_whole(&block->n, n);
 }
 
 /* Whether the blocks make every row of table t. */
@@ -222,7 +266,8 @@ static bool is_made(const koksma__plan *plan, const koksma__table *t, const char
 {
     for (size_t b = 0; t->scene && b < plan->n_images; b++) {
         const koksma__image_block *i = &plan->images[b];
-        if (has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) && has_whole(&i->spp, t->n)) {
+        if (has_text(&i->variants, "") && has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) &&
+            has_whole(&i->spp, t->n)) {
             return true;
         }
     }
@@ -252,10 +297,10 @@ static koksma_status check_tables(const koksma__json_node *root, const koksma__p
     return KOKSMA_OK;
 }
 
-static koksma_status parse(const koksma__json_node *root, long long trials, koksma__plan *p)
+static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"name",   "title",  "about",   "discrepancies",
-                                       "images", "tables", "figures", NULL};
+    static const char *const keys[] = {"comment", "name",   "title",   "about", "discrepancies",
+                                       "images",  "tables", "figures", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
@@ -278,9 +323,10 @@ static koksma_status parse(const koksma__json_node *root, long long trials, koks
     return status ? status : check_tables(root, p);
 }
 
-koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, long long trials,
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan)
 {
+    static const koksma__plan_trials as_planned = {0};
     koksma__json *document;
     *plan = (koksma__plan){0};
     koksma_status status = koksma__json_open("plan", name, text, size, &document);
@@ -288,78 +334,10 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
         return status;
     }
     const koksma__json_node root = koksma__json_root(document);
-    status = parse(&root, trials, plan);
+    status = parse(&root, trials ? trials : &as_planned, plan);
     koksma__json_close(document);
     if (status) {
         koksma__plan_fini(plan);
     }
     return status;
-}
-
-static void free_texts(koksma__texts *texts)
-{
-    for (size_t i = 0; i < texts->n; i++) {
-        free(texts->at[i]);
-    }
-    free(texts->at);
-}
-
-static void free_table(koksma__table *t)
-{
-    for (size_t r = 0; r < t->n_rows; r++) {
-        free(t->rows[r].pattern);
-        free(t->rows[r].label);
-    }
-    for (size_t n = 0; n < t->n_notes; n++) {
-        free(t->notes[n].pattern);
-        free(t->notes[n].reason);
-    }
-    free(t->rows);
-    free(t->notes);
-    free(t->id);
-    free(t->title);
-    free(t->scene);
-    free(t->measure);
-    free(t->also);
-}
-
-static void free_image_block(koksma__image_block *b)
-{
-    free_texts(&b->scenes);
-    free_texts(&b->patterns);
-    free(b->spp.at);
-    for (size_t r = 0; r < b->n_references; r++) {
-        free(b->references[r].name);
-        free(b->references[r].pattern);
-    }
-    free(b->references);
-}
-
-void koksma__plan_fini(koksma__plan *p)
-{
-    for (size_t i = 0; i < p->n_discrepancies; i++) {
-        free_texts(&p->discrepancies[i].patterns);
-        free_texts(&p->discrepancies[i].measures);
-        free(p->discrepancies[i].n.at);
-    }
-    for (size_t i = 0; i < p->n_images; i++) {
-        free_image_block(&p->images[i]);
-    }
-    for (size_t i = 0; i < p->n_tables; i++) {
-        free_table(&p->tables[i]);
-    }
-    for (size_t i = 0; i < p->n_figures; i++) {
-        free(p->figures[i].id);
-        free(p->figures[i].title);
-        free(p->figures[i].pattern);
-        free(p->figures[i].scene);
-    }
-    free(p->discrepancies);
-    free(p->images);
-    free(p->tables);
-    free(p->figures);
-    free(p->name);
-    free(p->title);
-    free(p->about);
-    *p = (koksma__plan){0};
 }

@@ -15,9 +15,12 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
-/* patterns x n x measures x trials */
+void koksma__texts_fini(koksma__texts *texts);
+
+/* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {
     koksma__texts patterns, measures; /* canonical specs */
+    koksma__texts warps;              /* names of maps of the square onto a domain; none: the square itself */
     koksma__wholes n;
     int dim;
     long long trials;
@@ -30,10 +33,12 @@ typedef struct koksma__reference {
     long long spp, replicates;
 } koksma__reference;
 
-/* scenes x patterns x spp x trials, each compared with every reference */
+/* scenes x patterns x spp x variants x trials, each compared with every reference */
 typedef struct koksma__image_block {
     koksma__texts scenes, patterns;
+    koksma__texts variants; /* canonical texts of the options; at least one, "" when the plan names none */
     koksma__wholes spp;
+    int width, height; /* 0: the scene's own */
     long long trials;
     size_t n_references;
     koksma__reference *references;
@@ -78,10 +83,19 @@ typedef struct koksma__plan {
     koksma__figure *figures;
 } koksma__plan;
 
+/* What a run may say about a plan's numbers of trials. */
+typedef struct koksma__plan_trials {
+    long long trials; /* > 0: instead of the plan's */
+    bool quick;       /* each block's `quick`, where it has one */
+} koksma__plan_trials;
+
 /* Parses a plan; name is what errors call it ("plan 'my.json': line 3: …"). Checks every spec, so that a study does
-   not fail in the middle. trials > 0 replaces the plan's numbers of trials. */
-koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, long long trials,
+   not fail in the middle. trials NULL: as the plan says. */
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
+
+/* Appends what `from` has to `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
+koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
 
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);

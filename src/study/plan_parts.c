@@ -124,7 +124,8 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
 }
 
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
-                                koksma__item_parser parser, long long trials, void **items, size_t *n)
+                                koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
+                                size_t *n)
 {
     koksma__json_node list;
     size_t length;

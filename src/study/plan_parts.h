@@ -7,7 +7,8 @@
 #include "study/plan.h"
 
 typedef koksma_status (*koksma__spec_parser)(const char *text, koksma_spec *spec);
-typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, long long trials, void *item);
+typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, const koksma__plan_trials *trials,
+                                             void *item);
 
 /* A copy of the member's text; *out stays NULL when it is not there and not needed. */
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out);
@@ -26,6 +27,7 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
 /* A list of objects into an array of zeroed items of item_size bytes; *n counts the items that must be freed, also on
    failure. */
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
-                                koksma__item_parser parser, long long trials, void **items, size_t *n);
+                                koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
+                                size_t *n);
 
 #endif

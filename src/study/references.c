@@ -34,26 +34,82 @@ void koksma__reference_name(const koksma__reference *reference, char *text)
              reference->replicates);
 }
 
-koksma_status koksma__study_render(const koksma__study_scene *scene, const char *pattern, long long spp,
-                                   uint64_t seed, const koksma_run *run, koksma_image *out)
+void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height)
+{
+    *width = block->width ? block->width : scene->width;
+    *height = block->height ? block->height : scene->height;
+}
+
+koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
+                                   const koksma_run *run, koksma_image *out)
 {
     koksma_render_options options;
     koksma_render_options_init(&options, scene->scene);
-    const koksma_status status = koksma_pattern_spec(pattern, &options.pattern);
-    options.spp = (int)spp;
-    options.seed = seed;
-    options.width = scene->width;
-    options.height = scene->height;
+    koksma_status status = koksma_pattern_spec(picture->pattern, &options.pattern);
+    if (!status) {
+        status = koksma__variant_apply(picture->variant, picture->of_reference, &options);
+    }
+    options.spp = (int)picture->spp;
+    options.seed = picture->seed;
+    options.width = picture->width;
+    options.height = picture->height;
     return status ? status : koksma_render(scene->scene, &options, run, out);
 }
 
-/* Sums and sums of squares over replicates, in double. */
-typedef struct sums {
-    double *sum, *squares;
-    size_t count;
-} sums;
+koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
+                                      const koksma__study_scene *scene, const char *variant, size_t r, size_t *index)
+{
+    koksma__reference_image wanted = {.scene = scene, .reference = &block->references[r]};
+    char name[KOKSMA__REFERENCE_NAME], other[KOKSMA__REFERENCE_NAME];
+    koksma__block_size(block, scene, &wanted.width, &wanted.height);
+    koksma__variant_of_reference(variant, wanted.options);
+    koksma__reference_name(wanted.reference, name);
+    for (*index = 0; *index < study->n_references; (*index)++) {
+        const koksma__reference_image *at = &study->references[*index];
+        koksma__reference_name(at->reference, other);
+        if (at->scene == scene && at->width == wanted.width && at->height == wanted.height &&
+            !strcmp(at->options, wanted.options) && !strcmp(name, other)) {
+            return KOKSMA_OK;
+        }
+    }
+    koksma__reference_image *more = realloc(study->references, (study->n_references + 1) * sizeof *study->references);
+    if (!more) {
+        return koksma__fail_memory((study->n_references + 1) * sizeof *more);
+    }
+    study->references = more;
+    more[study->n_references++] = wanted;
+    return KOKSMA_OK;
+}
 
-static koksma_status add_image(sums *s, const koksma_image *image)
+koksma__series koksma__reference_key(const koksma__reference_image *reference, char name[KOKSMA__REFERENCE_NAME])
+{
+    koksma__reference_name(reference->reference, name);
+    return (koksma__series){.kind = "image",
+                            .scene = reference->scene->name,
+                            .scene_hash = reference->scene->hash,
+                            .options = reference->options,
+                            .pattern = "",
+                            .what = name,
+                            .width = reference->width,
+                            .height = reference->height};
+}
+
+koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
+                                          const koksma_run *run, koksma_image *out)
+{
+    const koksma__reference *r = reference->reference;
+    const koksma__picture picture = {.pattern = r->pattern,
+                                     .variant = reference->options,
+                                     .of_reference = true,
+                                     .spp = r->spp,
+                                     .width = reference->width,
+                                     .height = reference->height,
+                                     .seed = koksma__job_seed("reference|%s|%s|%s|%lld|%lld", reference->scene->name,
+                                                              reference->scene->hash, r->pattern, r->spp, replicate)};
+    return koksma__study_render(reference->scene, &picture, run, out);
+}
+
+koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)
 {
     if (!s->sum) {
         s->count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
@@ -68,82 +124,92 @@ static koksma_status add_image(sums *s, const koksma_image *image)
         s->sum[i] += x;
         s->squares[i] += x * x;
     }
+    s->n++;
     return KOKSMA_OK;
 }
 
-static double standard_error(const sums *s, double k)
+static double standard_error(const koksma__replicates *s)
 {
+    const double k = (double)s->n;
     double total = 0;
     for (size_t i = 0; i < s->count; i++) {
         const double mean = s->sum[i] / k;
         const double variance = fmax(s->squares[i] / k - mean * mean, 0) * k / (k - 1);
         total += sqrt(2 / M_PI * variance / k);
     }
-    return total / (double)s->count;
-}
-
-static koksma_status render_reference(const koksma__study_scene *scene, const koksma__reference *reference,
-                                      const koksma_run *run, koksma_image *out, double *error)
-{
-    koksma_status status = KOKSMA_OK;
-    sums s = {0};
-    const double k = (double)reference->replicates;
-    for (long long r = 0; !status && r < reference->replicates; r++) {
-        const uint64_t seed = koksma__job_seed("reference|%s|%s|%s|%lld|%lld", scene->name, scene->hash,
-                                               reference->pattern, reference->spp, r);
-        koksma_image_fini(out);
-        status = koksma__study_render(scene, reference->pattern, reference->spp, seed, run, out);
-        if (!status) {
-            status = add_image(&s, out);
-        }
-    }
-    for (size_t i = 0; !status && i < s.count; i++) {
-        out->pixels[i] = (float)(s.sum[i] / k);
-    }
-    *error = status || reference->replicates < 2 ? (double)NAN : standard_error(&s, k);
-    free(s.sum);
-    return status;
+    return s->n < 2 ? (double)NAN : total / (double)s->count;
 }
 
 /* The file's name holds all that the picture depends on. */
-static void reference_path(const koksma_study *study, const koksma__study_scene *scene,
-                           const koksma__reference *reference, char *path, size_t size)
+void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
+                            size_t size)
 {
     char name[KOKSMA__REFERENCE_NAME];
-    koksma__reference_name(reference, name);
-    snprintf(path, size, "%s/references/%016llx.exr", study->folder,
-             (unsigned long long)koksma__job_seed("%s|%s|%s|%dx%d|%s", scene->name, scene->hash, name, scene->width,
-                                                  scene->height, koksma_version()));
+    koksma__reference_name(reference->reference, name);
+    const uint64_t key =
+        koksma__job_seed("%s|%s|%s|%s|%dx%d|%s", reference->scene->name, reference->scene->hash, name,
+                         reference->options, reference->width, reference->height, koksma_version());
+    snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);
 }
 
-koksma_status koksma__reference_image(koksma_study *study, const koksma__study_scene *scene,
-                                      const koksma__reference *reference, const koksma_run *run, koksma_image *out)
+bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference)
 {
-    char path[1100], name[KOKSMA__REFERENCE_NAME];
+    char path[KOKSMA__PATH];
     struct stat info;
-    double error;
+    koksma__reference_path(study, reference, path, sizeof path);
+    return !stat(path, &info);
+}
+
+/* The picture last: where it is, the row is. */
+koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *study,
+                                        koksma__reference_image *reference)
+{
+    char path[KOKSMA__PATH], name[KOKSMA__REFERENCE_NAME];
     snprintf(path, sizeof path, "%s/references", study->folder);
+    koksma_status status = KOKSMA_OK;
     if (mkdir(path, 0777) && errno != EEXIST) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
+        status = koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     }
-    *out = (koksma_image){0};
-    reference_path(study, scene, reference, path, sizeof path);
-    koksma__reference_name(reference, name);
-    if (!stat(path, &info)) {
-        return koksma_image_read(path, out);
-    }
-    koksma_status status = render_reference(scene, reference, run, out, &error);
+    const int channels = (int)(s->count / ((size_t)reference->width * (size_t)reference->height));
     if (!status) {
-        status = koksma__store_put_reference(study->store, scene->name, scene->hash, name, error);
+        status = koksma_image_init(&reference->image, reference->width, reference->height, channels);
     }
-    if (!status) {
-        status = koksma__store_commit(study->store);
+    for (size_t i = 0; !status && i < s->count; i++) {
+        reference->image.pixels[i] = (float)(s->sum[i] / (double)s->n);
     }
-    if (!status) { /* the picture last: where it is, the row is */
-        status = koksma_image_write(path, out, name);
+    const koksma__series key = koksma__reference_key(reference, name);
+    status = status ? status : koksma__store_put_reference(study->store, &key, standard_error(s));
+    status = status ? status : koksma__store_commit(study->store);
+    koksma__reference_path(study, reference, path, sizeof path);
+    status = status ? status : koksma_image_write(path, &reference->image, name);
+    free(s->sum);
+    *s = (koksma__replicates){0};
+    return status;
+}
+
+koksma_status koksma__reference_load(koksma_study *study, koksma__reference_image *reference, const koksma_run *run)
+{
+    char path[KOKSMA__PATH];
+    koksma__replicates sums = {0};
+    koksma_status status = KOKSMA_OK;
+    if (reference->image.pixels) {
+        return status;
+    }
+    if (koksma__reference_exists(study, reference)) {
+        koksma__reference_path(study, reference, path, sizeof path);
+        return koksma_image_read(path, &reference->image);
+    }
+    for (long long r = 0; !status && r < reference->reference->replicates; r++) {
+        koksma_image image;
+        status = koksma__reference_replicate(reference, r, run, &image);
+        if (!status) {
+            status = koksma__replicates_add(&sums, &image);
+            koksma_image_fini(&image);
+        }
     }
     if (status) {
-        koksma_image_fini(out);
+        free(sums.sum);
+        return status;
     }
-    return status;
+    return koksma__replicates_finish(&sums, study, reference);
 }

@@ -238,9 +238,14 @@ static koksma_status add_reference_remark(koksma_study *study, koksma__html *h, 
                                                                     : "leaves the order of the patterns as it is");
     char name[KOKSMA__REFERENCE_NAME];
     double error, smallest = INFINITY;
+    size_t index;
     const koksma__reference *converged = &block->references[block->n_references - 1];
-    koksma__reference_name(converged, name);
-    status = koksma__store_reference(study->store, scene->name, scene->hash, name, &error);
+    status = koksma__reference_index(study, block, scene, "", block->n_references - 1, &index);
+    if (status) {
+        return status;
+    }
+    const koksma__series key = koksma__reference_key(&study->references[index], name);
+    status = koksma__store_reference(study->store, &key, &error);
     for (size_t r = 0; !status && r < t->n_rows; r++) {
         koksma__cell cell;
         status = koksma__table_image(study, t, converged, t->rows[r].pattern, &cell);

@@ -43,9 +43,14 @@ static koksma_status add_scene(const koksma_study *study, koksma__html *h, const
                                const koksma_run *run)
 {
     koksma_image image;
-    const uint64_t seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n);
-    koksma_status status =
-        koksma__study_render(koksma__study_scene_of(study, f->scene), f->pattern, f->n, seed, run, &image);
+    const koksma__study_scene *scene = koksma__study_scene_of(study, f->scene);
+    const koksma__picture picture = {.pattern = f->pattern,
+                                     .variant = "",
+                                     .spp = f->n,
+                                     .width = scene->width,
+                                     .height = scene->height,
+                                     .seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n)};
+    koksma_status status = koksma__study_render(scene, &picture, run, &image);
     if (!status) {
         status = koksma__html_image(h, &image, SCENE_SCALE, f->title);
         koksma_image_fini(&image);

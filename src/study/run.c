@@ -1,271 +1,170 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * The jobs of a study. A job is one point set (all its measures) or one render (compared with all references); its
- * seed is a hash of its key, so that rows do not depend on threads, order or interruptions. Jobs whose rows exist are
- * skipped.
- */
+/* Runs the jobs of a study that are not done. Rows do not depend on threads, order or interruptions, because a job's
+   seed is a hash of its key. */
+#include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/study.h"
+#include "study/pool.h"
 
-typedef struct job {
-    const koksma__discrepancy_block *discrepancy; /* or NULL: */
-    const koksma__image_block *image;
-    const char *pattern;
-    const koksma__study_scene *scene;
-    const koksma_image *references; /* of the image block, in its order */
-    long long n, trial;             /* points or samples a pixel */
-} job;
-
-typedef struct job_list {
-    koksma_study *study;
-    job *jobs;
-    size_t n, room;
-    koksma_image *references; /* all blocks' */
-    size_t n_references;
-} job_list;
-
-static const koksma_run single = {.threads = 1};
-
-/* ---- One job ------------------------------------------------------------------------------------------ */
-
-static koksma__discrepancy_key discrepancy_key(const job *j, const char *measure)
+static double now_s(void)
 {
-    return (koksma__discrepancy_key){j->pattern, measure, j->n, j->discrepancy->dim, j->trial};
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static koksma_status measure_points(koksma__store *store, const job *j, uint64_t seed, const koksma_points *points)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t m = 0; !status && m < j->discrepancy->measures.n; m++) {
-        koksma_spec measure;
-        koksma_value value;
-        status = koksma_measure_spec(j->discrepancy->measures.at[m], &measure);
-        if (!status) {
-            status = koksma_evaluate(&measure, points, &single, &value);
-        }
-        const koksma__discrepancy_key key = discrepancy_key(j, j->discrepancy->measures.at[m]);
-        if (!status) {
-            status = koksma__store_put_discrepancy(store, &key, seed, value.value);
-        }
-    }
-    return status;
-}
-
-static koksma_status do_discrepancy(koksma__store *store, const job *j)
-{
-    koksma_spec pattern;
-    koksma_points points;
-    const int dim = j->discrepancy->dim;
-    const uint64_t seed = koksma__job_seed("discrepancy|%s|%lld|%d|%lld", j->pattern, j->n, dim, j->trial);
-    koksma_status status = koksma_pattern_spec(j->pattern, &pattern);
-    if (!status) {
-        status = koksma_points_init(&points, (size_t)j->n, dim);
-    }
-    if (status) {
-        return status;
-    }
-    status = koksma_generate(&pattern, seed, &single, &points);
-    if (!status) {
-        status = measure_points(store, j, seed, &points);
-    }
-    koksma_points_fini(&points);
-    return status;
-}
-
-static koksma__image_key image_key(const job *j, const char *reference)
-{
-    const koksma__study_scene *s = j->scene;
-    return (koksma__image_key){s->name, s->hash, j->pattern, reference, j->n, s->width, s->height, j->trial};
-}
-
-static koksma_status do_image(koksma__store *store, const job *j)
-{
-    koksma_image image;
-    const uint64_t seed = koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", j->scene->name, j->scene->hash,
-                                           j->pattern, j->n, j->scene->width, j->scene->height, j->trial);
-    koksma_status status = koksma__study_render(j->scene, j->pattern, j->n, seed, &single, &image);
-    if (status) {
-        return status;
-    }
-    for (size_t r = 0; !status && r < j->image->n_references; r++) {
-        char name[KOKSMA__REFERENCE_NAME];
-        koksma_image_error error;
-        koksma__reference_name(&j->image->references[r], name);
-        status = koksma_image_compare(&image, &j->references[r], &error);
-        const koksma__image_key key = image_key(j, name);
-        if (!status) {
-            status = koksma__store_put_image(store, &key, seed, &error);
-        }
-    }
-    koksma_image_fini(&image);
-    return status;
-}
+/* ---- Threads ------------------------------------------------------------------------------------------- */
 
 static koksma_status do_job(void *context, size_t i)
 {
-    const job_list *list = context;
-    const job *j = &list->jobs[i];
-    return j->discrepancy ? do_discrepancy(list->study->store, j) : do_image(list->study->store, j);
+    koksma__pool *pool = context;
+    long long trial;
+    const koksma__task *task = koksma__tasks_job(pool->tasks, i, &trial);
+    if (koksma__task_is_done(task, trial)) {
+        return KOKSMA_OK;
+    }
+    koksma__result *results = calloc(task->n_series, sizeof *results);
+    if (!results) {
+        return koksma__fail_memory(task->n_series * sizeof *results);
+    }
+    koksma_status status = koksma__task_do(pool->tasks->study, task, trial, results);
+    status = status ? status : koksma__task_put(pool->tasks->study->store, task, results);
+    free(results);
+    atomic_fetch_add(&pool->done, !status);
+    return status;
 }
 
-/* ---- The list ------------------------------------------------------------------------------------------ */
-
-static koksma_status is_done(koksma__store *store, const job *j, bool *done)
+/* Every reference that a job needs. */
+static koksma_status load_references(koksma__pool *pool, const koksma_run *run)
 {
+    koksma_study *study = pool->tasks->study;
     koksma_status status = KOKSMA_OK;
-    *done = true;
-    for (size_t m = 0; j->discrepancy && *done && !status && m < j->discrepancy->measures.n; m++) {
-        const koksma__discrepancy_key key = discrepancy_key(j, j->discrepancy->measures.at[m]);
-        status = koksma__store_has_discrepancy(store, &key, done);
-    }
-    for (size_t r = 0; j->image && *done && !status && r < j->image->n_references; r++) {
-        char name[KOKSMA__REFERENCE_NAME];
-        koksma__reference_name(&j->image->references[r], name);
-        const koksma__image_key key = image_key(j, name);
-        status = koksma__store_has_image(store, &key, done);
+    for (size_t i = 0; !status && i < pool->tasks->n; i++) {
+        const koksma__task *task = &pool->tasks->at[i];
+        for (size_t r = 0; task->image && !status && r < task->n_series && task->done_before < task->trials; r++) {
+            status = koksma__reference_load(study, &study->references[task->references[r]], run);
+        }
     }
     return status;
 }
 
-static koksma_status add_job(job_list *list, const job *j, koksma_study_summary *summary)
+koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run)
 {
-    bool done;
-    const koksma_status status = is_done(list->study->store, j, &done);
-    summary->jobs++;
-    summary->done_before += !status && done;
-    if (status || done) {
+    const koksma_status status = load_references(pool, run);
+    return status ? status : koksma__parallel(run, pool->tasks->n_jobs, do_job, pool);
+}
+
+/* ---- The time limit ------------------------------------------------------------------------------------ */
+
+typedef struct watch {
+    const koksma_run *run;
+    double end_s; /* 0: none */
+    bool is_up;
+} watch;
+
+static bool keep_going(void *context, double fraction)
+{
+    watch *w = context;
+    if (w->end_s > 0 && now_s() > w->end_s) {
+        w->is_up = true;
+        return false;
+    }
+    return koksma__keep_going(w->run, fraction);
+}
+
+/* ---- What was run, on what ----------------------------------------------------------------------------- */
+
+static void name_machine(char *text, size_t size)
+{
+    struct utsname system = {0};
+    char line[256], model[160] = "";
+    FILE *f = fopen("/proc/cpuinfo", "r");
+    while (f && fgets(line, sizeof line, f)) {
+        if (!strncmp(line, "model name", 10) && strchr(line, ':')) {
+            snprintf(model, sizeof model, "%.*s, ", (int)strcspn(strchr(line, ':') + 2, "\n"), strchr(line, ':') + 2);
+            break;
+        }
+    }
+    if (f) {
+        fclose(f);
+    }
+    uname(&system);
+    snprintf(text, size, "%s%.30s %.30s", model, system.sysname, system.machine);
+}
+
+static koksma_status record_run(koksma_study *study, const char *started, const koksma_study_summary *summary)
+{
+    koksma__run_record record = {.workers = summary->workers,
+                                 .jobs = (long long)summary->done_now,
+                                 .seconds = summary->seconds,
+                                 .store_seconds = summary->store_seconds};
+    if (summary->done_now == 0) {
+        return KOKSMA_OK;
+    }
+    snprintf(record.started, sizeof record.started, "%s", started);
+    snprintf(record.version, sizeof record.version, "%s", koksma_version());
+    name_machine(record.machine, sizeof record.machine);
+    const koksma_status status = koksma__store_put_run(study->store, &record);
+    return status ? status : koksma__store_commit(study->store);
+}
+
+/* ---- The whole ----------------------------------------------------------------------------------------- */
+
+/* With a status that is not OK already, only counts. */
+static koksma_status run_kind(koksma_study *study, bool images, const koksma_run *run, koksma_status before,
+                              koksma_study_summary *summary)
+{
+    koksma__tasks tasks;
+    koksma_status status = koksma__tasks_open(study, images, &tasks);
+    if (status) {
         return status;
     }
-    if (list->n == list->room) {
-        const size_t room = list->room ? 2 * list->room : 256;
-        job *jobs = realloc(list->jobs, room * sizeof *jobs);
-        if (!jobs) {
-            return koksma__fail_memory(room * sizeof *jobs);
-        }
-        list->jobs = jobs;
-        list->room = room;
+    koksma__pool pool = {.tasks = &tasks};
+    status = koksma__tasks_look_up(&tasks);
+    summary->jobs += tasks.n_jobs;
+    size_t done_before = 0;
+    for (size_t i = 0; i < tasks.n; i++) {
+        done_before += (size_t)tasks.at[i].done_before;
     }
-    list->jobs[list->n++] = *j;
-    return KOKSMA_OK;
-}
-
-static koksma_status list_discrepancies(job_list *list, const koksma__discrepancy_block *b,
-                                        koksma_study_summary *summary)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t p = 0; p < b->patterns.n; p++) {
-        for (size_t i = 0; i < b->n.n; i++) {
-            for (long long t = 0; !status && t < b->trials; t++) {
-                const job j = {.discrepancy = b, .pattern = b->patterns.at[p], .n = b->n.at[i], .trial = t};
-                status = add_job(list, &j, summary);
-            }
-        }
+    summary->done_before += done_before;
+    if (!status && !before && done_before < tasks.n_jobs) {
+        status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool, run) : koksma__pool_threads(&pool, run);
     }
-    return status;
-}
-
-static koksma_status list_images(job_list *list, const koksma__image_block *b, const koksma__study_scene *scene,
-                                 const koksma_image *references, koksma_study_summary *summary)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t p = 0; p < b->patterns.n; p++) {
-        for (size_t i = 0; i < b->spp.n; i++) {
-            for (long long t = 0; !status && t < b->trials; t++) {
-                const job j = {.image = b,
-                               .pattern = b->patterns.at[p],
-                               .scene = scene,
-                               .references = references,
-                               .n = b->spp.at[i],
-                               .trial = t};
-                status = add_job(list, &j, summary);
-            }
-        }
-    }
-    return status;
-}
-
-/* The reference images of a block and scene; only made when a job needs them. */
-static koksma_status get_references(job_list *list, const koksma__image_block *b, const koksma__study_scene *scene,
-                                    koksma_image *references, const koksma_run *run)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t r = 0; !status && r < b->n_references; r++) {
-        status = koksma__reference_image(list->study, scene, &b->references[r], run, &references[r]);
-    }
-    return status;
-}
-
-/* Lists the jobs of the image blocks that are not done, with the references that they need. */
-static koksma_status list_image_blocks(job_list *list, const koksma_run *run, koksma_study_summary *summary)
-{
-    const koksma__plan *plan = &list->study->plan;
-    koksma_status status = KOKSMA_OK;
-    size_t used = 0;
-    for (size_t b = 0; b < plan->n_images; b++) {
-        list->n_references += plan->images[b].scenes.n * plan->images[b].n_references;
-    }
-    list->references = calloc(list->n_references + 1, sizeof *list->references);
-    if (!list->references) {
-        return koksma__fail_memory(list->n_references * sizeof *list->references);
-    }
-    for (size_t b = 0; b < plan->n_images; b++) {
-        const koksma__image_block *block = &plan->images[b];
-        for (size_t s = 0; !status && s < block->scenes.n; s++) {
-            const koksma__study_scene *scene = koksma__study_scene_of(list->study, block->scenes.at[s]);
-            const size_t before = list->n;
-            status = list_images(list, block, scene, list->references + used, summary);
-            if (!status && list->n > before) {
-                status = get_references(list, block, scene, list->references + used, run);
-            }
-            used += block->n_references;
-        }
-    }
-    return status;
-}
-
-static koksma_status run_discrepancies(job_list *list, const koksma_run *run, koksma_study_summary *summary)
-{
-    const koksma__plan *plan = &list->study->plan;
-    koksma_status status = KOKSMA_OK;
-    for (size_t b = 0; !status && b < plan->n_discrepancies; b++) {
-        status = list_discrepancies(list, &plan->discrepancies[b], summary);
-    }
-    if (!status) {
-        status = koksma__parallel(run, list->n, do_job, list);
-    }
-    summary->done_now += status ? 0 : list->n;
-    list->n = 0;
-    return status;
-}
-
-static koksma_status run_images(job_list *list, const koksma_run *run, koksma_study_summary *summary)
-{
-    koksma_status status = list_image_blocks(list, run, summary);
-    if (!status) {
-        status = koksma__parallel(run, list->n, do_job, list);
-    }
-    summary->done_now += status ? 0 : list->n;
-    return status;
+    summary->done_now += atomic_load(&pool.done);
+    koksma__tasks_close(&tasks);
+    return before ? before : status;
 }
 
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
 {
     koksma_study_summary unused;
-    job_list list = {.study = study};
+    char started[24];
+    const time_t now = time(NULL);
+    struct tm utc;
+    strftime(started, sizeof started, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
-    koksma_status status = run_discrepancies(&list, run, summary);
-    if (!status) {
-        status = run_images(&list, run, summary);
+    if (!study->store) {
+        return koksma__pool_work(study);
     }
-    for (size_t r = 0; r < list.n_references; r++) {
-        koksma_image_fini(&list.references[r]);
+    const double start_s = now_s();
+    watch w = {.run = run, .end_s = run && run->time_limit_s > 0 ? start_s + run->time_limit_s : 0};
+    const koksma_run inner = {.threads = koksma__threads(run), .keep_going = keep_going, .context = &w};
+    koksma_status status = run_kind(study, false, &inner, KOKSMA_OK, summary);
+    status = run_kind(study, true, &inner, status, summary);
+    summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : inner.threads;
+    summary->seconds = now_s() - start_s;
+    summary->store_seconds = koksma__store_seconds(study->store);
+    summary->complete = !status;
+    if (!status || status == KOKSMA_INTERRUPTED) {
+        const koksma_status recorded = record_run(study, started, summary);
+        status = status == KOKSMA_OK || w.is_up ? recorded : status;
     }
-    free(list.references);
-    free(list.jobs);
     return status;
 }

@@ -1,43 +1,59 @@
--- The results of studies. Text names never change meaning; a row's key is all columns before `seed`.
--- Numbers are the doubles that were computed, bit for bit.
+-- The results of studies. Text names never change meaning. Numbers are the doubles that were computed, bit for bit.
+-- `SELECT * FROM rows` shows everything with its key.
 
-CREATE TABLE IF NOT EXISTS meta (          -- what made this file: 'schema', 'version', 'plan'
+CREATE TABLE IF NOT EXISTS meta (          -- what made this file: 'schema', 'version', 'plan', and the plan's text
   key TEXT PRIMARY KEY,
   value TEXT NOT NULL
 ) WITHOUT ROWID;
 
-CREATE TABLE IF NOT EXISTS discrepancy (   -- one measure of one point set
-  pattern TEXT NOT NULL,                   -- canonical spec, e.g. poisson-disk:d=0.2
-  n INTEGER NOT NULL,
-  dim INTEGER NOT NULL,
-  measure TEXT NOT NULL,                   -- canonical spec, e.g. extreme:grid=20
-  trial INTEGER NOT NULL,
-  seed INTEGER NOT NULL,                   -- of koksma_generate, as a signed 64-bit number
-  value REAL NOT NULL,
-  PRIMARY KEY (pattern, n, dim, measure, trial)
-) WITHOUT ROWID;
-
-CREATE TABLE IF NOT EXISTS image_error (   -- one render compared with one reference
-  scene TEXT NOT NULL,
+CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the trial: one row a mean in a table
+  id INTEGER PRIMARY KEY,
+  kind TEXT NOT NULL,                      -- 'discrepancy' or 'image'
+  scene TEXT NOT NULL,                     -- '' for discrepancies, as the next
   scene_hash TEXT NOT NULL,                -- of the scene's text, hexadecimal
-  pattern TEXT NOT NULL,
-  spp INTEGER NOT NULL,
-  width INTEGER NOT NULL,
+  options TEXT NOT NULL,                   -- what differs from the defaults: pairing=aligned, warp=polar-disk
+  pattern TEXT NOT NULL,                   -- canonical spec, e.g. poisson-disk:d=0.2
+  n INTEGER NOT NULL,                      -- points, or samples a pixel
+  dim INTEGER NOT NULL,                    -- 0 for images
+  width INTEGER NOT NULL,                  -- 0 for discrepancies, as the next
   height INTEGER NOT NULL,
-  reference TEXT NOT NULL,                 -- name:pattern@spp x replicates
+  what TEXT NOT NULL,                      -- the measure's canonical spec, or the reference: name:pattern@spp x replicates
+  UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what)
+);
+
+CREATE TABLE IF NOT EXISTS result (        -- one measure of one point set, or one render compared with one reference
+  series INTEGER NOT NULL,
   trial INTEGER NOT NULL,
-  seed INTEGER NOT NULL,                   -- of koksma_render, as a signed 64-bit number
-  mean REAL NOT NULL,                      -- of the absolute error in luminance over the pixels
-  sd REAL NOT NULL,
-  max REAL NOT NULL,
-  rmse REAL NOT NULL,
-  PRIMARY KEY (scene, scene_hash, pattern, spp, width, height, reference, trial)
+  seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
+  value REAL NOT NULL,                     -- the measure, or the mean of the absolute error in luminance over the pixels
+  sd REAL,                                 -- of an image: of the absolute error over the pixels
+  max REAL,
+  rmse REAL,
+  PRIMARY KEY (series, trial)
 ) WITHOUT ROWID;
 
 CREATE TABLE IF NOT EXISTS reference (     -- how good a reference image is
   scene TEXT NOT NULL,
   scene_hash TEXT NOT NULL,
+  options TEXT NOT NULL,
+  width INTEGER NOT NULL,
+  height INTEGER NOT NULL,
   reference TEXT NOT NULL,
   standard_error REAL,                     -- mean over the pixels of the reference's own expected absolute error
-  PRIMARY KEY (scene, scene_hash, reference)
+  PRIMARY KEY (scene, scene_hash, options, width, height, reference)
 ) WITHOUT ROWID;
+
+CREATE TABLE IF NOT EXISTS run (           -- when, where and how long somebody worked on this file
+  id INTEGER PRIMARY KEY,
+  started TEXT NOT NULL,                   -- UTC
+  machine TEXT NOT NULL,
+  version TEXT NOT NULL,
+  workers INTEGER NOT NULL,                -- threads, or MPI ranks
+  jobs INTEGER NOT NULL,                   -- done in this run
+  seconds REAL NOT NULL,
+  store_seconds REAL NOT NULL              -- of these, in this database
+);
+
+CREATE VIEW IF NOT EXISTS rows AS
+  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, trial, seed, value, sd, max, rmse
+  FROM series JOIN result ON result.series = series.id;

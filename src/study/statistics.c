@@ -7,21 +7,28 @@
 
 #include "core/sum.h"
 
-koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+/* a[i] - b[i], or a[i] without b. */
+static double item(const double *a, const double *b, size_t i)
+{
+    return b ? a[i] - b[i] : a[i];
+}
+
+koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride)
 {
     koksma__summary s = {n, NAN, NAN, NAN, NAN, NAN};
     if (n == 0) {
         return s;
     }
     koksma__sum sum = {0}, squares = {0};
-    s.max = values[0];
+    s.max = item(a, b, 0);
     for (size_t i = 0; i < n; i++) {
-        koksma__sum_add(&sum, values[i * stride]);
-        s.max = fmax(s.max, values[i * stride]);
+        const double value = item(a, b, i * stride);
+        koksma__sum_add(&sum, value);
+        s.max = fmax(s.max, value);
     }
     s.mean = koksma__sum_value(&sum) / (double)n;
     for (size_t i = 0; i < n; i++) {
-        const double t = values[i * stride] - s.mean;
+        const double t = item(a, b, i * stride) - s.mean;
         koksma__sum_add(&squares, t * t);
     }
     s.sd = n > 1 ? sqrt(koksma__sum_value(&squares) / (double)(n - 1)) : 0;
@@ -31,12 +38,17 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
     return s;
 }
 
-void koksma__largest_of(const double *values, size_t n, size_t block, double *mean, double *sd)
+koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+{
+    return koksma__paired(values, NULL, n, stride);
+}
+
+void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
 {
     koksma__sum sum = {0}, squares = {0};
     const size_t blocks = n / block;
     for (size_t b = 0; b < blocks; b++) {
-        const koksma__summary s = koksma__summarize(values + b * block, block, 1);
+        const koksma__summary s = koksma__summarize(values + b * block * stride, block, stride);
         koksma__sum_add(&sum, s.max);
         koksma__sum_add(&squares, s.max * s.max);
     }

@@ -1,44 +1,57 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Long because it is the only file that knows SQLite. */
 #include "study/store.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <sqlite3.h>
 
 #include "core/status.h"
 #include "study/schema.h"
 
-#define SCHEMA_VERSION "1"
+#define SCHEMA_VERSION "2"
+#define SERIES_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what"
 
 enum {
-    HAS_DISCREPANCY,
-    HAS_IMAGE,
-    PUT_DISCREPANCY,
-    PUT_IMAGE,
+    FIND_SERIES,
+    ADD_SERIES,
+    PUT,
+    GET_TRIALS,
+    GET_RESULTS,
+    GET_ALL,
     PUT_REFERENCE,
-    GET_DISCREPANCIES,
-    GET_IMAGES,
     GET_REFERENCE,
+    PUT_TEXT,
+    GET_TEXT,
+    PUT_RUN,
+    GET_RUN,
     N_STATEMENTS
 };
 
 static const char *const statements[N_STATEMENTS] = {
-    [HAS_DISCREPANCY] = "SELECT 1 FROM discrepancy WHERE pattern=? AND n=? AND dim=? AND measure=? AND trial=?",
-    [HAS_IMAGE] = "SELECT 1 FROM image_error WHERE scene=? AND scene_hash=? AND pattern=? AND spp=? AND width=? AND "
-                  "height=? AND reference=? AND trial=?",
-    [PUT_DISCREPANCY] = "INSERT OR IGNORE INTO discrepancy VALUES (?,?,?,?,?,?,?)",
-    [PUT_IMAGE] = "INSERT OR IGNORE INTO image_error VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)",
-    [PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?)",
-    [GET_DISCREPANCIES] = "SELECT value FROM discrepancy WHERE pattern=? AND n=? AND dim=? AND measure=? AND trial<? "
-                          "ORDER BY trial",
-    [GET_IMAGES] =
-        "SELECT mean, sd, max, rmse FROM image_error WHERE scene=? AND scene_hash=? AND pattern=? AND spp=? "
-        "AND width=? AND height=? AND reference=? AND trial<? ORDER BY trial",
-    [GET_REFERENCE] = "SELECT standard_error FROM reference WHERE scene=? AND scene_hash=? AND reference=?",
+    [FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?)",
+    [ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ") VALUES (?,?,?,?,?,?,?,?,?,?)",
+    [PUT] = "INSERT OR IGNORE INTO result VALUES (?,?,?,?,?,?,?)",
+    [GET_TRIALS] = "SELECT trial FROM result WHERE series=? AND trial<?",
+    [GET_RESULTS] = "SELECT trial, seed, value, sd, max, rmse FROM result WHERE series=? AND trial<? ORDER BY trial",
+    [GET_ALL] = "SELECT * FROM rows ORDER BY " SERIES_KEY ", trial",
+    [PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?)",
+    [GET_REFERENCE] = "SELECT standard_error FROM reference WHERE scene=? AND scene_hash=? AND options=? AND width=? "
+                      "AND height=? AND reference=?",
+    [PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
+    [GET_TEXT] = "SELECT value FROM meta WHERE key=?",
+    [PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, store_seconds) VALUES "
+                "(?,?,?,?,?,?,?)",
+    [GET_RUN] =
+        "SELECT started, machine, version, workers, jobs, seconds, store_seconds FROM run ORDER BY id LIMIT 1 "
+        "OFFSET ?",
 };
 
 /* Writes are gathered into transactions of at most COMMIT_AFTER_S, so that neither a million small rows cost a
@@ -51,7 +64,7 @@ struct koksma__store {
     char *path;
     pthread_mutex_t lock;
     bool in_transaction;
-    double began_s;
+    double began_s, entered_s, seconds;
 };
 
 static double now_s(void)
@@ -61,11 +74,24 @@ static double now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static void enter(koksma__store *store)
+{
+    pthread_mutex_lock(&store->lock);
+    store->entered_s = now_s();
+}
+
+static koksma_status leave(koksma__store *store, koksma_status status)
+{
+    store->seconds += now_s() - store->entered_s;
+    pthread_mutex_unlock(&store->lock);
+    return status;
+}
+
 static koksma_status fail(koksma__store *store)
 {
     const int code = sqlite3_errcode(store->database);
     if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
-        return koksma__fail(KOKSMA_IO, "%s: another run is writing to it", store->path);
+        return koksma__fail(KOKSMA_IO, "%s: another run is at work on it", store->path);
     }
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", store->path,
@@ -102,55 +128,147 @@ static koksma_status begin(koksma__store *store)
     return status;
 }
 
-static koksma_status check_meta(koksma__store *store, const char *key, const char *value)
+/* ---- Binding and stepping; the caller holds the lock -------------------------------------------------- */
+
+static void bind_text(sqlite3_stmt *s, int *column, const char *text)
 {
-    sqlite3_stmt *query = NULL;
-    koksma_status status = KOKSMA_OK;
-    if (sqlite3_prepare_v2(store->database, "INSERT OR IGNORE INTO meta VALUES (?,?)", -1, &query, NULL) !=
-        SQLITE_OK) {
-        return fail(store);
+    sqlite3_bind_text(s, (*column)++, text, -1, SQLITE_STATIC);
+}
+
+static void bind_whole(sqlite3_stmt *s, int *column, long long value)
+{
+    sqlite3_bind_int64(s, (*column)++, value);
+}
+
+static void bind_series(sqlite3_stmt *s, const koksma__series *key)
+{
+    int column = 1;
+    bind_text(s, &column, key->kind);
+    bind_text(s, &column, key->scene);
+    bind_text(s, &column, key->scene_hash);
+    bind_text(s, &column, key->options);
+    bind_text(s, &column, key->pattern);
+    bind_whole(s, &column, key->n);
+    bind_whole(s, &column, key->dim);
+    bind_whole(s, &column, key->width);
+    bind_whole(s, &column, key->height);
+    bind_text(s, &column, key->what);
+}
+
+static koksma_status step_put(koksma__store *store, sqlite3_stmt *s)
+{
+    koksma_status status = begin(store);
+    if (!status && sqlite3_step(s) != SQLITE_DONE) {
+        status = fail(store);
     }
-    sqlite3_bind_text(query, 1, key, -1, SQLITE_STATIC);
-    sqlite3_bind_text(query, 2, value, -1, SQLITE_STATIC);
-    const int code = sqlite3_step(query);
-    sqlite3_finalize(query);
-    if (code != SQLITE_DONE) {
-        return fail(store);
+    sqlite3_reset(s);
+    if (!status && now_s() - store->began_s > COMMIT_AFTER_S) {
+        status = commit(store);
     }
-    if (sqlite3_prepare_v2(store->database, "SELECT value FROM meta WHERE key=?", -1, &query, NULL) != SQLITE_OK) {
-        return fail(store);
-    }
-    sqlite3_bind_text(query, 1, key, -1, SQLITE_STATIC);
-    const char *found = sqlite3_step(query) == SQLITE_ROW ? (const char *)sqlite3_column_text(query, 0) : "";
-    if (strcmp(found ? found : "", value) != 0) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: its %s is '%s' and this run's is '%s'; choose another folder",
-                              store->path, key, found ? found : "", value);
-    }
-    sqlite3_finalize(query);
     return status;
 }
 
-static koksma_status prepare(koksma__store *store, const char *plan_name)
+/* One row, or none: *found says so. The caller reads the columns and resets. */
+static koksma_status step_get(koksma__store *store, sqlite3_stmt *s, bool *found)
 {
-    /* One writer: a second run on the same folder is told so instead of doing the same work. */
+    const int code = sqlite3_step(s);
+    *found = code == SQLITE_ROW;
+    return code == SQLITE_ROW || code == SQLITE_DONE ? KOKSMA_OK : fail(store);
+}
+
+static void read_result(sqlite3_stmt *s, int column, koksma__result *result)
+{
+    result->trial = sqlite3_column_int64(s, column);
+    result->seed = (uint64_t)sqlite3_column_int64(s, column + 1);
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        result->values[k] = sqlite3_column_type(s, column + 2 + k) == SQLITE_NULL
+                                ? (double)NAN
+                                : sqlite3_column_double(s, column + 2 + k);
+    }
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------- */
+
+static koksma_status put_text(koksma__store *store, const char *key, const char *value)
+{
+    int column = 1;
+    bind_text(store->prepared[PUT_TEXT], &column, key);
+    bind_text(store->prepared[PUT_TEXT], &column, value);
+    return step_put(store, store->prepared[PUT_TEXT]);
+}
+
+static koksma_status get_text(koksma__store *store, const char *key, char **value)
+{
+    sqlite3_stmt *s = store->prepared[GET_TEXT];
+    int column = 1;
+    bool found;
+    bind_text(s, &column, key);
+    koksma_status status = step_get(store, s, &found);
+    *value = found ? strdup((const char *)sqlite3_column_text(s, 0)) : NULL;
+    if (found && !*value) {
+        status = koksma__fail_memory(1);
+    }
+    sqlite3_reset(s);
+    return status;
+}
+
+/* What the file says of itself must be this; a new file is told. */
+static koksma_status check_text(koksma__store *store, const char *key, const char *value, bool write)
+{
+    char *found;
+    koksma_status status = get_text(store, key, &found);
+    if (!status && !found && write) {
+        status = put_text(store, key, value);
+    } else if (!status && (!found || strcmp(found, value) != 0)) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: its %s is '%s' and this run's is '%s'; choose another folder",
+                              store->path, key, found ? found : "", value);
+    }
+    free(found);
+    return status;
+}
+
+static koksma_status prepare_statement(koksma__store *store, int i)
+{
+    return sqlite3_prepare_v3(store->database, statements[i], -1, SQLITE_PREPARE_PERSISTENT, &store->prepared[i],
+                              NULL) == SQLITE_OK
+               ? KOKSMA_OK
+               : fail(store);
+}
+
+/* One run at a time: a second one on the same folder is told so instead of doing the same work. A store of an older
+   schema is known by its `meta`, before anything is made in it. */
+static koksma_status prepare(koksma__store *store, bool write, const char *plan_name)
+{
     koksma_status status =
         execute(store, "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
     status = status ? status : begin(store);
-    status = status ? status : execute(store, koksma__schema_sql);
-    status = status ? status : check_meta(store, "schema", SCHEMA_VERSION);
-    status = status ? status : check_meta(store, "version", koksma_version());
-    status = status ? status : check_meta(store, "plan", plan_name);
+    if (!status && write) {
+        status = execute(store, "CREATE TABLE IF NOT EXISTS meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT "
+                                "ROWID");
+    }
+    status = status ? status : prepare_statement(store, PUT_TEXT);
+    status = status ? status : prepare_statement(store, GET_TEXT);
+    status = status ? status : check_text(store, "schema", SCHEMA_VERSION, write);
+    status = status ? status : check_text(store, "version", koksma_version(), write);
+    if (!status && plan_name) {
+        status = check_text(store, "plan", plan_name, write);
+    }
+    if (!status && write) {
+        status = execute(store, koksma__schema_sql);
+    }
     status = status ? status : commit(store);
     for (int i = 0; !status && i < N_STATEMENTS; i++) {
-        if (sqlite3_prepare_v2(store->database, statements[i], -1, &store->prepared[i], NULL) != SQLITE_OK) {
-            status = fail(store);
+        if (!store->prepared[i]) {
+            status = prepare_statement(store, i);
         }
     }
     return status;
 }
 
-koksma_status koksma__store_open(const char *path, const char *plan_name, koksma__store **out)
+koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
+                                 koksma__store **out)
 {
+    const bool write = mode == KOKSMA__STORE_WRITE;
     koksma__store *store = calloc(1, sizeof *store);
     *out = NULL;
     if (!store || !(store->path = strdup(path))) {
@@ -159,11 +277,17 @@ koksma_status koksma__store_open(const char *path, const char *plan_name, koksma
     }
     pthread_mutex_init(&store->lock, NULL);
     koksma_status status = KOKSMA_OK;
-    if (sqlite3_open_v2(path, &store->database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL) != SQLITE_OK) {
-        status = koksma__fail(KOKSMA_IO, "%s: %s", path, sqlite3_errmsg(store->database));
+    if (!write && access(path, F_OK)) {
+        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(errno));
+    } else if (access(path, W_OK) && errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
+        status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
+    }
+    const int flags = SQLITE_OPEN_READWRITE | (write ? SQLITE_OPEN_CREATE : 0);
+    if (!status && sqlite3_open_v2(path, &store->database, flags, NULL) != SQLITE_OK) {
+        status = fail(store);
     }
     if (!status) {
-        status = prepare(store, plan_name);
+        status = prepare(store, write, plan_name);
     }
     if (status) {
         store->in_transaction = false; /* closing rolls back */
@@ -190,205 +314,210 @@ koksma_status koksma__store_close(koksma__store *store)
     return status;
 }
 
-/* ---- Binding and stepping; the caller holds the lock -------------------------------------------------- */
-
-static void bind_text(sqlite3_stmt *s, int *column, const char *text)
+koksma_status koksma__store_commit(koksma__store *store)
 {
-    sqlite3_bind_text(s, (*column)++, text, -1, SQLITE_STATIC);
+    enter(store);
+    return leave(store, commit(store));
 }
 
-static void bind_whole(sqlite3_stmt *s, int *column, long long value)
+double koksma__store_seconds(koksma__store *store)
 {
-    sqlite3_bind_int64(s, (*column)++, value);
+    pthread_mutex_lock(&store->lock);
+    const double seconds = store->seconds;
+    pthread_mutex_unlock(&store->lock);
+    return seconds;
 }
 
-static int bind_discrepancy(sqlite3_stmt *s, const koksma__discrepancy_key *key)
+koksma_status koksma__store_set_text(koksma__store *store, const char *key, const char *value)
 {
-    int column = 1;
-    bind_text(s, &column, key->pattern);
-    bind_whole(s, &column, key->n);
-    bind_whole(s, &column, key->dim);
-    bind_text(s, &column, key->measure);
-    bind_whole(s, &column, key->trial);
-    return column;
+    enter(store);
+    return leave(store, put_text(store, key, value));
 }
 
-static int bind_image(sqlite3_stmt *s, const koksma__image_key *key)
+koksma_status koksma__store_get_text(koksma__store *store, const char *key, char **value)
 {
-    int column = 1;
-    bind_text(s, &column, key->scene);
-    bind_text(s, &column, key->scene_hash);
-    bind_text(s, &column, key->pattern);
-    bind_whole(s, &column, key->spp);
-    bind_whole(s, &column, key->width);
-    bind_whole(s, &column, key->height);
-    bind_text(s, &column, key->reference);
-    bind_whole(s, &column, key->trial);
-    return column;
+    enter(store);
+    return leave(store, get_text(store, key, value));
 }
 
-static koksma_status step_exists(koksma__store *store, sqlite3_stmt *s, bool *has)
-{
-    const int code = sqlite3_step(s);
-    *has = code == SQLITE_ROW;
-    sqlite3_reset(s);
-    return code == SQLITE_ROW || code == SQLITE_DONE ? KOKSMA_OK : fail(store);
-}
+/* ---- Rows ---------------------------------------------------------------------------------------------- */
 
-static koksma_status step_put(koksma__store *store, sqlite3_stmt *s)
+koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id)
 {
-    koksma_status status = begin(store);
-    if (!status && sqlite3_step(s) != SQLITE_DONE) {
-        status = fail(store);
+    bool found;
+    enter(store);
+    bind_series(store->prepared[FIND_SERIES], series);
+    koksma_status status = step_get(store, store->prepared[FIND_SERIES], &found);
+    *id = found ? sqlite3_column_int64(store->prepared[FIND_SERIES], 0) : 0;
+    sqlite3_reset(store->prepared[FIND_SERIES]);
+    if (!status && !found && add) {
+        bind_series(store->prepared[ADD_SERIES], series);
+        status = step_put(store, store->prepared[ADD_SERIES]);
+        *id = sqlite3_last_insert_rowid(store->database);
     }
-    sqlite3_reset(s);
-    if (!status && now_s() - store->began_s > COMMIT_AFTER_S) {
-        status = commit(store);
-    }
-    return status;
+    return leave(store, status);
 }
 
-/* Reads all rows of `width` doubles. */
-static koksma_status step_rows(koksma__store *store, sqlite3_stmt *s, size_t width, double **values, size_t *n)
+koksma_status koksma__store_put(koksma__store *store, long long series, const koksma__result *result)
 {
+    sqlite3_stmt *s = store->prepared[PUT];
+    int column = 1;
+    enter(store);
+    bind_whole(s, &column, series);
+    bind_whole(s, &column, result->trial);
+    bind_whole(s, &column, (long long)result->seed);
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        sqlite3_bind_double(s, column++, result->values[k]); /* NaN is stored as NULL */
+    }
+    return leave(store, step_put(store, s));
+}
+
+koksma_status koksma__store_done(koksma__store *store, long long series, long long trials, unsigned char *bits)
+{
+    sqlite3_stmt *s = store->prepared[GET_TRIALS];
+    int column = 1, code;
+    enter(store);
+    bind_whole(s, &column, series);
+    bind_whole(s, &column, trials);
+    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
+        const long long t = sqlite3_column_int64(s, 0);
+        if (t >= 0) {
+            bits[t / 8] |= (unsigned char)(1u << t % 8);
+        }
+    }
+    const koksma_status status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
+    sqlite3_reset(s);
+    return leave(store, status);
+}
+
+koksma_status koksma__store_results(koksma__store *store, long long series, long long trials,
+                                    koksma__result **results, size_t *n)
+{
+    sqlite3_stmt *s = store->prepared[GET_RESULTS];
     size_t room = 0;
-    int code;
+    int column = 1, code = SQLITE_DONE;
     koksma_status status = KOKSMA_OK;
-    *values = NULL;
+    *results = NULL;
     *n = 0;
+    enter(store);
+    bind_whole(s, &column, series);
+    bind_whole(s, &column, trials);
     while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
         if (*n == room) {
             room = room ? 2 * room : 128;
-            double *more = realloc(*values, room * width * sizeof *more);
+            koksma__result *more = realloc(*results, room * sizeof *more);
             if (!more) {
-                status = koksma__fail_memory(room * width * sizeof *more);
+                status = koksma__fail_memory(room * sizeof *more);
                 break;
             }
-            *values = more;
+            *results = more;
         }
-        for (size_t k = 0; k < width; k++) {
-            (*values)[*n * width + k] = sqlite3_column_double(s, (int)k);
-        }
-        (*n)++;
+        read_result(s, 0, &(*results)[(*n)++]);
     }
     if (!status && code != SQLITE_DONE) {
         status = fail(store);
     }
     sqlite3_reset(s);
-    return status;
+    return leave(store, status);
 }
 
-koksma_status koksma__store_commit(koksma__store *store)
+koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visit, void *context)
 {
-    pthread_mutex_lock(&store->lock);
-    const koksma_status status = commit(store);
-    pthread_mutex_unlock(&store->lock);
-    return status;
+    sqlite3_stmt *s = store->prepared[GET_ALL];
+    int code = SQLITE_DONE;
+    koksma_status status = KOKSMA_OK;
+    enter(store);
+    while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        const char *texts[10];
+        for (int k = 0; k < 10; k++) {
+            texts[k] = k < 5 || k == 9 ? (const char *)sqlite3_column_text(s, k) : NULL;
+        }
+        const koksma__series series = {texts[0],
+                                       texts[1],
+                                       texts[2],
+                                       texts[3],
+                                       texts[4],
+                                       texts[9],
+                                       sqlite3_column_int64(s, 5),
+                                       sqlite3_column_int64(s, 6),
+                                       sqlite3_column_int64(s, 7),
+                                       sqlite3_column_int64(s, 8)};
+        koksma__result result;
+        read_result(s, 10, &result);
+        status = visit(context, &series, &result);
+    }
+    if (!status && code != SQLITE_DONE) {
+        status = fail(store);
+    }
+    sqlite3_reset(s);
+    return leave(store, status);
 }
 
-koksma_status koksma__store_has_discrepancy(koksma__store *store, const koksma__discrepancy_key *key, bool *has)
+/* ---- References and runs ------------------------------------------------------------------------------- */
+
+static int bind_reference(sqlite3_stmt *s, const koksma__series *series)
 {
-    pthread_mutex_lock(&store->lock);
-    bind_discrepancy(store->prepared[HAS_DISCREPANCY], key);
-    const koksma_status status = step_exists(store, store->prepared[HAS_DISCREPANCY], has);
-    pthread_mutex_unlock(&store->lock);
-    return status;
+    int column = 1;
+    bind_text(s, &column, series->scene);
+    bind_text(s, &column, series->scene_hash);
+    bind_text(s, &column, series->options);
+    bind_whole(s, &column, series->width);
+    bind_whole(s, &column, series->height);
+    bind_text(s, &column, series->what);
+    return column;
 }
 
-koksma_status koksma__store_has_image(koksma__store *store, const koksma__image_key *key, bool *has)
-{
-    pthread_mutex_lock(&store->lock);
-    bind_image(store->prepared[HAS_IMAGE], key);
-    const koksma_status status = step_exists(store, store->prepared[HAS_IMAGE], has);
-    pthread_mutex_unlock(&store->lock);
-    return status;
-}
-
-koksma_status koksma__store_put_discrepancy(koksma__store *store, const koksma__discrepancy_key *key, uint64_t seed,
-                                            double value)
-{
-    sqlite3_stmt *s = store->prepared[PUT_DISCREPANCY];
-    pthread_mutex_lock(&store->lock);
-    int column = bind_discrepancy(s, key);
-    bind_whole(s, &column, (long long)seed);
-    sqlite3_bind_double(s, column, value);
-    const koksma_status status = step_put(store, s);
-    pthread_mutex_unlock(&store->lock);
-    return status;
-}
-
-koksma_status koksma__store_put_image(koksma__store *store, const koksma__image_key *key, uint64_t seed,
-                                      const koksma_image_error *error)
-{
-    sqlite3_stmt *s = store->prepared[PUT_IMAGE];
-    pthread_mutex_lock(&store->lock);
-    int column = bind_image(s, key);
-    bind_whole(s, &column, (long long)seed);
-    sqlite3_bind_double(s, column++, error->mean);
-    sqlite3_bind_double(s, column++, error->sd);
-    sqlite3_bind_double(s, column++, error->max);
-    sqlite3_bind_double(s, column, error->rmse);
-    const koksma_status status = step_put(store, s);
-    pthread_mutex_unlock(&store->lock);
-    return status;
-}
-
-koksma_status koksma__store_put_reference(koksma__store *store, const char *scene, const char *scene_hash,
-                                          const char *reference, double standard_error)
+koksma_status koksma__store_put_reference(koksma__store *store, const koksma__series *series, double standard_error)
 {
     sqlite3_stmt *s = store->prepared[PUT_REFERENCE];
-    int column = 1;
-    pthread_mutex_lock(&store->lock);
-    bind_text(s, &column, scene);
-    bind_text(s, &column, scene_hash);
-    bind_text(s, &column, reference);
-    sqlite3_bind_double(s, column, standard_error); /* NaN is stored as NULL */
-    const koksma_status status = step_put(store, s);
-    pthread_mutex_unlock(&store->lock);
-    return status;
+    enter(store);
+    sqlite3_bind_double(s, bind_reference(s, series), standard_error); /* NaN is stored as NULL */
+    return leave(store, step_put(store, s));
 }
 
-koksma_status koksma__store_discrepancies(koksma__store *store, const koksma__discrepancy_key *key, double **values,
-                                          size_t *n)
-{
-    pthread_mutex_lock(&store->lock);
-    bind_discrepancy(store->prepared[GET_DISCREPANCIES], key);
-    const koksma_status status = step_rows(store, store->prepared[GET_DISCREPANCIES], 1, values, n);
-    pthread_mutex_unlock(&store->lock);
-    return status;
-}
-
-koksma_status koksma__store_images(koksma__store *store, const koksma__image_key *key, koksma_image_error **errors,
-                                   size_t *n)
-{
-    double *values;
-    pthread_mutex_lock(&store->lock);
-    bind_image(store->prepared[GET_IMAGES], key);
-    koksma_status status = step_rows(store, store->prepared[GET_IMAGES], 4, &values, n);
-    pthread_mutex_unlock(&store->lock);
-    *errors = status ? NULL : calloc(*n ? *n : 1, sizeof **errors);
-    if (!status && !*errors) {
-        status = koksma__fail_memory(*n * sizeof **errors);
-    }
-    for (size_t i = 0; !status && i < *n; i++) {
-        (*errors)[i] = (koksma_image_error){values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
-    }
-    free(values);
-    return status;
-}
-
-koksma_status koksma__store_reference(koksma__store *store, const char *scene, const char *scene_hash,
-                                      const char *reference, double *standard_error)
+koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, double *standard_error)
 {
     sqlite3_stmt *s = store->prepared[GET_REFERENCE];
-    int column = 1;
-    pthread_mutex_lock(&store->lock);
-    bind_text(s, &column, scene);
-    bind_text(s, &column, scene_hash);
-    bind_text(s, &column, reference);
-    const bool found = sqlite3_step(s) == SQLITE_ROW && sqlite3_column_type(s, 0) != SQLITE_NULL;
-    *standard_error = found ? sqlite3_column_double(s, 0) : (double)NAN;
+    bool found;
+    enter(store);
+    bind_reference(s, series);
+    const koksma_status status = step_get(store, s, &found);
+    *standard_error = found && sqlite3_column_type(s, 0) != SQLITE_NULL ? sqlite3_column_double(s, 0) : (double)NAN;
     sqlite3_reset(s);
-    pthread_mutex_unlock(&store->lock);
-    return KOKSMA_OK;
+    return leave(store, status);
+}
+
+koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_record *record)
+{
+    sqlite3_stmt *s = store->prepared[PUT_RUN];
+    int column = 1;
+    enter(store);
+    bind_text(s, &column, record->started);
+    bind_text(s, &column, record->machine);
+    bind_text(s, &column, record->version);
+    bind_whole(s, &column, record->workers);
+    bind_whole(s, &column, record->jobs);
+    sqlite3_bind_double(s, column++, record->seconds);
+    sqlite3_bind_double(s, column, record->store_seconds);
+    return leave(store, step_put(store, s));
+}
+
+koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_record *record, bool *found)
+{
+    sqlite3_stmt *s = store->prepared[GET_RUN];
+    int column = 1;
+    enter(store);
+    bind_whole(s, &column, i);
+    const koksma_status status = step_get(store, s, found);
+    if (*found) {
+        snprintf(record->started, sizeof record->started, "%s", (const char *)sqlite3_column_text(s, 0));
+        snprintf(record->machine, sizeof record->machine, "%s", (const char *)sqlite3_column_text(s, 1));
+        snprintf(record->version, sizeof record->version, "%s", (const char *)sqlite3_column_text(s, 2));
+        record->workers = sqlite3_column_int64(s, 3);
+        record->jobs = sqlite3_column_int64(s, 4);
+        record->seconds = sqlite3_column_double(s, 5);
+        record->store_seconds = sqlite3_column_double(s, 6);
+    }
+    sqlite3_reset(s);
+    return leave(store, status);
 }

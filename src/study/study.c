@@ -11,26 +11,26 @@
 
 enum { MAX_PLAN = 1 << 22 };
 
-static koksma_status load_plan(const char *name, long long trials, koksma__plan *plan)
+static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
+                               char **text_out)
 {
     const size_t length = strlen(name);
+    unsigned char *text = NULL;
+    size_t size = 0;
+    koksma_status status = KOKSMA_OK;
     if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
-        size_t size;
-        const char *text = koksma__plan_shipped(name, &size);
-        if (!text) {
+        const char *shipped = koksma__plan_shipped(name, &size);
+        if (!shipped) {
             return koksma__fail(KOKSMA_UNKNOWN, "no plan '%s' ships; a plan of your own is a file, such as ./%s.json",
                                 name, name);
         }
-        return koksma__plan_parse(name, text, size, trials, plan);
+        text = (unsigned char *)strdup(shipped);
+        status = text ? KOKSMA_OK : koksma__fail_memory(size);
+    } else {
+        status = koksma__read_file(name, MAX_PLAN, &text, &size);
     }
-    unsigned char *text = NULL;
-    size_t size = 0;
-    koksma_status status = koksma__read_file(name, MAX_PLAN, &text, &size);
-    if (status) {
-        return status;
-    }
-    status = koksma__plan_parse(name, (const char *)text, size, trials, plan);
-    free(text);
+    status = status ? status : koksma__plan_parse(name, (const char *)text, size, trials, plan);
+    *text_out = (char *)text;
     return status;
 }
 
@@ -85,9 +85,8 @@ static koksma_status open_scenes(koksma_study *study)
     return status;
 }
 
-static koksma_status open_store(koksma_study *study, const char *folder)
+static koksma_status make_folder(koksma_study *study, const char *folder)
 {
-    char path[1100];
     if (strlen(folder) > 1000) {
         return koksma__fail(KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
     }
@@ -95,27 +94,123 @@ static koksma_status open_store(koksma_study *study, const char *folder)
         return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", folder, strerror(errno));
     }
     study->folder = strdup(folder);
+    return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
+}
+
+/* The store keeps the texts of its plans and what the run said about trials, so that the folder is enough to make the
+   report again. */
+static koksma_status keep_plan(koksma_study *study, const koksma__plan_trials *trials, char *const *texts, size_t n)
+{
+    char key[32], value[32];
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < n; i++) {
+        snprintf(key, sizeof key, "plan-text-%zu", i);
+        status = koksma__store_set_text(study->store, key, texts[i]);
+    }
+    snprintf(value, sizeof value, "%zu %lld %d", n, trials->trials, trials->quick);
+    status = status ? status : koksma__store_set_text(study->store, "plan-texts", value);
+    return status ? status : koksma__store_commit(study->store);
+}
+
+static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
+{
+    if (!study->plan.name) {
+        study->plan = *plan;
+        *plan = (koksma__plan){0};
+        return KOKSMA_OK;
+    }
+    return koksma__plan_append(&study->plan, plan);
+}
+
+/* The plan of a folder that has results. */
+static koksma_status recall_plan(koksma_study *study)
+{
+    char *what, *text, key[32];
+    unsigned long n = 0;
+    int quick = 0;
+    koksma__plan_trials trials = {0};
+    koksma_status status = koksma__store_get_text(study->store, "plan-texts", &what);
+    if (!status && (!what || sscanf(what, "%lu %lld %d", &n, &trials.trials, &quick) != 3)) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: it doesn't say what its plan was", study->folder);
+    }
+    free(what);
+    trials.quick = quick;
+    for (unsigned long i = 0; !status && i < n; i++) {
+        koksma__plan plan = {0};
+        snprintf(key, sizeof key, "plan-text-%lu", i);
+        status = koksma__store_get_text(study->store, key, &text);
+        if (!status) {
+            status = koksma__plan_parse(study->folder, text ? text : "", text ? strlen(text) : 0, &trials, &plan);
+        }
+        free(text);
+        status = status ? status : append_plan(study, &plan);
+        koksma__plan_fini(&plan);
+    }
+    return status;
+}
+
+static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
+{
+    const koksma__plan_trials trials = {options->trials, options->quick};
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < options->n_plans; i++) {
+        koksma__plan plan = {0};
+        status = load_plan(options->plans[i], &trials, &plan, &texts[i]);
+        status = status ? status : append_plan(study, &plan);
+        koksma__plan_fini(&plan);
+    }
+    return status;
+}
+
+/* folder NULL: no results are kept (estimates; ranks of an MPI run but the first). */
+static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
+{
+    const koksma__plan_trials trials = {options->trials, options->quick};
+    char path[KOKSMA__PATH];
+    char **texts = calloc(options->n_plans, sizeof *texts);
+    if (!texts) {
+        return koksma__fail_memory(options->n_plans * sizeof *texts);
+    }
+    koksma_status status = load_plans(study, options, texts);
+    status = status ? status : open_scenes(study);
+    if (!status && options->folder) {
+        status = make_folder(study, options->folder);
+        snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
+        status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
+        status = status ? status : keep_plan(study, &trials, texts, options->n_plans);
+    }
+    for (size_t i = 0; i < options->n_plans; i++) {
+        free(texts[i]);
+    }
+    free(texts);
+    return status;
+}
+
+static koksma_status open_folder(koksma_study *study, const char *folder)
+{
+    char path[KOKSMA__PATH];
+    study->folder = strdup(folder);
     if (!study->folder) {
         return koksma__fail_memory(strlen(folder));
     }
     snprintf(path, sizeof path, "%s/results.sqlite", folder);
-    return koksma__store_open(path, study->plan.name, &study->store);
+    koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
+    status = status ? status : recall_plan(study);
+    return status ? status : open_scenes(study);
 }
 
-koksma_status koksma_study_open(const char *plan, const char *folder, long long trials, koksma_study **out)
+koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
 {
-    koksma_study *study = calloc(1, sizeof *study);
     *out = NULL;
+    if (!options->n_plans && !options->folder) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study has a plan, or a folder with results");
+    }
+    koksma_study *study = calloc(1, sizeof *study);
     if (!study) {
         return koksma__fail_memory(sizeof *study);
     }
-    koksma_status status = load_plan(plan, trials, &study->plan);
-    if (!status) {
-        status = open_scenes(study);
-    }
-    if (!status) {
-        status = open_store(study, folder);
-    }
+    const koksma_status status =
+        options->n_plans ? open_with_plans(study, options) : open_folder(study, options->folder);
     if (status) {
         koksma_study_close(study);
         return status;
@@ -130,9 +225,13 @@ koksma_status koksma_study_close(koksma_study *study)
         return KOKSMA_OK;
     }
     const koksma_status status = koksma__store_close(study->store);
+    for (size_t i = 0; i < study->n_references; i++) {
+        koksma_image_fini(&study->references[i].image);
+    }
     for (size_t i = 0; i < study->n_scenes; i++) {
         koksma_scene_close(study->scenes[i].scene);
     }
+    free(study->references);
     free(study->scenes);
     koksma__plan_fini(&study->plan);
     free(study->folder);

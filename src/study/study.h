@@ -9,6 +9,7 @@
 
 #include "study/plan.h"
 #include "study/store.h"
+#include "study/variants.h"
 
 /* A scene that the plan uses, by its spelling in the plan. */
 typedef struct koksma__study_scene {
@@ -18,30 +19,83 @@ typedef struct koksma__study_scene {
     int width, height;
 } koksma__study_scene;
 
+enum { KOKSMA__REFERENCE_NAME = 192, KOKSMA__PATH = 1200 };
+
+/* A reference image and all that it depends on. */
+typedef struct koksma__reference_image {
+    const koksma__study_scene *scene;
+    const koksma__reference *reference;
+    char options[KOKSMA__VARIANT_TEXT];
+    int width, height;
+    koksma_image image; /* no pixels until it is needed */
+} koksma__reference_image;
+
 struct koksma_study {
     koksma__plan plan;
     char *folder;
     koksma__store *store;
     size_t n_scenes;
     koksma__study_scene *scenes;
+    size_t n_references;
+    koksma__reference_image *references;
 };
-
-enum { KOKSMA__REFERENCE_NAME = 192 };
 
 /* The scene that the plan calls `name`. */
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name);
 
+/* The pixels of an image block's pictures of a scene: the block's, or the scene's own. */
+void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height);
+
 /* "name:pattern@spp x replicates": the reference's key in the store. */
 void koksma__reference_name(const koksma__reference *reference, char *text);
 
-/* Reads DIR/references/…, or renders it and writes it there, with its standard error into the store. Allocates out.
- */
-koksma_status koksma__reference_image(koksma_study *study, const koksma__study_scene *scene,
-                                      const koksma__reference *reference, const koksma_run *run, koksma_image *out);
+/* The index in study->references of the reference that a variant of a block is compared with; it is added, without
+   pixels, when it is not there. Errors: MEMORY. */
+koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
+                                      const koksma__study_scene *scene, const char *variant, size_t r, size_t *index);
 
-/* Renders `scene` with a pattern's canonical spec. Allocates out. */
-koksma_status koksma__study_render(const koksma__study_scene *scene, const char *pattern, long long spp,
-                                   uint64_t seed, const koksma_run *run, koksma_image *out);
+/* The key of a reference's standard error in the store; `name` holds its text. */
+koksma__series koksma__reference_key(const koksma__reference_image *reference, char name[KOKSMA__REFERENCE_NAME]);
+
+/* Where the reference's file is. */
+void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
+                            size_t size);
+
+/* Renders one replicate of a reference. Allocates out. */
+koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
+                                          const koksma_run *run, koksma_image *out);
+
+/* Sums of replicates, added in their order. */
+typedef struct koksma__replicates {
+    double *sum, *squares;
+    size_t count;
+    long long n;
+} koksma__replicates;
+
+koksma_status koksma__replicates_add(koksma__replicates *sums, const koksma_image *image);
+
+/* The mean of all replicates becomes the reference's pixels, its file, and a row of the store. Frees the sums. */
+koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
+                                        koksma__reference_image *reference);
+
+/* Reads DIR/references/…, or renders it and writes it there, with its standard error into the store. */
+koksma_status koksma__reference_load(koksma_study *study, koksma__reference_image *reference, const koksma_run *run);
+
+/* Whether the file is there already. */
+bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference);
+
+/* What a render of a study depends on beside its scene. */
+typedef struct koksma__picture {
+    const char *pattern, *variant;
+    bool of_reference; /* only the options that change the exact image */
+    long long spp;
+    int width, height;
+    uint64_t seed;
+} koksma__picture;
+
+/* Renders. Allocates out. */
+koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
+                                   const koksma_run *run, koksma_image *out);
 
 /* The seed of a job is the hash of its key. */
 uint64_t koksma__job_seed(const char *format, ...) KOKSMA_PRINTF(1, 2);

@@ -8,6 +8,22 @@
 #include "study/statistics.h"
 #include "study/tables.h"
 
+enum { RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
+
+/* Never NULL, so that no results are an array of length 0. */
+koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
+                                     koksma__result **results, size_t *n)
+{
+    long long id;
+    koksma_status status = koksma__store_series(study->store, series, false, &id);
+    status = status ? status : koksma__store_results(study->store, id, trials, results, n);
+    if (!status && !*results) {
+        *results = calloc(1, sizeof **results);
+        status = *results ? KOKSMA_OK : koksma__fail_memory(sizeof **results);
+    }
+    return status;
+}
+
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
 {
     for (size_t b = 0; b < study->plan.n_images; b++) {
@@ -40,20 +56,27 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
         return koksma__fail(KOKSMA_MALFORMED, "plan '%s': table %s: no discrepancy block has %s at n = %lld",
                             study->plan.name, table->id, measure, table->n);
     }
-    const koksma__discrepancy_key key = {pattern, measure, table->n, block->dim, block->trials};
-    double *values;
+    const koksma__series series = {.kind = "discrepancy",
+                                   .scene = "",
+                                   .scene_hash = "",
+                                   .options = "",
+                                   .pattern = pattern,
+                                   .what = measure,
+                                   .n = table->n,
+                                   .dim = block->dim};
+    koksma__result *results;
     size_t n;
-    const koksma_status status = koksma__store_discrepancies(study->store, &key, &values, &n);
+    const koksma_status status = koksma__series_results(study, &series, block->trials, &results, &n);
     if (status) {
         return status;
     }
-    cell->mean = koksma__summarize(values, n, 1);
+    cell->mean = koksma__summarize(results->values, n, RESULT_STRIDE);
     cell->sd = cell->mean.sd;
-    koksma__largest_of(values, n, 100, &cell->max, &cell->max_sd);
+    koksma__largest_of(results->values, n, RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
     if (isnan(cell->max)) {
         cell->max = cell->mean.max;
     }
-    free(values);
+    free(results);
     return KOKSMA_OK;
 }
 
@@ -63,23 +86,31 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
     const koksma__image_block *block = koksma__table_images(study, table);
     const koksma__study_scene *scene = koksma__study_scene_of(study, table->scene);
     char name[KOKSMA__REFERENCE_NAME];
-    koksma_image_error *errors;
+    koksma__result *results;
     size_t n;
     *cell = (koksma__cell){0};
     koksma__reference_name(reference, name);
-    const koksma__image_key key = {scene->name, scene->hash,  pattern,       name,
-                                   table->n,    scene->width, scene->height, block->trials};
-    const koksma_status status = koksma__store_images(study->store, &key, &errors, &n);
+    koksma__series series = {.kind = "image",
+                             .scene = scene->name,
+                             .scene_hash = scene->hash,
+                             .options = "",
+                             .pattern = pattern,
+                             .what = name,
+                             .n = table->n};
+    int width, height;
+    koksma__block_size(block, scene, &width, &height);
+    series.width = width;
+    series.height = height;
+    const koksma_status status = koksma__series_results(study, &series, block->trials, &results, &n);
     if (status) {
         return status;
     }
-    const size_t stride = sizeof *errors / sizeof(double);
-    cell->mean = koksma__summarize(&errors->mean, n, stride);
-    cell->sd = koksma__summarize(&errors->sd, n, stride).mean;
-    const koksma__summary max = koksma__summarize(&errors->max, n, stride);
+    cell->mean = koksma__summarize(results->values, n, RESULT_STRIDE);
+    cell->sd = koksma__summarize(results->values + 1, n, RESULT_STRIDE).mean;
+    const koksma__summary max = koksma__summarize(results->values + 2, n, RESULT_STRIDE);
     cell->max = max.mean;
     cell->max_sd = max.sd;
-    free(errors);
+    free(results);
     return KOKSMA_OK;
 }
 

@@ -12,6 +12,10 @@ typedef struct koksma__cell {
     double max, max_sd;   /* of the trials' maxima (images), of the largest of 100 values (discrepancies) */
 } koksma__cell;
 
+/* The results of a series that the store has, of trials below `trials`; *results is the caller's. */
+koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
+                                     koksma__result **results, size_t *n);
+
 /* The block that renders an image table's scene, or NULL; koksma__plan_parse makes sure that there is one. */
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table);
 

@@ -37,17 +37,17 @@ static void largest_of_blocks(void **state)
     (void)state;
     const double values[] = {1, 5, 2, 3, 9, 4, 100};
     double mean, sd;
-    koksma__largest_of(values, 7, 3, &mean, &sd);
+    koksma__largest_of(values, 7, 1, 3, &mean, &sd);
     assert_near(mean, 7, 0);
     assert_near(sd, sqrt(8), 1e-14);
-    koksma__largest_of(values, 2, 3, &mean, &sd);
+    koksma__largest_of(values, 2, 1, 3, &mean, &sd);
     assert_true(isnan(mean));
 }
 
 static void wrong_plan(const char *text, const char *reason)
 {
     koksma__plan plan;
-    assert_int_equal(koksma__plan_parse("p", text, strlen(text), 0, &plan), KOKSMA_MALFORMED);
+    assert_int_equal(koksma__plan_parse("p", text, strlen(text), NULL, &plan), KOKSMA_MALFORMED);
     if (strcmp(koksma_error_text(), reason) != 0) {
         fail_msg("the error is \"%s\" and should be \"%s\"", koksma_error_text(), reason);
     }
@@ -78,16 +78,17 @@ static void shipped_plans_parse(void **state)
     (void)state;
     size_t size;
     koksma__plan plan;
+    const koksma__plan_trials seven = {.trials = 7};
     assert_null(koksma__plan_shipped("nothing", &size));
     const char *text = koksma__plan_shipped("shirley1991", &size);
     assert_non_null(text);
-    assert_ok(koksma__plan_parse("shirley1991", text, size, 7, &plan));
-    assert_int_equal(plan.n_tables, 6);
+    assert_ok(koksma__plan_parse("shirley1991", text, size, &seven, &plan));
+    assert_int_equal(plan.n_tables, 7);
     assert_int_equal(plan.images[0].trials, 7);
     koksma__plan_fini(&plan);
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
         text = koksma__plan_shipped(koksma_plan_name_at(i), &size);
-        assert_ok(koksma__plan_parse(koksma_plan_name_at(i), text, size, 0, &plan));
+        assert_ok(koksma__plan_parse(koksma_plan_name_at(i), text, size, NULL, &plan));
         assert_string_equal(plan.name, koksma_plan_name_at(i));
         koksma__plan_fini(&plan);
     }
@@ -100,30 +101,38 @@ static void store_keeps_rows(void **state)
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/r.sqlite", folder);
     koksma__store *store, *second;
-    const koksma__discrepancy_key key = {"random", "star", 16, 2, 0};
-    bool has;
-    double *values;
+    const koksma__series series = {"discrepancy", "", "", "", "random", "star", 16, 2, 0, 0};
+    const koksma__result first = {3, UINT64_MAX, {0.1, NAN, NAN, NAN}}, again = {3, UINT64_MAX, {0.7, NAN, NAN, NAN}};
+    koksma__result *results;
+    long long id, same;
+    unsigned char bits = 0;
     size_t n;
-    assert_ok(koksma__store_open(path, "plan", &store));
-    assert_ok(koksma__store_put_discrepancy(store, &key, UINT64_MAX, 0.1));
-    assert_ok(koksma__store_put_discrepancy(store, &key, UINT64_MAX, 0.7)); /* a row that exists stays */
-    assert_int_equal(koksma__store_open(path, "plan", &second), KOKSMA_IO);
+    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
+    assert_ok(koksma__store_series(store, &series, false, &id));
+    assert_int_equal(id, 0);
+    assert_ok(koksma__store_series(store, &series, true, &id));
+    assert_ok(koksma__store_put(store, id, &first));
+    assert_ok(koksma__store_put(store, id, &again)); /* a row that exists stays */
+    assert_int_equal(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &second), KOKSMA_IO);
     assert_non_null(strstr(koksma_error_text(), "another run"));
     assert_ok(koksma__store_close(store));
-    assert_int_equal(koksma__store_open(path, "other", &store), KOKSMA_MALFORMED);
-    assert_ok(koksma__store_open(path, "plan", &store));
-    assert_ok(koksma__store_has_discrepancy(store, &key, &has));
-    assert_true(has);
-    const koksma__discrepancy_key all = {"random", "star", 16, 2, 5};
-    assert_ok(koksma__store_discrepancies(store, &all, &values, &n));
+    assert_int_equal(koksma__store_open(path, KOKSMA__STORE_WRITE, "other", &store), KOKSMA_MALFORMED);
+    assert_ok(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
+    assert_ok(koksma__store_series(store, &series, true, &same));
+    assert_int_equal(same, id);
+    assert_ok(koksma__store_done(store, id, 8, &bits));
+    assert_int_equal(bits, 1 << 3);
+    assert_ok(koksma__store_results(store, id, 5, &results, &n));
     assert_int_equal(n, 1);
-    assert_near(values[0], 0.1, 0);
-    free(values);
+    assert_true(results[0].seed == UINT64_MAX && results[0].trial == 3);
+    assert_near(results[0].values[0], 0.1, 0);
+    assert_true(isnan(results[0].values[1]));
+    free(results);
     assert_ok(koksma__store_close(store));
     FILE *f = fopen(path, "wb");
     fputs("this is not a database, and long enough to be read as one would be", f);
     fclose(f);
-    assert_int_equal(koksma__store_open(path, "plan", &store), KOKSMA_MALFORMED);
+    assert_int_equal(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store), KOKSMA_MALFORMED);
     unlink(path);
     rmdir(folder);
 }

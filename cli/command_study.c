@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/plot.h>
+#include <koksma/study.h>
+
+#include "cli.h"
+
+/* A plan to begin with. `comment` is allowed in every object and means nothing. */
+static const char example[] =
+    "{\n"
+    "  \"comment\": \"A plan of koksma study; 'comment' may stand in every object. studies/README.md has all "
+    "fields.\",\n"
+    "  \"name\": \"%s\",\n"
+    "  \"title\": \"Which pattern for 16 samples a pixel?\",\n"
+    "  \"discrepancies\": [\n"
+    "    {\n"
+    "      \"comment\": \"patterns x n x measures, each over `trials` point sets; `quick` trials with --quick\",\n"
+    "      \"patterns\": [\"random\", \"jittered\", \"n-rooks\", \"sobol:scramble=owen\"],\n"
+    "      \"measures\": [\"star\", \"l2-star\", \"l2-edge\"],\n"
+    "      \"n\": [4, 16, 64],\n"
+    "      \"trials\": 100,\n"
+    "      \"quick\": 20\n"
+    "    }\n"
+    "  ],\n"
+    "  \"images\": [\n"
+    "    {\n"
+    "      \"comment\": \"scenes x patterns x spp x all combinations of options, each over `trials` renders\",\n"
+    "      \"scenes\": [\"checker\", \"ball\"],\n"
+    "      \"patterns\": [\"random\", \"jittered\", \"n-rooks\", \"sobol:scramble=owen\"],\n"
+    "      \"spp\": [4, 16, 64],\n"
+    "      \"options\": {\"pairing\": [\"shuffled\"]},\n"
+    "      \"size\": [64, 48],\n"
+    "      \"trials\": 20,\n"
+    "      \"quick\": 6,\n"
+    "      \"references\": [\n"
+    "        {\"comment\": \"the mean of `replicates` renders\",\n"
+    "         \"name\": \"converged\", \"pattern\": \"jittered\", \"spp\": 1024, \"replicates\": 8}\n"
+    "      ]\n"
+    "    }\n"
+    "  ]\n"
+    "}\n";
+
+static int new_plan(const cli_arguments *arguments)
+{
+    const char *path = cli_text(arguments, "output", arguments->n_operands > 1 ? arguments->operands[1] : "-");
+    if (arguments->n_operands > 2) {
+        return cli_usage_error(arguments, "new takes one file, as in new plan.json");
+    }
+    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    int length = (int)strcspn(base, ".");
+    char name[64], text[sizeof example + sizeof name];
+    length = strspn(base, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") < (size_t)length
+                 ? 0
+                 : length;
+    snprintf(name, sizeof name, "%.*s", length, base);
+    const bool named = name[0] && strcmp(name, "-") != 0;
+    const int size = snprintf(text, sizeof text, example, named ? name : "my-study");
+    const koksma_status status = koksma_plot_write(path, (const unsigned char *)text, (size_t)size);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+/* ---- run ----------------------------------------------------------------------------------------------- */
+
+static int say_interrupted(const cli_arguments *arguments, koksma_status status, const char *folder)
+{
+    fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
+            arguments->command->name, folder);
+    return koksma_status_exit_code(status);
+}
+
+static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
+{
+    koksma_study *study;
+    koksma_study_summary summary = {0};
+    koksma_status status = koksma_study_open(options, &study);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    status = koksma_study_run(study, &work->run, &summary);
+    cli_work_end(work);
+    if (!status && options->folder) {
+        work->run.time_limit_s = 0;
+        status = koksma_study_report(study, &work->run);
+    }
+    const koksma_status closed = koksma_study_close(study);
+    status = status ? status : closed;
+    if (status == KOKSMA_INTERRUPTED) {
+        return say_interrupted(arguments, status, options->folder);
+    }
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    if (options->folder && !cli_flag(arguments, "quiet")) {
+        fprintf(stderr,
+                "%zu jobs, %zu of them done before, %zu now in %.1f s (%.1f %% of it in the database)%s; report: "
+                "%s/report.html\n",
+                summary.jobs, summary.done_before, summary.done_now, summary.seconds,
+                100 * summary.store_seconds / (summary.seconds > 0 ? summary.seconds : 1),
+                summary.complete ? "" : "; the time is up, and the same command goes on", options->folder);
+    }
+    return !options->folder || summary.complete ? CLI_YES : CLI_NO;
+}
+
+static bool study_options(const cli_arguments *arguments, koksma_study_options *options, cli_work *work)
+{
+    uint64_t trials;
+    if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) || !cli_work_begin(arguments, "studying", work) ||
+        !cli_real(arguments, "time-limit", 0, 1e-3, 1e9, &work->run.time_limit_s)) {
+        return false;
+    }
+    *options = (koksma_study_options){.plans = (const char *const *)arguments->operands + 1,
+                                      .n_plans = (size_t)arguments->n_operands - 1,
+                                      .folder = cli_text(arguments, "output", NULL),
+                                      .trials = (long long)trials,
+                                      .quick = cli_flag(arguments, "quick")};
+    return true;
+}
+
+static int run_plans(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_study_options options;
+    if (arguments->n_operands < 2 || !cli_text(arguments, "output", NULL)) {
+        return cli_usage_error(arguments, "run takes a plan and a folder, as in run plan.json -o DIR");
+    }
+    if (!study_options(arguments, &options, &work)) {
+        return CLI_USAGE;
+    }
+    const int code = run_study(arguments, &options, &work);
+    cli_work_end(&work);
+    return code;
+}
+
+/* ---- estimate ------------------------------------------------------------------------------------------ */
+
+static int estimate(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_study_options options;
+    koksma_study *study = NULL;
+    koksma_study_cost cost;
+    if (arguments->n_operands < 2) {
+        return cli_usage_error(arguments, "estimate takes a plan, as in estimate plan.json");
+    }
+    if (!study_options(arguments, &options, &work)) {
+        return CLI_USAGE;
+    }
+    options.folder = NULL;
+    koksma_status status = koksma_study_open(&options, &study);
+    status = status ? status : koksma_study_estimate(study, &work.run, &cost);
+    cli_work_end(&work);
+    koksma_study_close(study);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    if (rows) {
+        cli_row_whole(rows, "jobs", cost.jobs);
+        cli_row_whole(rows, "references", cost.references);
+        cli_row_whole(rows, "rows", cost.rows);
+        cli_row_rounded(rows, "cpu_seconds", cost.seconds, 3);
+        cli_row_rounded(rows, "reference_seconds", cost.reference_seconds, 3);
+        cli_row_rounded(rows, "megabytes", cost.bytes * 1e-6, 3);
+        cli_row_end(rows);
+    }
+    return cli_rows_close(rows);
+}
+
+/* ---- export and report --------------------------------------------------------------------------------- */
+
+static int export_rows(const cli_arguments *arguments)
+{
+    static const char *const formats[] = {"csv", "json", "npy", NULL};
+    const char *path = cli_text(arguments, "output", "-");
+    const char *dot = strrchr(path, '.');
+    const char *name = cli_text(arguments, "format", dot ? dot + 1 : "csv");
+    int format = 0;
+    if (arguments->n_operands != 2) {
+        return cli_usage_error(arguments, "export takes a study's folder, as in export DIR --format csv");
+    }
+    while (formats[format] && strcmp(formats[format], name) != 0) {
+        format++;
+    }
+    if (!formats[format]) {
+        return cli_usage_error(arguments, "--format %s: it takes csv, json or npy", name);
+    }
+    const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+static int report(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_study *study = NULL;
+    if (arguments->n_operands != 2) {
+        return cli_usage_error(arguments, "report takes a study's folder, as in report DIR");
+    }
+    if (!cli_work_begin(arguments, "reporting", &work)) {
+        return CLI_USAGE;
+    }
+    const koksma_study_options options = {.folder = arguments->operands[1]};
+    koksma_status status = koksma_study_open(&options, &study);
+    status = status ? status : koksma_study_report(study, &work.run);
+    cli_work_end(&work);
+    const koksma_status closed = koksma_study_close(study);
+    status = status ? status : closed;
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+/* ---- The command --------------------------------------------------------------------------------------- */
+
+static int run(const cli_arguments *arguments)
+{
+    static const struct {
+        const char *name;
+        int (*run)(const cli_arguments *arguments);
+    } verbs[] = {
+        {"run", run_plans}, {"new", new_plan}, {"estimate", estimate}, {"export", export_rows}, {"report", report}};
+    for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
+        if (!strcmp(verbs[i].name, arguments->operands[0])) {
+            return verbs[i].run(arguments);
+        }
+    }
+    return cli_usage_error(arguments, "it takes run, new, estimate, export or report");
+}
+
+static const cli_option options[] = {
+    {'o', "output", "PATH", "run: the folder; new, export: the file (default: -, standard output)"},
+    {0, "trials", "T", "run, estimate: trials of everything instead of the plan's own numbers"},
+    {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
+    {0, "time-limit", "S",
+     "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
+    {0, "format", "F", "export: csv, json or npy (default: by the file's ending, else csv)"},
+    CLI_ROW_OPTIONS,
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_study = {
+    .name = "study",
+    .summary = "patterns x measures or scenes x trials, from a plan",
+    .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
+                "       koksma study new [FILE]\n"
+                "       koksma study estimate PLAN... [--json]\n"
+                "       koksma study export DIR [--format csv|json|npy] [-o FILE]\n"
+                "       koksma study report DIR",
+    .details =
+        "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, 'estimate' says what\n"
+        "it would cost on one thread. Results go to DIR/results.sqlite as they are made. Stopped in any way and\n"
+        "started again, a run goes on where it was. 'export' writes all rows sorted by their keys: the same\n"
+        "bytes for any number of threads and interruptions.",
+    .options = options,
+    .run = run,
+};

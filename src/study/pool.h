@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Who does the jobs: the threads of this process (run.c), or the ranks of an MPI run (pool_mpi.c). Of several ranks
+ * the first holds the store, deals jobs out and does some itself; the others open the plan without a folder, ask for
+ * work and send results back.
+ */
+#ifndef KOKSMA_STUDY_POOL_H
+#define KOKSMA_STUDY_POOL_H
+
+#include <stdatomic.h>
+
+#include "study/tasks.h"
+
+typedef struct koksma__pool {
+    koksma__tasks *tasks;
+    atomic_size_t done;
+} koksma__pool;
+
+/* Does all jobs that are not done on run's threads. */
+koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run);
+
+/* Ranks of this run; 1 without MPI. */
+int koksma__pool_size(void);
+
+/* The first rank's part, and the others': until the first says that all is done. */
+koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run);
+koksma_status koksma__pool_work(koksma_study *study);
+
+#endif

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A build without MPI has one rank. */
+#include "core/status.h"
+#include "study/pool.h"
+
+int koksma__pool_size(void)
+{
+    return 1;
+}
+
+koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run)
+{
+    return koksma__pool_threads(pool, run);
+}
+
+koksma_status koksma__pool_work(koksma_study *study)
+{
+    (void)study;
+    return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder can't be run");
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/tasks.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/warp.h>
+
+#include "core/status.h"
+
+static const koksma_run single = {.threads = 1};
+
+/* ---- The list ------------------------------------------------------------------------------------------ */
+
+static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
+{
+    if (tasks->n == tasks->room) {
+        const size_t room = tasks->room ? 2 * tasks->room : 64;
+        koksma__task *more = realloc(tasks->at, room * sizeof *more);
+        if (!more) {
+            return koksma__fail_memory(room * sizeof *more);
+        }
+        tasks->at = more;
+        tasks->room = room;
+    }
+    koksma__task *t = &tasks->at[tasks->n];
+    *t = *task;
+    t->place = tasks->n++;
+    t->series = calloc(t->n_series, sizeof *t->series);
+    t->references = calloc(t->n_series, sizeof *t->references);
+    t->done = calloc(((size_t)t->trials + 7) / 8, 1);
+    return t->series && t->references && t->done ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
+}
+
+/* All sets of a deterministic pattern are one set. */
+static long long sets_of(const char *pattern, long long trials)
+{
+    koksma_spec spec;
+    const bool one =
+        !koksma_pattern_spec(pattern, &spec) && !spec.shift && (spec.pattern->claims & KOKSMA_CLAIM_DETERMINISTIC);
+    return one ? 1 : trials;
+}
+
+static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
+{
+    const size_t warps = b->warps.n ? b->warps.n : 1;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < b->patterns.n * b->n.n * warps; i++) {
+        const koksma__task task = {.discrepancy = b,
+                                   .pattern = b->patterns.at[i / (b->n.n * warps)],
+                                   .n = b->n.at[i / warps % b->n.n],
+                                   .variant = b->warps.n ? b->warps.at[i % warps] : "",
+                                   .trials = sets_of(b->patterns.at[i / (b->n.n * warps)], b->trials),
+                                   .n_series = b->measures.n};
+        status = add_task(tasks, &task);
+    }
+    return status;
+}
+
+static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block *b, const koksma__study_scene *scene)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < b->patterns.n * b->spp.n * b->variants.n; i++) {
+        koksma__task task = {.image = b,
+                             .scene = scene,
+                             .pattern = b->patterns.at[i / (b->spp.n * b->variants.n)],
+                             .n = b->spp.at[i / b->variants.n % b->spp.n],
+                             .variant = b->variants.at[i % b->variants.n],
+                             .trials = b->trials,
+                             .n_series = b->n_references};
+        koksma__block_size(b, scene, &task.width, &task.height);
+        status = add_task(tasks, &task);
+        for (size_t r = 0; !status && r < b->n_references; r++) {
+            status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
+                                             &tasks->at[tasks->n - 1].references[r]);
+        }
+    }
+    return status;
+}
+
+static int compare_tasks(const void *a, const void *b)
+{
+    const koksma__task *s = a, *t = b;
+    if (s->trials != t->trials) {
+        return s->trials > t->trials ? -1 : 1;
+    }
+    return s->place < t->place ? -1 : 1;
+}
+
+/* The order of the jobs: tasks with the most trials first, so that round t has the first tasks->rounds[s].tasks of
+   them. Equal numbers keep the plan's order. */
+static koksma_status order(koksma__tasks *tasks)
+{
+    if (tasks->n) {
+        qsort(tasks->at, tasks->n, sizeof *tasks->at, compare_tasks);
+    }
+    tasks->rounds = calloc(tasks->n + 1, sizeof *tasks->rounds);
+    if (!tasks->rounds) {
+        return koksma__fail_memory((tasks->n + 1) * sizeof *tasks->rounds);
+    }
+    long long trial = 0;
+    for (size_t left = tasks->n; left > 0;) {
+        const long long end = tasks->at[left - 1].trials;
+        if (end > trial) {
+            tasks->rounds[tasks->n_rounds++] = (koksma__rounds){tasks->n_jobs, trial, left};
+            tasks->n_jobs += (size_t)(end - trial) * left;
+            trial = end;
+        }
+        while (left > 0 && tasks->at[left - 1].trials == trial) {
+            left--;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks)
+{
+    const koksma__plan *plan = &study->plan;
+    koksma_status status = KOKSMA_OK;
+    *tasks = (koksma__tasks){.study = study};
+    for (size_t b = 0; !images && !status && b < plan->n_discrepancies; b++) {
+        status = add_discrepancies(tasks, &plan->discrepancies[b]);
+    }
+    for (size_t b = 0; images && !status && b < plan->n_images; b++) {
+        for (size_t s = 0; !status && s < plan->images[b].scenes.n; s++) {
+            status = add_images(tasks, &plan->images[b], koksma__study_scene_of(study, plan->images[b].scenes.at[s]));
+        }
+    }
+    status = status ? status : order(tasks);
+    if (status) {
+        koksma__tasks_close(tasks);
+    }
+    return status;
+}
+
+void koksma__tasks_close(koksma__tasks *tasks)
+{
+    for (size_t i = 0; i < tasks->n; i++) {
+        free(tasks->at[i].series);
+        free(tasks->at[i].references);
+        free(tasks->at[i].done);
+    }
+    free(tasks->at);
+    free(tasks->rounds);
+    *tasks = (koksma__tasks){0};
+}
+
+const koksma__task *koksma__tasks_job(const koksma__tasks *tasks, size_t i, long long *trial)
+{
+    size_t low = 0, high = tasks->n_rounds;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        *(tasks->rounds[middle].first_job <= i ? &low : &high) = middle;
+    }
+    const koksma__rounds *r = &tasks->rounds[low];
+    const size_t within = i - r->first_job;
+    *trial = r->first_trial + (long long)(within / r->tasks);
+    return &tasks->at[within % r->tasks];
+}
+
+bool koksma__task_is_done(const koksma__task *task, long long trial)
+{
+    return task->done[trial / 8] >> trial % 8 & 1;
+}
+
+/* ---- The store ----------------------------------------------------------------------------------------- */
+
+koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KOKSMA__REFERENCE_NAME])
+{
+    koksma__series s = {.kind = t->image ? "image" : "discrepancy",
+                        .scene = t->image ? t->scene->name : "",
+                        .scene_hash = t->image ? t->scene->hash : "",
+                        .options = t->variant,
+                        .pattern = t->pattern,
+                        .n = t->n,
+                        .dim = t->image ? 0 : t->discrepancy->dim,
+                        .width = t->width,
+                        .height = t->height};
+    if (t->image) {
+        koksma__reference_name(&t->image->references[k], name);
+        s.what = name;
+    } else {
+        s.what = t->discrepancy->measures.at[k];
+    }
+    return s;
+}
+
+static koksma_status look_up(koksma__store *store, koksma__task *t)
+{
+    const size_t bytes = ((size_t)t->trials + 7) / 8;
+    unsigned char *bits = malloc(bytes);
+    koksma_status status = bits ? KOKSMA_OK : koksma__fail_memory(bytes);
+    memset(t->done, 0xff, bytes); /* done is what every series has */
+    for (size_t k = 0; !status && k < t->n_series; k++) {
+        char name[KOKSMA__REFERENCE_NAME];
+        const koksma__series series = koksma__task_series(t, k, name);
+        memset(bits, 0, bytes);
+        status = koksma__store_series(store, &series, true, &t->series[k]);
+        status = status ? status : koksma__store_done(store, t->series[k], t->trials, bits);
+        for (size_t i = 0; i < bytes; i++) {
+            t->done[i] &= bits[i];
+        }
+    }
+    t->done_before = 0;
+    for (long long trial = 0; !status && trial < t->trials; trial++) {
+        t->done_before += koksma__task_is_done(t, trial);
+    }
+    free(bits);
+    return status;
+}
+
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        status = look_up(tasks->study->store, &tasks->at[i]);
+    }
+    return status;
+}
+
+koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t k = 0; !status && k < task->n_series; k++) {
+        status = koksma__store_put(store, task->series[k], &results[k]);
+    }
+    return status;
+}
+
+/* ---- One job ------------------------------------------------------------------------------------------- */
+
+static koksma_status measure(const koksma__task *t, const koksma_points *points, koksma__result *results)
+{
+    const koksma_warp *warp = t->variant[0] ? koksma_warp_find(t->variant) : NULL;
+    koksma_status status = KOKSMA_OK;
+    for (size_t m = 0; !status && m < t->n_series; m++) {
+        koksma_spec spec;
+        koksma_value value = {0};
+        status = koksma_measure_spec(t->discrepancy->measures.at[m], &spec);
+        if (!status) {
+            status = warp ? koksma_warp_evaluate(warp, &spec, points, &single, &value)
+                          : koksma_evaluate(&spec, points, &single, &value);
+        }
+        results[m].values[0] = value.value;
+        results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
+    }
+    return status;
+}
+
+static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, koksma__result *results)
+{
+    koksma_spec pattern;
+    koksma_points points;
+    koksma_status status = koksma_pattern_spec(t->pattern, &pattern);
+    if (!status) {
+        status = koksma_points_init(&points, (size_t)t->n, t->discrepancy->dim);
+    }
+    if (status) {
+        return status;
+    }
+    status = koksma_generate(&pattern, seed, &single, &points);
+    status = status ? status : measure(t, &points, results);
+    koksma_points_fini(&points);
+    return status;
+}
+
+static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed,
+                              koksma__result *results)
+{
+    koksma_image image;
+    const koksma__picture picture = {.pattern = t->pattern,
+                                     .variant = t->variant,
+                                     .spp = t->n,
+                                     .width = t->width,
+                                     .height = t->height,
+                                     .seed = seed};
+    koksma_status status = koksma__study_render(t->scene, &picture, &single, &image);
+    if (status) {
+        return status;
+    }
+    for (size_t r = 0; !status && r < t->n_series; r++) {
+        koksma_image_error error = {0};
+        status = koksma_image_compare(&image, &study->references[t->references[r]].image, &error);
+        const double values[KOKSMA__RESULT_VALUES] = {error.mean, error.sd, error.max, error.rmse};
+        memcpy(results[r].values, values, sizeof values);
+    }
+    koksma_image_fini(&image);
+    return status;
+}
+
+/* The seed is a hash of the key without the options, so that options are compared on the same points. */
+koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, long long trial,
+                              koksma__result *results)
+{
+    const uint64_t seed =
+        t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
+                                    t->n, t->width, t->height, trial)
+                 : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
+    for (size_t k = 0; k < t->n_series; k++) {
+        results[k].trial = trial;
+        results[k].seed = seed;
+    }
+    return t->image ? do_image(study, t, seed, results) : do_discrepancy(t, seed, results);
+}

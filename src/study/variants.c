@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/variants.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/plan_parts.h"
+
+enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = 256 };
+
+/* An option of koksma_render_options. `canonical` checks a word, sets it, and gives its canonical form. */
+typedef struct option {
+    const char *name, *fallback;
+    bool changes_image;
+    koksma_status (*set)(koksma_render_options *options, const char *word, char canonical[MAX_WORD]);
+} option;
+
+static koksma_status set_pairing(koksma_render_options *options, const char *word, char canonical[MAX_WORD])
+{
+    for (int i = 0; koksma_pairing_name((koksma_pairing)i); i++) {
+        if (!strcmp(koksma_pairing_name((koksma_pairing)i), word)) {
+            options->pairing = (koksma_pairing)i;
+            snprintf(canonical, MAX_WORD, "%s", word);
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__fail(KOKSMA_ARGUMENT, "pairing '%s': it takes shuffled or aligned", word);
+}
+
+/* One line an option that studies may vary. */
+static const option known[] = {
+    {"pairing", "shuffled", false, set_pairing},
+};
+
+enum { N_KNOWN = sizeof known / sizeof *known };
+
+/* ---- Canonical texts ----------------------------------------------------------------------------------- */
+
+/* Appends "name=word" unless the word is the default. */
+static void append(char *text, const option *o, const char *word)
+{
+    const size_t used = strlen(text);
+    if (strcmp(word, o->fallback) != 0) {
+        snprintf(text + used, KOKSMA__VARIANT_TEXT - used, "%s%s=%s", used ? ";" : "", o->name, word);
+    }
+}
+
+/* The word of an option in a canonical text, or its default. */
+static void word_of(const char *text, const option *o, char word[MAX_WORD])
+{
+    const size_t length = strlen(o->name);
+    snprintf(word, MAX_WORD, "%s", o->fallback);
+    for (const char *at = text; *at; at += strcspn(at, ";"), at += *at == ';') {
+        if (!strncmp(at, o->name, length) && at[length] == '=') {
+            snprintf(word, MAX_WORD, "%.*s", (int)strcspn(at + length + 1, ";"), at + length + 1);
+        }
+    }
+}
+
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_render_options *options)
+{
+    koksma_status status = KOKSMA_OK;
+    for (int i = 0; !status && i < N_KNOWN; i++) {
+        char word[MAX_WORD], canonical[MAX_WORD];
+        word_of(text, &known[i], word);
+        if (known[i].changes_image || !of_reference) {
+            status = known[i].set(options, word, canonical);
+        }
+    }
+    return status;
+}
+
+void koksma__variant_of_reference(const char *text, char *out)
+{
+    out[0] = '\0';
+    for (int i = 0; i < N_KNOWN; i++) {
+        char word[MAX_WORD];
+        word_of(text, &known[i], word);
+        if (known[i].changes_image) {
+            append(out, &known[i], word);
+        }
+    }
+}
+
+/* ---- Parsing ------------------------------------------------------------------------------------------- */
+
+/* The words of one option, canonical; none when the plan doesn't name it. */
+static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
+{
+    if (!koksma__json_has(node, o->name)) {
+        return KOKSMA_OK;
+    }
+    koksma__json_node list;
+    koksma_status status = koksma__plan_texts(node, o->name, words);
+    status = status ? status : koksma__json_member(node, o->name, &list);
+    for (size_t i = 0; !status && i < words->n; i++) {
+        koksma_render_options scratch;
+        char canonical[MAX_WORD] = "";
+        memset(&scratch, 0, sizeof scratch);
+        const koksma__json_node item = koksma__json_item(&list, i);
+        if (o->set(&scratch, words->at[i], canonical)) {
+            return koksma__json_fail(&item, "%s", koksma_error_text());
+        }
+        char *copy = strdup(canonical);
+        if (!copy) {
+            return koksma__fail_memory(strlen(canonical));
+        }
+        free(words->at[i]);
+        words->at[i] = copy;
+    }
+    return status;
+}
+
+static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *out)
+{
+    size_t total = 1;
+    for (int i = 0; i < N_KNOWN; i++) {
+        total *= words[i].n ? words[i].n : 1;
+        if (total > MAX_COMBINATIONS) {
+            return koksma__fail(KOKSMA_ARGUMENT, "more than %d combinations of options", MAX_COMBINATIONS);
+        }
+    }
+    out->at = calloc(total, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(total * sizeof *out->at);
+    }
+    for (; out->n < total; out->n++) {
+        char text[KOKSMA__VARIANT_TEXT] = "";
+        size_t below = total, rest = out->n;
+        for (int i = 0; i < N_KNOWN; i++) {
+            if (words[i].n) {
+                below /= words[i].n;
+                append(text, &known[i], words[i].at[rest / below]);
+                rest %= below;
+            }
+        }
+        out->at[out->n] = strdup(text);
+        if (!out->at[out->n]) {
+            return koksma__fail_memory(strlen(text));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__texts *out)
+{
+    koksma__texts words[N_KNOWN] = {{0}};
+    const char *keys[N_KNOWN + 2] = {"comment"};
+    koksma__json_node options;
+    koksma_status status = KOKSMA_OK;
+    if (koksma__json_has(node, "options")) {
+        for (int i = 0; i < N_KNOWN; i++) {
+            keys[i + 1] = known[i].name;
+        }
+        status = koksma__json_member(node, "options", &options);
+        status = status ? status : koksma__json_only(&options, keys);
+        for (int i = 0; !status && i < N_KNOWN; i++) {
+            status = parse_words(&options, &known[i], &words[i]);
+        }
+    }
+    if (!status && combine(words, out)) {
+        status = koksma__json_fail(node, "%s", koksma_error_text());
+    }
+    for (int i = 0; i < N_KNOWN; i++) {
+        koksma__texts_fini(&words[i]);
+    }
+    return status;
+}
