@@ -79,7 +79,15 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
                                 {"normal", &layers->normal},   {"Z", &layers->depth},
                                 {"samples", &layers->samples}, {"variance", &layers->variance}};
     describe(arguments, scene, options, metadata, sizeof metadata);
-    return koksma_image_write_layers(cli_text(arguments, "output", ""), all, sizeof all / sizeof *all, metadata);
+    const size_t n = layers->albedo.pixels ? sizeof all / sizeof *all : 1;
+    return koksma_image_write_layers(cli_text(arguments, "output", ""), all, n, metadata);
+}
+
+/* Only an EXR has a place for layers; without them it is faster. */
+static bool has_layers(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 4 && !strcmp(path + length - 4, ".exr");
 }
 
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options)
@@ -90,7 +98,9 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return CLI_USAGE;
     }
     const double start = now_s();
-    const koksma_status status = koksma_render_layers(scene, options, &work.run, &layers);
+    const koksma_status status = has_layers(cli_text(arguments, "output", ""))
+                                     ? koksma_render_layers(scene, options, &work.run, &layers)
+                                     : koksma_render_only(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
     cli_work_end(&work);
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);

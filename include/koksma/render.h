@@ -149,10 +149,12 @@ KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,
                                        const koksma_run *run, koksma_image *out);
 
-/* The same picture with its layers. When it is INTERRUPTED out holds the pixels that are done (the others have 0 in
-   `samples`), and the caller frees it too. */
+/* The same picture with its layers; or with its image, sample counts and rays only, which is faster. When it is
+   INTERRUPTED out holds the pixels that are done (the others have 0 in `samples`), and the caller frees it too. */
 KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
                                               const koksma_run *run, koksma_layers *out);
+KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
+                                            const koksma_run *run, koksma_layers *out);
 
 #ifdef __cplusplus
 }

@@ -353,7 +353,7 @@ static koksma_status render(const koksma_scene *scene, const koksma_render_optio
     status = make_frame(&f, run);
     status = status ? status : render_image(&j, run, all_layers, out);
     fini_frame(&f);
-    if (status && !(all_layers && status == KOKSMA_INTERRUPTED)) {
+    if (status && status != KOKSMA_INTERRUPTED) {
         koksma_layers_fini(out);
         *out = (koksma_layers){0};
     }
@@ -366,13 +366,22 @@ koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_rende
     return render(scene, options, run, true, out);
 }
 
+koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
+                                 const koksma_run *run, koksma_layers *out)
+{
+    return render(scene, options, run, false, out);
+}
+
 koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
                             koksma_image *out)
 {
     koksma_layers layers;
     const koksma_status status = render(scene, options, run, false, &layers);
-    *out = layers.image;
-    layers.image = (koksma_image){0};
+    *out = (koksma_image){0};
+    if (!status) {
+        *out = layers.image;
+        layers.image = (koksma_image){0};
+    }
     koksma_layers_fini(&layers);
     return status;
 }
