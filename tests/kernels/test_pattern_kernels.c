@@ -97,11 +97,11 @@ static void grow(const koksma__kernel_table *t, size_t count, void *out)
 
 static void near(const koksma__kernel_table *t, size_t count, void *out)
 {
-    bool *found = out;
+    unsigned *found = out;
     for (size_t i = 0; i < count; i++) {
-        const double d2 = 0.02 * units[i] * units[i];
-        found[2 * i] = t->near(units + i, units + 200, 9, units[i + 1], units[i + 9], d2);
-        found[2 * i + 1] = t->covers(units + i, units + 200, 9, units[i + 1], units[i + 9], 0.01, d2);
+        const double d2 = 0.1 * units[i] * units[i];
+        found[2 * i] = t->near(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], d2);
+        found[2 * i + 1] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
     }
 }
 
