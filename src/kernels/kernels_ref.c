@@ -133,6 +133,17 @@ void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t
     }
 }
 
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = columns[c * stride + i];
+        }
+    }
+}
+
 static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
 {
     uint32_t x = 0;

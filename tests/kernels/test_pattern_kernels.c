@@ -110,6 +110,12 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
+static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->rows_of_columns(count, 4, units, 97, count % 2, out);
+    t->rows_of_columns(count, 2, units, 131, count % 2, (double *)out + 600 + count % 3);
+}
+
 static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
 {
     static const size_t sides[] = {(size_t)1 << 20, ((size_t)1 << 20) - 1, 1000003, 300, 2000000};
@@ -141,16 +147,24 @@ TEST(grow, MAX)
 TEST(near, 250)
 TEST(nearest_offset, MAX)
 TEST(rooks_2d, 120)
+TEST(rows_of_columns, 150)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_pairs_equals_reference),
-        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_at_equals_reference),
-        cmocka_unit_test(owen_hash_equals_reference),      cmocka_unit_test(pascal_equals_reference),
-        cmocka_unit_test(grow_equals_reference),           cmocka_unit_test(near_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),
+        cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),
+        cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(digital_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),
+        cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),
+        cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(near_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference),
+        cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(rows_of_columns_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
