@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The two questions of maximal Poisson disk sampling, for a row of the grid at a time without branches. */
+/* The two questions of maximal Poisson disk sampling, for several places at a time without branches. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -9,8 +9,9 @@ typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least);
-bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2);
-bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2);
+bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double x, double y, double d2);
+unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
+                             double h, double d2);
 
 static inline lanes64_d splat(double x)
 {
@@ -33,35 +34,41 @@ static inline bool any(lanes64_i mask)
     return sum != 0;
 }
 
-bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2)
+bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double x, double y, double d2)
 {
     const lanes64_d at_x = splat(x), at_y = splat(y), limit = splat(d2);
     lanes64_i found = {0};
-    for (int r = 0; r < 5; r++, gx += stride, gy += stride) {
-        for (int c = 0; c < 8; c += LANES64) {
-            const lanes64_d a = load(gx + c) - at_x, b = load(gy + c) - at_y;
-            found |= (lanes64_i)(a * a + b * b < limit);
-        }
+    for (size_t i = 0; i < count; i += LANES64) {
+        const lanes64_d a = load(xs + i) - at_x, b = load(ys + i) - at_y;
+        found |= (lanes64_i)(a * a + b * b < limit);
     }
     return any(found);
 }
 
-static inline lanes64_d size_of(lanes64_d a)
+/* The square of the distance to the far end of (at - h, at + h). */
+static inline lanes64_d reach(lanes64_d from, lanes64_d at, lanes64_d h)
 {
-    return (lanes64_d)((lanes64_u)a & (0x7fffffffffffffffu - (lanes64_u){0}));
+    const lanes64_d t = (lanes64_d)((lanes64_u)(from - at) & (0x7fffffffffffffffu - (lanes64_u){0})) + h;
+    return t * t;
 }
 
-bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2)
+unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
+                             double h, double d2)
 {
-    const lanes64_d at_x = splat(x), at_y = splat(y), half = splat(h), limit = splat(d2);
-    lanes64_i found = {0};
-    for (int r = 0; r < 5; r++, gx += stride, gy += stride) {
-        for (int c = 0; c < 8; c += LANES64) {
-            const lanes64_d a = size_of(load(gx + c) - at_x) + half, b = size_of(load(gy + c) - at_y) + half;
-            found |= (lanes64_i)(a * a + b * b < limit);
-        }
+    const lanes64_d x0 = splat(x - step), x1 = splat(x + step), y0 = splat(y - step), y1 = splat(y + step);
+    const lanes64_d half = splat(h), limit = splat(d2);
+    lanes64_i found[4] = {{0}, {0}, {0}, {0}};
+    for (size_t i = 0; i < count; i += LANES64) {
+        const lanes64_d px = load(xs + i), py = load(ys + i);
+        const lanes64_d a0 = reach(px, x0, half), a1 = reach(px, x1, half);
+        const lanes64_d b0 = reach(py, y0, half), b1 = reach(py, y1, half);
+        found[0] |= (lanes64_i)(a0 + b0 < limit);
+        found[1] |= (lanes64_i)(a1 + b0 < limit);
+        found[2] |= (lanes64_i)(a0 + b1 < limit);
+        found[3] |= (lanes64_i)(a1 + b1 < limit);
     }
-    return any(found);
+    return (unsigned)any(found[0]) | (unsigned)any(found[1]) << 1 | (unsigned)any(found[2]) << 2 |
+           (unsigned)any(found[3]) << 3;
 }
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,

@@ -133,6 +133,17 @@ void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t
     }
 }
 
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = columns[c * stride + i];
+        }
+    }
+}
+
 static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
 {
     uint32_t x = 0;
@@ -213,30 +224,28 @@ void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t f
     }
 }
 
-bool KERNEL_NAME(near)(const double *gx, const double *gy, size_t stride, double x, double y, double d2)
+bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double x, double y, double d2)
 {
-    for (size_t r = 0; r < 5; r++) {
-        for (size_t c = 0; c < 8; c++) {
-            const double a = gx[r * stride + c] - x, b = gy[r * stride + c] - y;
-            if (a * a + b * b < d2) {
-                return true;
-            }
+    for (size_t i = 0; i < count; i++) {
+        if ((xs[i] - x) * (xs[i] - x) + (ys[i] - y) * (ys[i] - y) < d2) {
+            return true;
         }
     }
     return false;
 }
 
-bool KERNEL_NAME(covers)(const double *gx, const double *gy, size_t stride, double x, double y, double h, double d2)
+unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
+                             double h, double d2)
 {
-    for (size_t r = 0; r < 5; r++) {
-        for (size_t c = 0; c < 8; c++) {
-            const double a = fabs(gx[r * stride + c] - x) + h, b = fabs(gy[r * stride + c] - y) + h;
-            if (a * a + b * b < d2) {
-                return true;
-            }
+    unsigned found = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned q = 0; q < 4; q++) {
+            const double a = fabs(xs[i] - (q & 1 ? x + step : x - step)) + h;
+            const double b = fabs(ys[i] - (q & 2 ? y + step : y - step)) + h;
+            found |= (unsigned)(a * a + b * b < d2) << q;
         }
     }
-    return false;
+    return found;
 }
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,

@@ -4,6 +4,7 @@
 #ifndef KOKSMA_KERNELS_LANES64_H
 #define KOKSMA_KERNELS_LANES64_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -56,19 +57,53 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
+/* low, high = x[0], y[0], x[1], y[1], ... */
+static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
+{
+#if defined(__AVX512F__)
+    *low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
+    *high = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
+#elif defined(__AVX2__)
+    *low = __builtin_shufflevector(x, y, 0, 4, 1, 5);
+    *high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+#else
+    *low = __builtin_shufflevector(x, y, 0, 2);
+    *high = __builtin_shufflevector(x, y, 1, 3);
+#endif
+}
+
 /* out = x[0], y[0], x[1], y[1], ...: the bits of 2 LANES64 doubles. */
 static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
 {
-#if defined(__AVX512F__)
-    const lanes64_d low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
-    const lanes64_d high = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
-#elif defined(__AVX2__)
-    const lanes64_d low = __builtin_shufflevector(x, y, 0, 4, 1, 5), high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-#else
-    const lanes64_d low = __builtin_shufflevector(x, y, 0, 2), high = __builtin_shufflevector(x, y, 1, 3);
-#endif
+    lanes64_d low, high;
+    lanes64_zip(x, y, &low, &high);
     memcpy(out, &low, sizeof low);
     memcpy((char *)out + sizeof low, &high, sizeof high);
+}
+
+/* Stores a vector; with stream, past the caches, for which `out` is aligned to 16 bytes. */
+static inline void lanes64_store(lanes64_d v, bool stream, double *out)
+{
+#if defined(__SSE2__)
+    if (stream) {
+        __m128d parts[LANES64 / 2];
+        memcpy(parts, &v, sizeof parts);
+        for (int p = 0; p < LANES64 / 2; p++) {
+            _mm_stream_pd(out + 2 * p, parts[p]);
+        }
+        return;
+    }
+#endif
+    (void)stream;
+    memcpy(out, &v, sizeof v);
+}
+
+/* After the last streaming store. */
+static inline void lanes64_stored(void)
+{
+#if defined(__SSE2__)
+    _mm_sfence();
+#endif
 }
 
 #endif

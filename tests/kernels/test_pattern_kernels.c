@@ -97,17 +97,23 @@ static void grow(const koksma__kernel_table *t, size_t count, void *out)
 
 static void near(const koksma__kernel_table *t, size_t count, void *out)
 {
-    bool *found = out;
+    unsigned *found = out;
     for (size_t i = 0; i < count; i++) {
-        const double d2 = 0.02 * units[i] * units[i];
-        found[2 * i] = t->near(units + i, units + 200, 9, units[i + 1], units[i + 9], d2);
-        found[2 * i + 1] = t->covers(units + i, units + 200, 9, units[i + 1], units[i + 9], 0.01, d2);
+        const double d2 = 0.1 * units[i] * units[i];
+        found[2 * i] = t->near(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], d2);
+        found[2 * i + 1] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
     }
 }
 
 static void nearest_offset(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
+}
+
+static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->rows_of_columns(count, 4, units, 97, count % 2, out);
+    t->rows_of_columns(count, 2, units, 131, count % 2, (double *)out + 600 + count % 3);
 }
 
 static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
@@ -141,16 +147,24 @@ TEST(grow, MAX)
 TEST(near, 250)
 TEST(nearest_offset, MAX)
 TEST(rooks_2d, 120)
+TEST(rows_of_columns, 150)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_pairs_equals_reference),
-        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_at_equals_reference),
-        cmocka_unit_test(owen_hash_equals_reference),      cmocka_unit_test(pascal_equals_reference),
-        cmocka_unit_test(grow_equals_reference),           cmocka_unit_test(near_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),
+        cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),
+        cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(digital_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),
+        cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),
+        cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(near_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference),
+        cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(rows_of_columns_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -2,8 +2,9 @@
 #include "patterns/parts/columns.h"
 
 #include "core/parallel.h"
+#include "kernels/kernels.h"
 
-enum { GROUP = 1 << 15, COLUMNS = 8 };
+enum { GROUP = 1 << 15, COLUMNS = 8, STREAM_BYTES = 1 << 23 };
 
 typedef struct job {
     koksma__block f;
@@ -19,11 +20,19 @@ void koksma__store_column(size_t count, const double *xs, int dim, int k, double
     }
 }
 
-void koksma__store_pairs(size_t count, const double *restrict xs, const double *restrict ys, double *restrict out)
+void koksma__store_columns(size_t count, int some, const double *columns, size_t first, int k, koksma_points *out)
 {
+    const size_t dim = (size_t)out->dim;
+    double *to = out->xs + first * dim + k;
+    if (some == out->dim && (some == 2 || some == 4)) {
+        const bool stream = out->n * dim * sizeof *to >= STREAM_BYTES;
+        koksma__kernels()->rows_of_columns(count, some, columns, KOKSMA__COLUMN_BLOCK, stream, to);
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
-        out[2 * i] = xs[i];
-        out[2 * i + 1] = ys[i];
+        for (size_t c = 0; c < (size_t)some; c++) {
+            to[i * dim + c] = columns[c * KOKSMA__COLUMN_BLOCK + i];
+        }
     }
 }
 
@@ -31,27 +40,10 @@ static void block(const job *j, size_t first, size_t count)
 {
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
     const int dim = j->out->dim;
-    double *out = j->out->xs + first * (size_t)dim;
     for (int k = 0; k < dim; k += COLUMNS) {
         const int some = dim - k < COLUMNS ? dim - k : COLUMNS;
         j->f(j->context, k, some, first, count, columns);
-        if (dim == 2) {
-            koksma__store_pairs(count, columns[0], columns[1], out);
-            return;
-        }
-        if (dim == 4) {
-            for (size_t i = 0; i < count; i++) {
-                for (size_t c = 0; c < 4; c++) {
-                    out[4 * i + c] = columns[c][i];
-                }
-            }
-            return;
-        }
-        for (size_t i = 0; i < count; i++) {
-            for (int c = 0; c < some; c++) {
-                out[i * (size_t)dim + (size_t)(k + c)] = columns[c][i];
-            }
-        }
+        koksma__store_columns(count, some, columns[0], first, k, j->out);
     }
 }
 

@@ -22,7 +22,7 @@ koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, ko
 /* out[i*dim + k] = xs[i] for i < count. */
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out);
 
-/* out[2i], out[2i+1] = xs[i], ys[i]. */
-void koksma__store_pairs(size_t count, const double *xs, const double *ys, double *out);
+/* Coordinates k .. k + some - 1 of points first .. first + count-1, column c at columns[c KOKSMA__COLUMN_BLOCK]. */
+void koksma__store_columns(size_t count, int some, const double *columns, size_t first, int k, koksma_points *out);
 
 #endif

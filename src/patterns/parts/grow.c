@@ -42,9 +42,28 @@ static koksma_status grow_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
+/* One column of few points: all its random words at once. */
+static void grow_few(const growth *g, int c)
+{
+    const koksma__kernel_table *kernels = koksma__kernels();
+    uint32_t word[WORDS + 8], *v = g->v + (size_t)c * g->n;
+    kernels->words(g->seed, g->purpose, 0, (uint32_t)(g->k + c), (g->n + 3) / 4, word);
+    v[0] = word[0];
+    for (int level = 0; (size_t)1 << level < g->n; level++) {
+        const size_t start = (size_t)1 << level, count = g->n - start < start ? g->n - start : start;
+        kernels->grow(v, level, 0, count, g->partners[32 * (g->k + c) + level], word + start);
+    }
+}
+
 static koksma_status grow_columns(growth *g, const koksma_run *run)
 {
     koksma_status status = KOKSMA_OK;
+    if (g->n <= WORDS) {
+        for (int c = 0; c < g->dim; c++) {
+            grow_few(g, c);
+        }
+        return KOKSMA_OK;
+    }
     for (int c = 0; c < g->dim; c++) {
         uint32_t word[4];
         koksma__kernels()->words(g->seed, g->purpose, 0, (uint32_t)(g->k + c), 1, word);
@@ -64,19 +83,18 @@ static koksma_status grow_columns(growth *g, const koksma_run *run)
     return status;
 }
 
-static void store(const growth *g, const koksma_points *out, size_t first, size_t count)
+static void store(const growth *g, koksma_points *out, size_t first, size_t count)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
-    double xs[KOKSMA__COLUMN_BLOCK];
-    const size_t dim = (size_t)out->dim;
-    if (dim == 2) {
+    double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
+    if (out->dim == 2) {
         kernels->fraction_pairs(count, g->v + first, g->v + g->n + first, out->xs + 2 * first);
         return;
     }
     for (int c = 0; c < g->dim; c++) {
-        kernels->fractions(count, g->v + (size_t)c * g->n + first, xs);
-        koksma__store_column(count, xs, out->dim, g->k + c, out->xs + first * dim);
+        kernels->fractions(count, g->v + (size_t)c * g->n + first, columns[c]);
     }
+    koksma__store_columns(count, g->dim, columns[0], first, g->k, out);
 }
 
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
@@ -84,8 +102,9 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 {
     uint32_t few[COLUMNS * FEW], *memory = NULL;
     growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n, .v = few};
-    if (out->n > FEW) {
-        const size_t bytes = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * out->n * sizeof *memory;
+    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * out->n;
+    if (numbers > COLUMNS * FEW) {
+        const size_t bytes = numbers * sizeof *memory;
         memory = g.v = malloc(bytes);
         if (!memory) {
             return koksma__fail_memory(bytes);
