@@ -350,6 +350,61 @@ static void threads_change_no_bit(void **state)
     }
 }
 
+/* Dividing against all pairs, in 3 and 4 dimensions, with ties and repeats; the number of products. */
+static void dividing_equals_pairs(void **state)
+{
+    (void)state;
+    static const int ranks[KOKSMA__L2_KINDS] = {
+        [KOKSMA__L2_STAR] = 1,     [KOKSMA__L2_EXTREME] = 1,  [KOKSMA__L2_PERIODIC] = 3, [KOKSMA__L2_WRAPAROUND] = 3,
+        [KOKSMA__L2_MODIFIED] = 1, [KOKSMA__L2_CENTERED] = 2, [KOKSMA__L2_MIXTURE] = 3,  [KOKSMA__L2_SYMMETRIC] = 2};
+    for (int t = 0; t < 24 * SETS_KINDS; t++) {
+        const int kind = t % KOKSMA__L2_KINDS;
+        const koksma__l2_row *row = &koksma__l2_rows[kind];
+        koksma_points p = sets_points(1 + 7 * (size_t)t % 400, 3 + t / 8 % 2, t / 16 % SETS_KINDS, (uint64_t)t);
+        double by_pairs, by_dividing;
+        assert_int_equal(koksma__l2_ranks(row), ranks[kind]);
+        assert_ok(koksma__l2_by_pairs(row, &p, NULL, &by_pairs));
+        assert_ok(koksma__l2_by_dividing(row, &p, NULL, &by_dividing));
+        assert_near(by_dividing, by_pairs, 1e-13 * (1 + by_pairs));
+        koksma_points_fini(&p);
+    }
+}
+
+/* 12,000 points in space, in two pieces: bits on any number of threads; digits of the first 2,500 against sums
+   of 113 bits. */
+static void dividing_keeps_digits(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("halton", 12000, 3, 0);
+    double one, other;
+    assert_ok(koksma__l2_by_dividing(&koksma__l2_rows[KOKSMA__L2_STAR], &p, &(koksma_run){.threads = 1}, &one));
+    for (int threads = 2; threads <= 8; threads += 3) {
+        const koksma_run run = {.threads = threads};
+        assert_ok(koksma__l2_by_dividing(&koksma__l2_rows[KOKSMA__L2_STAR], &p, &run, &other));
+        assert_true(one == other);
+    }
+    p.n = 2500;
+    quad linear = 0, pairs = 0;
+    for (size_t i = 0; i < p.n; i++) {
+        quad a = 1;
+        for (size_t k = 0; k < 3; k++) {
+            a *= (1 - (quad)p.xs[3 * i + k] * p.xs[3 * i + k]) / 2;
+        }
+        linear += a;
+        for (size_t j = 0; j <= i; j++) {
+            quad product = j < i ? 2 : 1;
+            for (size_t k = 0; k < 3; k++) {
+                product *= 1 - (quad)fmax(p.xs[3 * i + k], p.xs[3 * j + k]);
+            }
+            pairs += product;
+        }
+    }
+    const quad n = (quad)p.n, square = (quad)1 / 27 - 2 * linear / n + pairs / n / n;
+    assert_ok(koksma__l2_by_dividing(&koksma__l2_rows[KOKSMA__L2_STAR], &p, NULL, &one));
+    assert_near(one, (double)square, 1e-11 * (double)square);
+    koksma_points_fini(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,6 +415,8 @@ int main(void)
         cmocka_unit_test(hammersley_keeps_its_digits),
         cmocka_unit_test(halton_keeps_its_digits),
         cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(dividing_equals_pairs),
+        cmocka_unit_test(dividing_keeps_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
+#include "measures/parts/double_double.h"
 
 enum { MERGE_FROM = 256, ROWS_PER_BLOCK = 128 };
 
@@ -36,6 +37,32 @@ double koksma__l2_polynomial(const double f[4], double u)
     return f[0] + f[1] * z + f[2] * z * z + f[3] * fabs(z);
 }
 
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z)
+{
+    koksma__dd sum = {f[0], 0};
+    if (f[1] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[1], z));
+    }
+    if (f[2] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_product(z, z), f[2]));
+    }
+    if (f[3] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[3], fabs(z)));
+    }
+    return sum;
+}
+
+/* prod_k a(x_k): rounded products would all err the same way for points on a grid. */
+koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim)
+{
+    koksma__dd product = {1, 0};
+    for (int k = 0; k < dim; k++) {
+        const koksma__dd a = koksma__l2_polynomial_dd(row->a24, x[k] - 0.5);
+        product = koksma__dd_mul(product, koksma__dd_divide(a, 24));
+    }
+    return product;
+}
+
 typedef struct pairs {
     const koksma__l2_row *row;
     size_t n;
@@ -56,20 +83,34 @@ static koksma_status sum_block(void *context, size_t block)
 }
 
 /* sum_i prod a(x_i) and sum_i prod K(x_i, x_i). */
-static void sum_points(const pairs *p, const koksma_points *points, koksma__sum *linear, koksma__sum *self)
+static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *linear, koksma__sum *self)
 {
     for (size_t i = 0; i < p->n; i++) {
-        double a = 1, k_ii = 1;
+        double k_ii = 1;
         for (size_t k = 0; k < (size_t)p->dim; k++) {
             const double x = points->xs[i * (size_t)p->dim + k];
             p->u[k * p->n + i] = x;
             p->g[k * p->n + i] = koksma__l2_polynomial(p->row->g, x);
-            a *= koksma__l2_polynomial(p->row->a24, x) / 24;
             k_ii *= 2 * p->g[k * p->n + i];
         }
-        koksma__sum_add(linear, a);
+        *linear = koksma__dd_add(*linear, koksma__l2_linear(p->row, points->xs + i * (size_t)p->dim, p->dim));
         koksma__sum_add(self, k_ii);
     }
+}
+
+/* The three terms cancel: they are brought together in 106 bits. */
+double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
+                          const koksma__sum *over_pairs)
+{
+    const double count = (double)n;
+    const koksma__dd c = koksma__dd_divide((koksma__dd){row->c12, 0}, 12);
+    koksma__dd total = c;
+    for (int k = 1; k < dim; k++) {
+        total = koksma__dd_mul(total, c);
+    }
+    const koksma__dd pair_sum = koksma__dd_quick_sum(over_pairs->total, over_pairs->lost);
+    total = koksma__dd_add(total, koksma__dd_divide(koksma__dd_scale(linear, -2), count));
+    return koksma__dd_add(total, koksma__dd_divide(koksma__dd_divide(pair_sum, count), count)).hi;
 }
 
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
@@ -84,27 +125,36 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
     }
     p.g = p.u + coordinates;
     p.sums = (koksma__sum *)(p.g + coordinates);
-    koksma__sum linear = {0}, both = {0}, total = {0};
+    koksma__dd linear = {0, 0};
+    koksma__sum both = {0};
     sum_points(&p, points, &linear, &both);
     const koksma_status status = koksma__parallel(run, n_blocks, sum_block, &p);
     for (size_t block = 0; block < n_blocks && !status; block++) {
         koksma__sum_add(&both, 2 * p.sums[block].total);
         koksma__sum_add(&both, 2 * p.sums[block].lost);
     }
-    const double count = (double)n;
-    koksma__sum_add(&total, pow(row->c12 / 12, points->dim));
-    koksma__sum_add(&total, -2 * koksma__sum_value(&linear) / count);
-    koksma__sum_add(&total, koksma__sum_value(&both) / count / count);
-    *square = koksma__sum_value(&total);
+    *square = koksma__l2_combine(row, points->dim, n, linear, &both);
     free(p.u);
     return status;
 }
 
+/* Dividing wins from these n on, by dimension and by the number of products of the kernel (measured with AVX-512
+   against the pairs' kernels); above the last its lists would take gigabytes. */
+static bool divides(const koksma__l2_row *row, const koksma_points *points)
+{
+    static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};
+    const int ranks = koksma__l2_ranks(row);
+    return points->dim >= 3 && points->dim <= KOKSMA__L2_DIVIDE_DIM &&
+           points->n >= from[points->dim - 3][ranks - 1] && points->n <= (size_t)1 << 24;
+}
+
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
+    const koksma__l2_row *row = &koksma__l2_rows[kind];
     const bool merge = points->dim <= 2 && points->n >= MERGE_FROM && points->n < (size_t)1 << 28;
-    const koksma_status status =
-        (merge ? koksma__l2_by_merging : koksma__l2_by_pairs)(&koksma__l2_rows[kind], points, run, &out->square);
+    const koksma_status status = (merge                  ? koksma__l2_by_merging
+                                  : divides(row, points) ? koksma__l2_by_dividing
+                                                         : koksma__l2_by_pairs)(row, points, run, &out->square);
     out->square = fmax(out->square, 0);
     out->value = sqrt(out->square);
     return status;

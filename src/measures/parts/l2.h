@@ -16,6 +16,9 @@
 
 #include <koksma/koksma.h>
 
+#include "core/sum.h"
+#include "measures/parts/double_double.h"
+
 typedef enum koksma__l2_kind {
     KOKSMA__L2_STAR,
     KOKSMA__L2_EXTREME,
@@ -35,12 +38,19 @@ typedef struct koksma__l2_row {
     double q, r;
 } koksma__l2_row;
 
+enum { KOKSMA__L2_DIVIDE_DIM = 4 };
+
 extern const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS];
 
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 106 bits */
 
-/* The value and its square into out: O(n log n) for d <= 2 and n not small, else O(n^2 d).
+/* prod_k a(x_k) in 106 bits. */
+koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
+
+/* The value and its square into out: O(n log n) for d <= 2 and n not small, O(n log^(d-1) n)
+   for d = 3 and 4 and n large, else O(n^2 d).
    Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
 
@@ -49,5 +59,14 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
                                   double *square);
 koksma_status koksma__l2_by_merging(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square);
+/* The number of products that make up the kernel where the order of its arguments is known: 1 to 3. */
+int koksma__l2_ranks(const koksma__l2_row *row);
+/* In 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
+koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                     double *square);
+
+/* c^d - 2 linear / n + over_pairs / n^2. */
+double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
+                          const koksma__sum *over_pairs);
 
 #endif

@@ -172,22 +172,6 @@ static void find_places(plane *p, wide *before_x)
     }
 }
 
-/* f[0] + f[1] z + f[2] z^2 + f[3] |z| */
-static dd polynomial(const double f[4], double z)
-{
-    dd sum = {f[0], 0};
-    if (f[1] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_product(f[1], z));
-    }
-    if (f[2] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_product(z, z), f[2]));
-    }
-    if (f[3] != 0) {
-        sum = koksma__dd_add(sum, koksma__dd_product(f[3], fabs(z)));
-    }
-    return sum;
-}
-
 static koksma_status sum_places(void *context, size_t block)
 {
     const plane *p = context;
@@ -201,8 +185,8 @@ static koksma_status sum_places(void *context, size_t block)
         const place *at = &p->places[i];
         const double z = (double)at->x * p->unit, w = (double)at->y * p->unit;
         const dd t_x = koksma__dd_of_int(at->t_x), t_y = koksma__dd_of_int(at->t_y);
-        const dd g = polynomial(big_g, z), h = polynomial(big_g, w);
-        const dd a = polynomial(row->a24, z), b = polynomial(row->a24, w);
+        const dd g = koksma__l2_polynomial_dd(big_g, z), h = koksma__l2_polynomial_dd(big_g, w);
+        const dd a = koksma__l2_polynomial_dd(row->a24, z), b = koksma__l2_polynomial_dd(row->a24, w);
         ADD(LINEAR, p->dim == 2 ? koksma__dd_mul(a, b) : a);
         ADD(G, g);
         ADD(T_X, t_x);
