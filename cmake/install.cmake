@@ -27,3 +27,16 @@ foreach(package koksma koksma-lab)
   configure_file(cmake/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
 endforeach()
+
+# The Python package, plain files, where the system's python3 looks below this prefix.
+find_program(KOKSMA_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NOT KOKSMA_PYTHON_DIR)
+  set(python_version 3)
+  if(KOKSMA_PYTHON AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    execute_process(COMMAND ${KOKSMA_PYTHON} -c "import sys; print('%d.%d' % sys.version_info[:2])"
+                    OUTPUT_VARIABLE python_version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  endif()
+  set(KOKSMA_PYTHON_DIR lib/python${python_version}/dist-packages)
+endif()
+install(DIRECTORY python/koksma DESTINATION ${KOKSMA_PYTHON_DIR} FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
+        PATTERN "__pycache__" EXCLUDE)
