@@ -40,3 +40,26 @@ if(NOT KOKSMA_PYTHON_DIR)
 endif()
 install(DIRECTORY python/koksma DESTINATION ${KOKSMA_PYTHON_DIR} FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
         PATTERN "__pycache__" EXCLUDE)
+
+# Manual pages and completions, printed by the program from its option tables. A cross-built program can't run here.
+if(NOT CMAKE_CROSSCOMPILING)
+  set(TEXTS ${CMAKE_BINARY_DIR}/texts)
+  set(printed ${TEXTS}/man/koksma.1 ${TEXTS}/koksma.bash ${TEXTS}/_koksma ${TEXTS}/koksma.fish)
+  set(commands COMMAND koksma-program manual > ${TEXTS}/man/koksma.1
+               COMMAND koksma-program completion bash > ${TEXTS}/koksma.bash
+               COMMAND koksma-program completion zsh > ${TEXTS}/_koksma
+               COMMAND koksma-program completion fish > ${TEXTS}/koksma.fish)
+  file(STRINGS cli/commands.def lines REGEX "^COMMAND")
+  foreach(line ${lines})
+    string(REGEX REPLACE "COMMAND\\(([a-z_]+)\\).*" "\\1" command ${line})
+    list(APPEND printed ${TEXTS}/man/koksma-${command}.1)
+    list(APPEND commands COMMAND koksma-program manual ${command} > ${TEXTS}/man/koksma-${command}.1)
+  endforeach()
+  file(MAKE_DIRECTORY ${TEXTS}/man)
+  add_custom_command(OUTPUT ${printed} ${commands} DEPENDS koksma-program VERBATIM)
+  add_custom_target(texts ALL DEPENDS ${printed})
+  install(DIRECTORY ${TEXTS}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${TEXTS}/koksma.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koksma)
+  install(FILES ${TEXTS}/_koksma DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  install(FILES ${TEXTS}/koksma.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
