@@ -4,13 +4,14 @@
 #   make test      build with sanitizers and with clang, run all tests
 #   make bench     speeds, each beside what it is compared with
 #   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
+#   make deb       Debian packages in build/deb, checked by lintian
 #   make help      this list
 
 PREFIX ?= /usr/local
 DEMO ?= demo
 TRIALS ?=
 
-.PHONY: help demo test bench install release clean
+.PHONY: help demo test bench install deb release clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -32,6 +33,10 @@ bench: release
 
 install: release
 	cmake --install build/release
+
+deb:
+	@scripts/setup build deb
+	@scripts/deb
 
 clean:
 	rm -rf build demo

@@ -39,6 +39,9 @@ struct cli_arguments {
 #include "commands.def"
 #undef COMMAND
 
+/* Command i in the order of the help; NULL past the end. */
+const cli_command *cli_command_at(size_t i);
+
 /* The options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
     {                                                                                                                \

@@ -12,6 +12,11 @@ static const cli_command *const commands[] = {
     NULL,
 };
 
+const cli_command *cli_command_at(size_t i)
+{
+    return commands[i];
+}
+
 static void print_help(FILE *stream)
 {
     fputs("koksma: sampling patterns for ray tracing, how irregular they are, and the error that they leave\n\n"

@@ -27,3 +27,39 @@ foreach(package koksma koksma-lab)
   configure_file(cmake/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
 endforeach()
+
+# The Python package, plain files, where the system's python3 looks below this prefix.
+find_program(KOKSMA_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NOT KOKSMA_PYTHON_DIR)
+  set(python_version 3)
+  if(KOKSMA_PYTHON AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    execute_process(COMMAND ${KOKSMA_PYTHON} -c "import sys; print('%d.%d' % sys.version_info[:2])"
+                    OUTPUT_VARIABLE python_version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  endif()
+  set(KOKSMA_PYTHON_DIR lib/python${python_version}/dist-packages)
+endif()
+install(DIRECTORY python/koksma DESTINATION ${KOKSMA_PYTHON_DIR} FILES_MATCHING PATTERN "*.py" PATTERN "py.typed"
+        PATTERN "__pycache__" EXCLUDE)
+
+# Manual pages and completions, printed by the program from its option tables. A cross-built program can't run here.
+if(NOT CMAKE_CROSSCOMPILING)
+  set(TEXTS ${CMAKE_BINARY_DIR}/texts)
+  set(printed ${TEXTS}/man/koksma.1 ${TEXTS}/koksma.bash ${TEXTS}/_koksma ${TEXTS}/koksma.fish)
+  set(commands COMMAND koksma-program manual > ${TEXTS}/man/koksma.1
+               COMMAND koksma-program completion bash > ${TEXTS}/koksma.bash
+               COMMAND koksma-program completion zsh > ${TEXTS}/_koksma
+               COMMAND koksma-program completion fish > ${TEXTS}/koksma.fish)
+  file(STRINGS cli/commands.def lines REGEX "^COMMAND")
+  foreach(line ${lines})
+    string(REGEX REPLACE "COMMAND\\(([a-z_]+)\\).*" "\\1" command ${line})
+    list(APPEND printed ${TEXTS}/man/koksma-${command}.1)
+    list(APPEND commands COMMAND koksma-program manual ${command} > ${TEXTS}/man/koksma-${command}.1)
+  endforeach()
+  file(MAKE_DIRECTORY ${TEXTS}/man)
+  add_custom_command(OUTPUT ${printed} ${commands} DEPENDS koksma-program VERBATIM)
+  add_custom_target(texts ALL DEPENDS ${printed})
+  install(DIRECTORY ${TEXTS}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${TEXTS}/koksma.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koksma)
+  install(FILES ${TEXTS}/_koksma DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  install(FILES ${TEXTS}/koksma.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()

@@ -37,4 +37,14 @@ cmake --build "$work/cmake/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1
 "$program" render ball -p multi-jittered --spp 16 --size 64x64 -o "$work/program.pfm" -q >/dev/null
 cmp "$work/ball.pfm" "$work/program.pfm" || fail "the example's image is not the program's"
 [ "$(pkg-config --modversion koksma-lab)" = "$("$program" version | sed -n '1s/koksma //p')" ] || fail "versions differ"
+python=$(dirname "$(find "$work/moved" -path '*/koksma/__init__.py' | head -1)")
+case $flags in *-fsanitize*) ;; *) # a sanitized library can't be loaded into a plain Python
+  if /usr/bin/python3 -c 'import numpy' 2>/dev/null; then
+    unset LD_LIBRARY_PATH # the package finds the libraries beside it
+    said=$(PYTHONPATH=$(dirname "$python") /usr/bin/python3 -c "
+import koksma
+print('%.9g' % koksma.measure(koksma.generate('jittered', 16, seed=7), 'star').value, koksma.render('ball', spp=1, size=(2, 2)).shape)")
+    [ "$said" = "${shared%% *} (2, 2, 1)" ] || fail "Python says $said"
+  fi ;;
+esac
 echo "installed, moved, found, equal"

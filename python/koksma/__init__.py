@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Koksma: sampling patterns for ray tracing, exact measures of how irregular they are, and a renderer to try them in.
+
+    >>> import koksma
+    >>> points = koksma.generate("n-rooks", 16, seed=7)
+    >>> float(koksma.measure(points, "star"))           # doctest: +SKIP
+    >>> image = koksma.render("ball", "multi-jittered", spp=16)
+
+Points are NumPy arrays of shape (n, dim) over the memory that the library itself fills. Equal arguments give equal
+bits, the same as the program's. What fails raises koksma.Error with the library's own line.
+"""
+from ._engine import Engine
+from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError, SystemError,
+                       UnsupportedError)
+from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
+                      write)
+from ._render import read_image, render, scenes, version
+from ._spectrum import Spectrum, spectrum
+
+__all__ = [
+    "ArgumentError", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError", "OutOfMemoryError",
+    "Spectrum", "SystemError", "UnsupportedError", "Value", "Witness", "canonical", "generate", "measure", "measures",
+    "patterns", "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
+]

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A pattern as an engine with the interface of scipy.stats.qmc.QMCEngine."""
+from __future__ import annotations
+
+import copy
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._points import PointArray, generate, is_sequence
+
+try:
+    from scipy.stats.qmc import QMCEngine as _Base
+except ImportError:
+    class _Base:  # type: ignore[no-redef]
+        """What the engine needs of scipy's class, where scipy is not installed."""
+
+        def __init__(self, d: int, *, optimization: None = None, seed: Any = None) -> None:
+            if not np.issubdtype(type(d), np.integer) or d < 0:
+                raise ValueError("d must be a non-negative integer value")
+            if optimization is not None:
+                raise ValueError("optimization takes scipy, which is not installed")
+            self.d, self.rng_seed, self.num_generated = d, copy.deepcopy(seed), 0
+            self.rng = seed if isinstance(seed, np.random.RandomState) else np.random.default_rng(seed)
+
+        def random(self, n: int = 1, *, workers: int = 1) -> PointArray:
+            sample = self._random(n, workers=workers)
+            self.num_generated += n
+            return sample
+
+        def integers(self, l_bounds: npt.ArrayLike, *, u_bounds: Optional[npt.ArrayLike] = None, n: int = 1,
+                     endpoint: bool = False, workers: int = 1) -> npt.NDArray[np.int64]:
+            low, high = (0, l_bounds) if u_bounds is None else (l_bounds, u_bounds)
+            low, high = np.atleast_1d(low), np.atleast_1d(high)
+            if not (np.issubdtype(low.dtype, np.integer) and np.issubdtype(high.dtype, np.integer)):
+                raise ValueError("'u_bounds' and 'l_bounds' must be integers or array-like of integers")
+            high = high + 1 if endpoint else high
+            if np.any(low >= high):
+                raise ValueError("Bounds are not consistent 'l_bounds' < 'u_bounds'")
+            return np.floor(self.random(n) * (high - low) + low).astype(np.int64)
+
+
+class Engine(_Base):
+    """A pattern's points, drawn a few at a time.
+
+    pattern: a spec such as "sobol-owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
+    generate(p, n, d, s)), a numpy Generator or RandomState, or None. optimization: as in scipy.
+
+    Of a sequence (a pattern whose first k of n points are the set of k points), random(n) goes on where the last call
+    ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
+    points came before.
+    """
+
+    def __init__(self, pattern: str, d: int = 2, *, optimization: Optional[str] = None, seed: Any = None) -> None:
+        super().__init__(d=d, optimization=optimization, seed=seed)
+        self.pattern = pattern
+        self._sequence = is_sequence(pattern)
+        self._known: Optional[PointArray] = None
+        self._start()
+
+    def _start(self) -> None:
+        if isinstance(self.rng_seed, (int, np.integer)) and 0 <= self.rng_seed < 1 << 64:
+            self._seed = int(self.rng_seed)
+        else:
+            draw = getattr(self.rng, "integers", None) or self.rng.randint  # a Generator, or a RandomState
+            self._seed = int(draw(0, np.iinfo(np.int64).max, dtype=np.int64))
+
+    def _random(self, n: int = 1, *, workers: int = 1) -> PointArray:
+        threads = 0 if workers == -1 else workers
+        if n == 0 or self.d == 0:
+            return np.empty((n, self.d))
+        first = self.num_generated
+        if not self._sequence:
+            return generate(self.pattern, n, self.d, self._seed_at(first), threads=threads)
+        if first == 0 and self._known is None:
+            return generate(self.pattern, n, self.d, self._seed, threads=threads)
+        if self._known is None or len(self._known) < first + n:
+            # Twice what is needed, so that many small draws cost no more than one large one.
+            room = min(2 * (first + n), max(first + n, (1 << 28) // self.d))
+            self._known = generate(self.pattern, room, self.d, self._seed, threads=threads)
+        return self._known[first:first + n].copy()
+
+    def _seed_at(self, position: int) -> int:
+        """The seed of the set that is drawn after `position` points: the engine's own at first."""
+        if position == 0:
+            return self._seed
+        x = (self._seed + position * 0x9E3779B97F4A7C15) % (1 << 64)  # Steele, Lea & Flood (2014): SplitMix
+        x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9 % (1 << 64)
+        x = (x ^ x >> 27) * 0x94D049BB133111EB % (1 << 64)
+        return x ^ x >> 31
+
+    def reset(self) -> "Engine":
+        """Back to the first point."""
+        self.num_generated = 0
+        return self
+
+    def fast_forward(self, n: int) -> "Engine":
+        """As if n points had been drawn."""
+        self.num_generated += n
+        return self

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds and loads the shared libraries; statuses become exceptions; long calls can be interrupted."""
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import threading
+from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint64, c_void_p
+from functools import lru_cache
+from pathlib import Path
+from typing import Iterator, List, Optional
+
+from . import _structs as s
+
+ABI = 0
+
+
+class Error(Exception):
+    """What the library says: one line that names the thing and the reason. `status` is the koksma_status."""
+
+    status = -1
+
+
+class ArgumentError(Error, ValueError):
+    """An argument is out of its range, a name is unknown, or a pattern can't serve n, dim or its parameters."""
+
+
+class MissingError(Error, FileNotFoundError):
+    """A named file is missing or can't be read."""
+
+
+class MalformedError(Error, ValueError):
+    """A named file is malformed."""
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """The library could not get the memory that a call needs."""
+
+
+class SystemError(Error, OSError):
+    """Writing failed, or the system did."""
+
+
+class UnsupportedError(Error, NotImplementedError):
+    """Left out of this build, or not installed."""
+
+
+# The order of koksma/status.def, which only grows at its end.
+_CLASSES = (None, ArgumentError, ArgumentError, ArgumentError, ArgumentError, ArgumentError, MissingError,
+            MalformedError, OutOfMemoryError, SystemError, SystemError, UnsupportedError, KeyboardInterrupt)
+
+
+def _places(name: str) -> Iterator[str]:
+    folder = os.environ.get("KOKSMA_LIBRARY_DIR")
+    if folder:
+        yield str(Path(folder) / name)
+        return
+    for parent in Path(__file__).resolve().parents:  # of an installed package: PREFIX/lib/python3/dist-packages/koksma
+        if parent.name.startswith("lib"):
+            yield from (str(p) for p in [parent / name, *sorted(parent.glob("*-linux-*/" + name))] if p.exists())
+    yield name
+
+
+def _load(name: str) -> ctypes.CDLL:
+    file = f"lib{name}.so.{ABI}"
+    reason = ""
+    for place in _places(file):
+        try:
+            return ctypes.CDLL(place, mode=ctypes.RTLD_GLOBAL)
+        except OSError as error:
+            reason = str(error)
+    raise UnsupportedError(f"{file} is not installed, or KOKSMA_LIBRARY_DIR does not say where it is: {reason}")
+
+
+def _declare(library: ctypes.CDLL, result: object, name: str, *arguments: object) -> None:
+    function = getattr(library, name)
+    function.restype = result
+    function.argtypes = list(arguments)
+
+
+@lru_cache(maxsize=None)
+def core() -> ctypes.CDLL:
+    """libkoksma."""
+    library = _load("koksma")
+    spec, points, run = POINTER(s.Spec), POINTER(s.Points), POINTER(s.Run)
+    for name in ("koksma_error_text", "koksma_version"):
+        _declare(library, c_char_p, name)
+    _declare(library, c_char_p, "koksma_status_text", c_int)
+    _declare(library, c_int, "koksma_pattern_spec", c_char_p, spec)
+    _declare(library, c_int, "koksma_measure_spec", c_char_p, spec)
+    _declare(library, None, "koksma_spec_text", spec, c_char_p)
+    _declare(library, POINTER(s.Pattern), "koksma_pattern_at", c_size_t)
+    _declare(library, POINTER(s.Measure), "koksma_measure_at", c_size_t)
+    _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
+    _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
+    _declare(library, None, "koksma_points_fini", points)
+    _declare(library, c_int, "koksma_points_read", c_char_p, points)
+    _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p)
+    _declare(library, c_int, "koksma_evaluate", spec, points, run, POINTER(s.Value))
+    _declare(library, c_void_p, "koksma_warp_find", c_char_p)
+    _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))
+    _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
+    _declare(library, None, "koksma_findings_fini", POINTER(s.Findings))
+    spectrum = POINTER(s.Spectrum)
+    _declare(library, c_int, "koksma_spectrum_init", spectrum, c_int)
+    _declare(library, None, "koksma_spectrum_fini", spectrum)
+    _declare(library, c_int, "koksma_spectrum_add", spectrum, points, c_int, run)
+    _declare(library, c_double, "koksma_spectrum_power", spectrum, c_int, c_int)
+    _declare(library, None, "koksma_spectrum_rings", spectrum, POINTER(s.Ring))
+    _declare(library, None, "koksma_spectrum_quality", spectrum, POINTER(c_double), POINTER(c_double))
+    return library
+
+
+@lru_cache(maxsize=None)
+def lab() -> ctypes.CDLL:
+    """libkoksma-lab: scenes and the renderer."""
+    core()
+    library = _load("koksma-lab")
+    options, image = POINTER(s.RenderOptions), POINTER(s.Image)
+    _declare(library, c_char_p, "koksma_scene_name_at", c_size_t)
+    _declare(library, c_int, "koksma_scene_open", c_char_p, POINTER(c_void_p))
+    _declare(library, None, "koksma_scene_close", c_void_p)
+    _declare(library, c_char_p, "koksma_scene_title", c_void_p)
+    for name in ("pairing", "scope", "light_selection"):
+        _declare(library, c_char_p, f"koksma_{name}_name", c_int)
+    for name in ("integrator", "filter"):
+        _declare(library, c_void_p, f"koksma_{name}_find", c_char_p)
+    _declare(library, None, "koksma_render_options_init", options, c_void_p)
+    _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
+    _declare(library, None, "koksma_image_fini", image)
+    _declare(library, c_int, "koksma_image_read", c_char_p, image)
+    _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)
+    return library
+
+
+def check(status: int) -> None:
+    """Raises what a failed call has to say."""
+    if status == 0:
+        return
+    text = core().koksma_error_text().decode(errors="replace")
+    kind = _CLASSES[status] if status < len(_CLASSES) else Error
+    error = kind(text)
+    if isinstance(error, Error):
+        error.status = status
+    raise error
+
+
+def call(function: object, *arguments: object, threads: int = 0, time_limit: Optional[float] = None,
+         run_at: int) -> None:
+    """Calls a library function that takes a koksma_run as argument `run_at`. Ctrl-C stops it, as KeyboardInterrupt."""
+    interrupts: List[int] = []
+    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not interrupts), None)
+    # The library asks keep_going from this thread; Python runs a pending handler when it does.
+    ours = (threading.current_thread() is threading.main_thread()
+            and signal.getsignal(signal.SIGINT) is signal.default_int_handler)
+    if ours:
+        signal.signal(signal.SIGINT, lambda number, _frame: interrupts.append(number))
+    try:
+        status = function(*arguments[:run_at], byref(run), *arguments[run_at:])
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    check(status)
+    if interrupts:  # at the very end, when the library did not ask any more
+        raise KeyboardInterrupt
+
+
+def text(value: str) -> bytes:
+    """A name or path as the library takes it."""
+    raw = os.fsencode(value)
+    if b"\0" in raw:
+        raise ArgumentError("a name or path can't hold a zero character")
+    return raw
+
+
+def spec(kind: str, name: str) -> s.Spec:
+    """A parsed spec of a pattern or measure."""
+    result = s.Spec()
+    check(getattr(core(), f"koksma_{kind}_spec")(text(name), byref(result)))
+    return result

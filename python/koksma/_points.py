@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Points: generating, measuring, verifying, reading and writing. Arrays are the library's points themselves."""
+from __future__ import annotations
+
+import ctypes
+import os
+import weakref
+from ctypes import byref
+from dataclasses import dataclass
+from typing import List, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _structs as s
+from ._library import ArgumentError, call, check, core, spec, text
+
+PointArray = npt.NDArray[np.float64]
+SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
+_WITNESS_KINDS = ("none", "box", "half-plane", "disk")
+
+
+@dataclass(frozen=True)
+class Member:
+    """A line of the table of patterns or measures."""
+
+    name: str
+    title: str
+    cite: str
+    min_dim: int
+    max_dim: int
+    parameters: Tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Witness:
+    """The region where a supremum is reached: |count/n - volume| is the value.
+
+    kind "box": sides lo[k] .. hi[k]; "half-plane": lo[0] x + lo[1] y <= hi[0]; "disk": centre lo, radius hi[0].
+    closed: count takes the points on the boundary in.
+    """
+
+    kind: str
+    closed: bool
+    count: int
+    volume: float
+    lo: Tuple[float, ...]
+    hi: Tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Value:
+    """What a measure says. float(value) is the number; lower and upper are certified and equal it when exact."""
+
+    value: float
+    square: float
+    lower: float
+    upper: float
+    standard_error: float
+    exact: bool
+    witness: Optional[Witness]
+
+    def __float__(self) -> float:
+        return self.value
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A property of a set of points, and whether they have it (see `koksma verify --help`)."""
+
+    property: str
+    subject: str
+    holds: bool
+    value: float
+    detail: str
+
+
+def _table(at: object) -> List[Member]:
+    members = []
+    while at(len(members)):
+        m = at(len(members)).contents
+        names, i = [], 0
+        while m.params and m.params[i].name:
+            names.append(m.params[i].name.decode())
+            i += 1
+        members.append(Member(m.name.decode(), m.title.decode(), m.cite.decode(), m.min_dim, m.max_dim, tuple(names)))
+    return members
+
+
+def patterns() -> List[Member]:
+    """All patterns, in the table's order."""
+    return _table(core().koksma_pattern_at)
+
+
+def measures() -> List[Member]:
+    """All measures, in the table's order."""
+    return _table(core().koksma_measure_at)
+
+
+def view(array: PointArray) -> s.Points:
+    """The array's own memory as the library's points."""
+    return s.Points(array.shape[0], array.shape[1], array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))
+
+
+def as_points(points: npt.ArrayLike) -> PointArray:
+    """A C-contiguous (n, dim) array of doubles; without a copy when it is one already."""
+    array = np.ascontiguousarray(points, dtype=np.float64)
+    if array.ndim != 2 or 0 in array.shape:
+        raise ArgumentError(f"points are an array of shape (n, dim), not {array.shape}")
+    return array
+
+
+def adopt(points: s.Points) -> PointArray:
+    """An array over memory that the library allocated, freed with the array."""
+    array = np.ctypeslib.as_array(points.xs, shape=(points.n, points.dim))
+    weakref.finalize(array.base if array.base is not None else array, core().koksma_points_fini, byref(points))
+    return array
+
+
+def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0, *, threads: int = 0,
+             out: Optional[PointArray] = None) -> PointArray:
+    """The points of a pattern, as an (n, dim) array in [0,1).
+
+    pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
+    n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
+    out: a C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one.
+
+    Equal arguments give equal bits, and the same as `koksma generate`.
+    """
+    parsed = spec("pattern", pattern)
+    if not 0 <= seed < 1 << 64:
+        raise ArgumentError(f"seed {seed}: it takes 0 to 2^64 - 1")
+    if n is None and out is None:
+        points = s.Points()
+        known = dim if not parsed.pattern.contents.takes_path else 0
+        call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
+        return adopt(points)
+    if out is None:
+        if not (0 < n <= 1 << 28 and 0 < dim <= 4096 and n * dim <= 1 << 28):
+            raise ArgumentError(f"{n} points in {dim} dimensions: n and dim are at least 1, n times dim at most 2^28")
+        out = np.zeros((n, dim))
+    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.c_contiguous
+              and out.flags.writeable and out.size and (n is None or out.shape == (n, dim))):
+        raise ArgumentError("out is a writable C-contiguous array of doubles, of shape (n, dim)")
+    points = view(out)
+    call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
+    return out
+
+
+def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None, threads: int = 0,
+            time_limit: Optional[float] = None) -> Value:
+    """How uneven points in [0,1]^dim are; smaller is more even.
+
+    measure: a spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all.
+    warp: measures the points mapped to another domain, such as "concentric-disk".
+    time_limit: in seconds; a measure that is cut short gives bounds, and `exact` is False.
+    """
+    array = as_points(points)
+    parsed, value, c_points = spec("measure", measure), s.Value(), view(array)
+    if warp is None:
+        call(core().koksma_evaluate, byref(parsed), byref(c_points), byref(value), threads=threads,
+             time_limit=time_limit, run_at=2)
+    else:
+        found = core().koksma_warp_find(text(warp))
+        if not found:
+            raise ArgumentError(f"no warp '{warp}'; 'koksma list warps' names them")
+        call(core().koksma_warp_evaluate, found, byref(parsed), byref(c_points), byref(value), threads=threads,
+             time_limit=time_limit, run_at=3)
+    w = value.witness
+    lengths = {1: (w.dim, w.dim), 2: (2, 1), 3: (2, 1)}.get(w.kind)
+    witness = Witness(_WITNESS_KINDS[w.kind], w.closed, w.count, w.volume, tuple(w.lo[:lengths[0]]),
+                      tuple(w.hi[:lengths[1]])) if lengths else None
+    return Value(value.value, value.square, value.lower, value.upper, value.standard_error, value.exact, witness)
+
+
+def verify(points: npt.ArrayLike, *, threads: int = 0) -> List[Finding]:
+    """Which properties these points really have: nets, strata, distances, repeated points and more."""
+    array = as_points(points)
+    findings, c_points = s.Findings(), view(array)
+    try:
+        call(core().koksma_verify, byref(c_points), byref(findings), threads=threads, run_at=1)
+        return [Finding(f.property.decode(), f.subject.decode(), f.holds, f.value, f.detail.decode())
+                for f in findings.items[:findings.count]]
+    finally:
+        core().koksma_findings_fini(byref(findings))
+
+
+def read(path: Union[str, "os.PathLike[str]"]) -> PointArray:
+    """Points from a .npy or text file, by its content."""
+    points = s.Points()
+    check(core().koksma_points_read(text(os.fspath(path)), byref(points)))
+    return adopt(points)
+
+
+def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: Optional[str] = None) -> None:
+    """Writes points by the ending of the path: .csv, .npy, anything else text. Whole or not at all."""
+    array = as_points(points)
+    c_points = view(array)
+    check(core().koksma_points_write(text(os.fspath(path)), byref(c_points),
+                                     None if comment is None else comment.encode()))
+
+
+def is_sequence(pattern: str) -> bool:
+    """Whether the first k of n points are the set of k points."""
+    return bool(spec("pattern", pattern).pattern.contents.claims & SEQUENCE)
+
+
+def canonical(pattern: str) -> str:
+    """The canonical text of a pattern's spec, under which results are stored."""
+    parsed, room = spec("pattern", pattern), ctypes.create_string_buffer(s.MAX_SPEC)
+    core().koksma_spec_text(byref(parsed), room)
+    return room.value.decode()

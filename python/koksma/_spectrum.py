@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The power spectrum of plane point sets."""
+from __future__ import annotations
+
+from ctypes import byref, c_double
+from dataclasses import dataclass
+from typing import Iterable
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _structs as s
+from ._library import ArgumentError, call, check, core
+from ._points import as_points, view
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """The mean power spectrum of one or more sets; 1 everywhere in the mean for random points.
+
+    power[half + ky, half + kx] is the power at (kx, ky). Ring i has the frequencies of length i + 1/2 to i + 3/2:
+    its mean, the standard error over the sets (NaN for one), and the anisotropy in dB. After Heck, Schlömer and
+    Deussen (2013), effective_nyquist and oscillation sum the rings up.
+    """
+
+    power: npt.NDArray[np.float64]
+    frequency: npt.NDArray[np.float64]
+    ring_power: npt.NDArray[np.float64]
+    standard_error: npt.NDArray[np.float64]
+    anisotropy_db: npt.NDArray[np.float64]
+    effective_nyquist: float
+    oscillation: float
+    sets: int
+
+
+def _result(raw: s.Spectrum) -> Spectrum:
+    half, width = raw.half, 2 * raw.half + 1
+    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width)) / raw.sets  # ky >= 0; the rest is its mirror
+    power = np.concatenate([upper[:0:-1, ::-1], upper])
+    rings = (s.Ring * half)()
+    core().koksma_spectrum_rings(byref(raw), rings)
+    table = np.frombuffer(rings, dtype=np.float64).reshape(half, 4).copy()
+    nyquist, oscillation = c_double(), c_double()
+    core().koksma_spectrum_quality(byref(raw), byref(nyquist), byref(oscillation))
+    return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], nyquist.value, oscillation.value,
+                    raw.sets)
+
+
+def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: int = 64, *, exact: bool = False,
+             threads: int = 0) -> Spectrum:
+    """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) array, or the mean over several.
+
+    exact: sums over all points at each frequency, instead of an FFT within 1e-10 of n.
+    """
+    if isinstance(sets, np.ndarray) and sets.ndim == 2:
+        sets = [sets]
+    raw = s.Spectrum()
+    check(core().koksma_spectrum_init(byref(raw), half))
+    try:
+        for points in sets:
+            c_points = view(array := as_points(points))
+            call(core().koksma_spectrum_add, byref(raw), byref(c_points), 0 if exact else 1, threads=threads, run_at=3)
+            del array
+        if not raw.sets:
+            raise ArgumentError("a spectrum takes at least one set of points")
+        return _result(raw)
+    finally:
+        core().koksma_spectrum_fini(byref(raw))

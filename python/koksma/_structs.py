@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The structs of the public headers, member for member. tests/python/test_structs.py compares them with the C
+compiler's."""
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
+                    c_uint64, c_void_p)
+
+MAX_PARAMS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 512, 16, 8
+
+KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
+
+
+class Points(Structure):
+    _fields_ = [("n", c_size_t), ("dim", c_int), ("xs", POINTER(c_double))]
+
+
+class Param(Structure):
+    _fields_ = [("name", c_char_p), ("help", c_char_p), ("fallback", c_double), ("min", c_double), ("max", c_double),
+                ("choices", POINTER(c_char_p)), ("whole", c_bool)]
+
+
+class Run(Structure):
+    _fields_ = [("threads", c_int), ("time_limit_s", c_double), ("keep_going", KeepGoing), ("context", c_void_p)]
+
+
+class Pattern(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min_dim", c_int), ("max_dim", c_int),
+                ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("takes_path", c_bool),
+                ("alias_of", c_char_p), ("whole", c_void_p)]
+
+
+class Measure(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("min_dim", c_int),
+                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
+
+
+class Spec(Structure):
+    _fields_ = [("pattern", POINTER(Pattern)), ("measure", POINTER(Measure)), ("params", c_double * MAX_PARAMS),
+                ("path", c_char * MAX_SPEC), ("shift", c_bool)]
+
+
+class Witness(Structure):
+    _fields_ = [("kind", c_int), ("dim", c_int), ("closed", c_bool), ("count", c_size_t), ("volume", c_double),
+                ("lo", c_double * WITNESS_DIM), ("hi", c_double * WITNESS_DIM)]
+
+
+class Value(Structure):
+    _fields_ = [("value", c_double), ("square", c_double), ("lower", c_double), ("upper", c_double),
+                ("standard_error", c_double), ("exact", c_bool), ("witness", Witness)]
+
+
+class Finding(Structure):
+    _fields_ = [("property", c_char_p), ("subject", c_char * 48), ("holds", c_bool), ("value", c_double),
+                ("detail", c_char * 200)]
+
+
+class Findings(Structure):
+    _fields_ = [("count", c_size_t), ("room", c_size_t), ("items", POINTER(Finding))]
+
+
+class Spectrum(Structure):
+    _fields_ = [("half", c_int), ("sets", c_size_t), ("points", c_double), ("power", POINTER(c_double)),
+                ("rings", POINTER(c_double))]
+
+
+class Ring(Structure):
+    _fields_ = [("frequency", c_double), ("power", c_double), ("standard_error", c_double),
+                ("anisotropy_db", c_double)]
+
+
+class Image(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("channels", c_int), ("pixels", POINTER(c_float))]
+
+
+class RenderOptions(Structure):
+    _fields_ = [("pattern", Spec), ("patterns", Spec * N_USES), ("spp", c_int), ("width", c_int), ("height", c_int),
+                ("seed", c_uint64), ("pairing", c_int), ("scope", c_int), ("lights", c_int), ("integrator", c_void_p),
+                ("depth", c_int), ("filter", c_void_p), ("splat", c_bool)]
+
+
+#: Header, C name and class of every struct above.
+LAYOUTS = [
+    ("koksma.h", "koksma_points", Points), ("koksma.h", "koksma_param", Param), ("koksma.h", "koksma_run", Run),
+    ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
+    ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
+    ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
+    ("spectrum.h", "koksma_spectrum", Spectrum), ("spectrum.h", "koksma_ring", Ring),
+    ("image.h", "koksma_image", Image), ("render.h", "koksma_render_options", RenderOptions),
+]

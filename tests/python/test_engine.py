@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The engine keeps what scipy tests of its own engines, for every pattern that serves any n; and without scipy it has
+the same interface."""
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+import koksma
+from koksma import Engine
+
+SEQUENCES = ["random", "sobol", "sobol:scramble=owen", "halton", "r-sequence"]
+SETS = ["n-rooks", "latin-hypercube"]
+
+
+def usable(specs):
+    names = {p.name for p in koksma.patterns()}
+    good = []
+    for spec in specs:
+        if spec.split(":")[0] in names:
+            try:
+                koksma.canonical(spec)
+                good.append(spec)
+            except ValueError:
+                pass
+    return good
+
+
+class Engines(unittest.TestCase):
+    def test_some_of_each_kind(self):
+        self.assertGreaterEqual(len(usable(SEQUENCES)), 3)
+        self.assertGreaterEqual(len(usable(SETS)), 1)
+
+    def each(self, specs):
+        for spec in usable(specs):
+            for seed in (12, np.random.default_rng(5), np.random.RandomState(5), None):
+                with self.subTest(spec=spec, seed=seed):
+                    yield spec, Engine(spec, 2, seed=seed)
+
+    def test_sample(self):
+        for spec in usable(SEQUENCES + SETS):
+            with self.subTest(spec=spec):
+                engine = Engine(spec, 2, seed=12)
+                sample = engine.random(8)
+                self.assertEqual(sample.shape, (8, 2))
+                self.assertTrue(((sample >= 0) & (sample < 1)).all())
+                np.testing.assert_array_equal(sample, koksma.generate(spec, 8, 2, 12))
+
+    def test_continuing(self):
+        for _spec, engine in self.each(SEQUENCES):
+            whole = engine.random(16)
+            engine.reset()
+            parts = np.concatenate([engine.random(8), engine.random(), engine.random(7)])
+            np.testing.assert_array_equal(parts, whole)
+            self.assertEqual(engine.num_generated, 16)
+
+    def test_reset(self):
+        for _spec, engine in self.each(SEQUENCES + SETS):
+            first = engine.random(8)
+            engine.reset()
+            self.assertEqual(engine.num_generated, 0)
+            np.testing.assert_array_equal(engine.random(8), first)
+
+    def test_fast_forward(self):
+        for spec, engine in self.each(SEQUENCES + SETS):
+            engine.random(4)
+            later = engine.random(4)
+            engine.reset()
+            np.testing.assert_array_equal(engine.fast_forward(4).random(4), later)
+            if spec in SEQUENCES:
+                engine.reset()
+                whole = engine.random(8)
+                engine.reset()
+                for i in range(8):
+                    if i % 2:
+                        engine.fast_forward(1)
+                    else:
+                        np.testing.assert_array_equal(engine.random()[0], whole[i])
+
+    def test_sets_differ(self):
+        for _spec, engine in self.each(SETS):
+            self.assertFalse(np.array_equal(engine.random(8), engine.random(8)))
+
+    def test_generator_decides(self):
+        for spec in usable(["random", "n-rooks"]):
+            a = Engine(spec, 2, seed=np.random.default_rng(3)).random(8)
+            b = Engine(spec, 2, seed=np.random.default_rng(3)).random(8)
+            np.testing.assert_array_equal(a, b)
+
+    def test_integers(self):
+        engine = Engine("random", 2, seed=1)
+        drawn = engine.integers(3, u_bounds=6, n=100)
+        self.assertEqual(drawn.dtype, np.int64)
+        self.assertEqual(set(drawn.ravel()), {3, 4, 5})
+        self.assertEqual(set(engine.integers(2, n=100, endpoint=True).ravel()), {0, 1, 2})
+        with self.assertRaises(ValueError):
+            engine.integers(0.5)
+        with self.assertRaises(ValueError):
+            engine.integers([6, 2], u_bounds=[3, 5])
+
+    def test_odd_shapes(self):
+        self.assertEqual(Engine("random", 0).random(4).shape, (4, 0))
+        self.assertEqual(Engine("random", 3).random(0).shape, (0, 3))
+        self.assertEqual(Engine("random", 1, seed=1).random(5).shape, (5, 1))
+        for bad in (-1, 1.5, "2"):
+            with self.assertRaises((ValueError, TypeError)):
+                Engine("random", bad)
+        with self.assertRaises(koksma.ArgumentError):
+            Engine("no-such")
+
+    def test_is_scipys(self):
+        try:
+            from scipy.stats import qmc
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        engine = Engine("sobol", 2)
+        self.assertIsInstance(engine, qmc.QMCEngine)
+        sample = Engine("random", 2, seed=1, optimization="random-cd").random(8)
+        self.assertLess(qmc.discrepancy(sample), qmc.discrepancy(Engine("random", 2, seed=1).random(8)))
+        law = qmc.MultivariateNormalQMC(mean=[0, 0], engine=Engine("sobol", 2, seed=2).fast_forward(1))
+        self.assertEqual(law.random(8).shape, (8, 2))
+
+
+class WithoutScipy(unittest.TestCase):
+    def test_same_tests(self):
+        if "scipy" in sys.modules and sys.modules["scipy"] is None:
+            self.skipTest("this is the run without scipy")
+        code = f"import sys; sys.modules['scipy'] = None; sys.argv = [{__file__!r}]; exec(open({__file__!r}).read())"
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The Python package against the program KOKSMA (in the environment) and against numpy."""
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import koksma
+
+PROGRAM = os.environ["KOKSMA"]
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+class Points(unittest.TestCase):
+    def test_same_bits_as_the_program(self):
+        for spec, n, dim, seed in [("n-rooks", 16, 2, 7), ("sobol", 64, 5, 0), ("poisson-disk:d=0.1", 20, 2, 3)]:
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "p.npy")
+                program("generate", spec, "-n", str(n), "-d", str(dim), "-s", str(seed), "-o", path)
+                ours = koksma.generate(spec, n, dim, seed)
+                np.testing.assert_array_equal(ours, np.load(path))
+                np.testing.assert_array_equal(ours, koksma.read(path))
+
+    def test_out_is_filled_in_place(self):
+        out = np.zeros((16, 2))
+        self.assertIs(koksma.generate("jittered", seed=3, out=out), out)
+        np.testing.assert_array_equal(out, koksma.generate("jittered", 16, seed=3))
+        for bad in (out[:, ::-1], np.zeros((16, 2), np.float32), np.zeros(16), np.zeros((0, 2))):
+            with self.assertRaises(koksma.ArgumentError):
+                koksma.generate("random", out=bad)
+
+    def test_adopted_memory_lives_as_long_as_its_views(self):
+        view = koksma.generate("poisson-disk-maximal:d=0.05", seed=1)[1:]
+        copy = view.copy()
+        gc.collect()
+        koksma.generate("poisson-disk-maximal:d=0.05", seed=2)
+        np.testing.assert_array_equal(view, copy)
+        self.assertGreater(len(view), 100)
+
+    def test_measure(self):
+        points = koksma.generate("n-rooks", 32, seed=5)
+        row = json.loads(program("measure", "pattern:n-rooks@32", "--seed", "5", "-m", "star", "--json"))
+        value = koksma.measure(points, "star")
+        self.assertEqual(float(value), row["value"])
+        box = np.array(value.witness.hi)
+        inside = (points <= box) if value.witness.closed else (points < box)
+        self.assertEqual(inside.all(axis=1).sum(), value.witness.count)
+        self.assertAlmostEqual(abs(value.witness.count / 32 - value.witness.volume), value.value, places=15)
+        self.assertIsNone(koksma.measure(points, "l2-star").witness)
+        fortran = np.asfortranarray(points)
+        self.assertEqual(float(koksma.measure(fortran, "star")), float(value))
+        self.assertEqual(float(koksma.measure(points.tolist(), "star")), float(value))
+
+    def test_l2_star_against_warnock(self):
+        x = koksma.generate("random", 50, 3, seed=2)
+        n, d = x.shape
+        pairs = np.prod(1 - np.maximum(x[:, None, :], x[None, :, :]), axis=2).sum() / n**2
+        expected = 3.0**-d - np.prod((1 - x**2) / 2, axis=1).sum() * 2 / n + pairs
+        self.assertAlmostEqual(koksma.measure(x, "l2-star").value**2, expected, places=14)
+
+    def test_warps(self):
+        points = koksma.generate("jittered", 64)
+        self.assertGreater(float(koksma.measure(points, "edge", warp="polar-disk")), 0)
+        with self.assertRaisesRegex(koksma.ArgumentError, "no warp 'nowhere'"):
+            koksma.measure(points, "edge", warp="nowhere")
+
+    def test_verify(self):
+        found = {(f.property, f.subject): f for f in koksma.verify(koksma.generate("sobol", 64))}
+        self.assertTrue(found["net-base-2", "0,1"].holds)
+        self.assertTrue(found["progressive", found_subject(found, "progressive")].holds)
+
+    def test_tables(self):
+        self.assertIn("n-rooks", [p.name for p in koksma.patterns()])
+        self.assertIn("star", [m.name for m in koksma.measures()])
+        self.assertEqual(koksma.canonical("poisson-disk:d=0.20"), koksma.canonical("poisson-disk:d=0.2"))
+        self.assertIn(koksma.version(), program("version"))
+
+    def test_files(self):
+        points = koksma.generate("halton", 10, 3)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("p.txt", "p.csv", "p.npy"):
+                koksma.write(os.path.join(folder, name), points, "ours")
+                np.testing.assert_array_equal(koksma.read(os.path.join(folder, name)), points)
+
+
+def found_subject(found, name):
+    return next(subject for p, subject in found if p == name)
+
+
+class Errors(unittest.TestCase):
+    def test_exceptions_carry_the_librarys_line(self):
+        with self.assertRaisesRegex(ValueError, "no pattern 'nope'"):
+            koksma.generate("nope", 4)
+        with self.assertRaisesRegex(ValueError, "no parameter 'x'"):
+            koksma.generate("n-rooks:x=1", 4)
+        with self.assertRaisesRegex(FileNotFoundError, "/no/such/file"):
+            koksma.read("/no/such/file")
+        with self.assertRaisesRegex(ValueError, r"outside|not in"):
+            koksma.measure([[0.5, 1.5]])
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.measure([0.5, 0.5])
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.generate("random", 1 << 40)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.generate("random", 4, seed=-1)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.generate("random", -1)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.generate("random\0", 1)
+
+    def test_malformed(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
+            file.write("0.5 0.5\n0.5\n")
+            file.flush()
+            with self.assertRaisesRegex(koksma.MalformedError, "line 2"):
+                koksma.read(file.name)
+
+    def test_control_c(self):
+        started = time.monotonic()
+        timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            koksma.measure(koksma.generate("random", 1000, 6), "star")
+        timer.join()
+        self.assertLess(time.monotonic() - started, 20)
+
+    def test_time_limit_gives_bounds(self):
+        value = koksma.measure(koksma.generate("random", 500, 6), "star", time_limit=0.2)
+        self.assertFalse(value.exact)
+        self.assertLessEqual(value.lower, value.upper)
+
+
+class Spectra(unittest.TestCase):
+    def test_power_against_numpy(self):
+        x = koksma.generate("jittered", 64, seed=3)
+        k = np.arange(-5, 6)
+        waves = np.exp(-2j * np.pi * (k[None, :, None] * x[:, 0] + k[:, None, None] * x[:, 1]))
+        expected = abs(waves.sum(axis=2))**2 / len(x)
+        for exact in (True, False):
+            s = koksma.spectrum(x, 5, exact=exact)
+            np.testing.assert_allclose(s.power, expected, atol=1e-7)
+        self.assertEqual(s.frequency.tolist(), [1, 2, 3, 4, 5])
+        self.assertTrue(np.isnan(s.standard_error).all())
+
+    def test_several_sets(self):
+        s = koksma.spectrum((koksma.generate("random", 100, seed=i) for i in range(50)), 16)
+        self.assertEqual(s.sets, 50)
+        self.assertLess(abs(s.ring_power.mean() - 1), 0.1)
+        self.assertFalse(np.isnan(s.standard_error).any())
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.spectrum([], 16)
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.spectrum(np.zeros((4, 3)), 16)
+
+
+class Rendering(unittest.TestCase):
+    def test_same_bits_as_the_program(self):
+        self.assertIn("ball", koksma.scenes())
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "ball.pfm")
+            program("render", "ball", "-p", "multi-jittered", "-n", "4", "--size", "40x30", "-s", "9", "-q", "-o", path)
+            image = koksma.render("ball", "multi-jittered", 4, size=(40, 30), seed=9)
+            self.assertEqual(image.shape[:2], (30, 40))
+            np.testing.assert_array_equal(image, koksma.read_image(path))
+
+    def test_errors(self):
+        with self.assertRaisesRegex(koksma.ArgumentError, "no-such"):
+            koksma.render("no-such")
+        with self.assertRaisesRegex(koksma.ArgumentError, "pairing 'odd': it takes shuffled"):
+            koksma.render("ball", pairing="odd")
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.render("ball", size=(0, 4))
+        with self.assertRaises(koksma.MissingError):
+            koksma.render("/no/such.json")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

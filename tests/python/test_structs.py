@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The structs of python/koksma/_structs.py are those of the headers: sizes and places of all members."""
+import ctypes
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from koksma import _library, _structs
+
+INCLUDE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "include")
+
+
+class Structs(unittest.TestCase):
+    def test_layouts(self):
+        lines, ours = [], []
+        for header, name, cls in _structs.LAYOUTS:
+            ours.append(f"{name} {ctypes.sizeof(cls)}")
+            lines.append(f'printf("{name} %zu\\n", sizeof({name}));')
+            for field, _ in cls._fields_:
+                ours.append(f"{name}.{field} {getattr(cls, field).offset}")
+                lines.append(f'printf("{name}.{field} %zu\\n", offsetof({name}, {field}));')
+        includes = "".join(f"#include <koksma/{h}>\n" for h in sorted({h for h, _, _ in _structs.LAYOUTS}))
+        source = f"#include <stdio.h>\n#include <stddef.h>\n{includes}int main(void) {{ {' '.join(lines)} return 0; }}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "layouts")
+            subprocess.run(["cc", "-x", "c", "-", "-I", INCLUDE, "-o", program], input=source, text=True, check=True)
+            theirs = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(theirs, ours, "a struct of the headers changed: mend python/koksma/_structs.py")
+
+    def test_statuses(self):
+        with open(os.path.join(INCLUDE, "koksma", "status.def"), encoding="utf-8") as file:
+            names = [line[2:line.index(",")] for line in file if line.startswith("X(") and "NAME" not in line]
+        self.assertEqual(len(names), len(_library._CLASSES))
+        self.assertIs(_library._CLASSES[names.index("INTERRUPTED")], KeyboardInterrupt)
+        self.assertIs(_library._CLASSES[names.index("MALFORMED")], _library.MalformedError)
+        self.assertIs(_library._CLASSES[names.index("UNSUPPORTED")], _library.UnsupportedError)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
