@@ -12,6 +12,7 @@
 #include "scene/vector.h"
 
 typedef struct shapes {
+    const koksma_scene *scene;
     koksma__batch_shapes all, occluders;
     const koksma__batch_table *batch;
     koksma__batch_shape list[];
@@ -28,6 +29,12 @@ static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, 
 {
     const shapes *s = geometry->made;
     s->batch->occlude(&s->occluders, hits, n, shadows);
+}
+
+static int light_of(const koksma__geometry *geometry, int32_t primitive)
+{
+    const shapes *s = geometry->made;
+    return s->scene->shapes[primitive].light;
 }
 
 static void release(koksma__geometry *geometry)
@@ -69,6 +76,15 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
               (s->kind == KOKSMA__SHAPE_SPHERE && depth(flat, sign, s->centre, none, none, s->half[0]) < tiny) ||
               ((s->kind == KOKSMA__SHAPE_RECTANGLE || s->kind == KOKSMA__SHAPE_DISK) &&
                depth_of_rectangle(flat, sign, s->centre, s->axis_u, s->axis_v, s->half) < tiny);
+    }
+    for (size_t i = 0; all && i < scene->n_placements; i++) {
+        const koksma__placement *p = &scene->placements[i];
+        double middle[3], reach = 0;
+        for (int k = 0; k < 3; k++) {
+            middle[k] = (p->low[k] + p->high[k]) / 2;
+            reach += fabs(flat->normal[k]) * (p->high[k] - p->low[k]) / 2;
+        }
+        all = depth(flat, sign, middle, none, none, reach) < tiny;
     }
     for (size_t i = 0; all && i < scene->n_lights; i++) {
         const koksma__light *l = &scene->lights[i];
@@ -117,6 +133,7 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
         }
     }
     s->batch = koksma__batch();
-    *out = (koksma__geometry){s, closest, occlude, release};
+    s->scene = scene;
+    *out = (koksma__geometry){s, closest, occlude, light_of, release};
     return KOKSMA_OK;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c). A maker sees blocks of rays
- * and numbers its primitives as it likes; a shadow ray starts on primitive hits->primitive and never hits it at t =
- * 0.
+ * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c), or these and meshes
+ * (accel_embree.c). Primitives: the shapes by their numbers, then the triangles of the placements, one after the
+ * other. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
  */
 #ifndef KOKSMA_RENDER_INTERSECT_H
 #define KOKSMA_RENDER_INTERSECT_H
@@ -19,10 +19,15 @@ typedef struct koksma__geometry {
     /* Takes away the light of the shadow rays that meet something; hits->time says when. */
     void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
                     koksma__shadows *shadows);
+    /* The luminaire whose surface a primitive is, or -1. */
+    int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;
 
 /* The scene's analytic shapes, all tried for every block. Errors: MEMORY. */
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
+
+/* The scene's shapes and meshes. Errors: UNSUPPORTED (this build has no Embree), ARGUMENT, MEMORY, SYSTEM. */
+koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out);
 
 #endif

@@ -107,7 +107,9 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     const koksma__use_list uses = list_uses(f);
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &uses, &f->sampler);
-    status = status ? status : koksma__accel_shapes(f->scene, &f->geometry);
+    status = status                   ? status
+             : f->scene->n_placements ? koksma__accel_embree(f->scene, &f->geometry)
+                                      : koksma__accel_shapes(f->scene, &f->geometry);
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }

@@ -110,7 +110,7 @@ static void add_miss(const koksma__frame *frame, const koksma__path *path, float
 static void add_luminaire(const koksma__frame *frame, const koksma__path *path, const koksma__hits *hits, int i,
                           float *sum)
 {
-    const int lamp = frame->scene->shapes[hits->primitive[i]].light;
+    const int lamp = frame->geometry.light(&frame->geometry, hits->primitive[i]);
     if (!hits->back[i]) {
         float w[3] = {path->d[0], path->d[1], path->d[2]};
         const float length = sqrtf(koksma__dot3(w, w));

@@ -63,7 +63,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     status = status ? status : open_list(root, "shapes", KOKSMA__MAX_SHAPES, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
-        status = koksma__parse_shape(&item, scene);
+        status = koksma__parse_shape(name, &item, scene);
     }
     if (status || !koksma__json_has(root, "lights")) {
         return status;
@@ -97,6 +97,10 @@ static void finish(koksma_scene *scene)
     scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
     for (size_t i = 0; i < scene->n_shapes; i++) {
         m = scene->shapes[i].motion;
+        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
+    }
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        m = scene->placements[i].motion;
         scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
     }
 }

@@ -10,6 +10,8 @@
 #include "scene/json.h"
 #include "scene/scene.h"
 
+enum { KOKSMA__MAX_PATH = 4096 };
+
 #define FAR 1e6    /* coordinates and lengths */
 #define TINY 1e-6  /* lengths that count as zero */
 #define BRIGHT 1e6 /* luminance */
@@ -21,13 +23,23 @@ typedef koksma__json_node field;
 
 koksma_status koksma__parse_camera(const field *root, koksma__camera *camera);
 koksma_status koksma__parse_material(const field *f, koksma_scene *scene);
-koksma_status koksma__parse_shape(const field *f, koksma_scene *scene);
-/* name: of the scene's file, next to which a light's image is looked for. */
+/* name: of the scene's file, next to which the files that it names are looked for. */
+koksma_status koksma__parse_shape(const char *name, const field *f, koksma_scene *scene);
+koksma_status koksma__parse_mesh(const char *name, const field *f, koksma_scene *scene);
+koksma_status koksma__parse_instance(const field *f, koksma_scene *scene);
 koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene *scene);
 
 /* One more shape, zeroed but for light = -1; there is room for the last one until the next call. Errors: MALFORMED
    (too many; f is named), MEMORY. */
 koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__shape **out);
+
+/* One more mesh, zeroed; one more placement, zeroed but for material = light = -1. They may move the others.
+   Errors: MALFORMED (too many), MEMORY. */
+koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
+koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
+
+/* A path in the file `name` starts at the file's folder; false when it is too long. */
+bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3]);
 koksma_status koksma__parse_direction(const field *object, const char *key, double out[3]);

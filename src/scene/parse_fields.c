@@ -1,8 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
 #include <string.h>
 
 #include "scene/parse.h"
 #include "scene/vector.h"
+
+bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])
+{
+    const char *slash = strrchr(name, '/');
+    const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
+    return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
+}
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3])
 {

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,18 +111,6 @@ static koksma_status parse_directional(const field *f, koksma__light *light)
     return status ? status : koksma__parse_colour(f, "irradiance", true, BRIGHT, light->radiance);
 }
 
-/* A path in a scene file starts at the file's folder. */
-static koksma_status read_beside(const char *name, const char *path, koksma_image *image)
-{
-    char full[4096];
-    const char *slash = strrchr(name, '/');
-    const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
-    if ((size_t)snprintf(full, sizeof full, "%.*s%s", folder, name, path) >= sizeof full) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: the path is too long", path);
-    }
-    return koksma_image_read(full, image);
-}
-
 static koksma_status parse_environment(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
 {
     const char *path = NULL;
@@ -151,7 +138,11 @@ static koksma_status parse_environment(const char *name, const field *f, koksma_
     if (!light->image) {
         return koksma__fail_memory(sizeof *light->image);
     }
-    return read_beside(name, path, light->image) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
+    char full[KOKSMA__MAX_PATH];
+    if (!koksma__path_beside(name, path, full)) {
+        return koksma__json_fail(f, "the path is too long");
+    }
+    return koksma_image_read(full, light->image) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
 }
 
 koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene *scene)

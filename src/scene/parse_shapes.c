@@ -140,10 +140,16 @@ static const struct {
              {"sphere", parse_sphere},
              {"box", parse_box}};
 
-koksma_status koksma__parse_shape(const field *f, koksma_scene *scene)
+koksma_status koksma__parse_shape(const char *scene_name, const field *f, koksma_scene *scene)
 {
     const char *kind = "", *name = "";
-    koksma_status status = koksma__parse_kind(f, "plane rectangle disk sphere box", &kind);
+    koksma_status status = koksma__parse_kind(f, "plane rectangle disk sphere box mesh instance", &kind);
+    if (!status && !strcmp(kind, "mesh")) {
+        return koksma__parse_mesh(scene_name, f, scene);
+    }
+    if (!status && !strcmp(kind, "instance")) {
+        return koksma__parse_instance(f, scene);
+    }
     status = status ? status : koksma__json_get_text(f, "material", true, &name);
     const int material = status ? -1 : koksma__find_material(scene, name);
     if (!status && material < 0) {

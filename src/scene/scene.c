@@ -69,6 +69,11 @@ void koksma__scene_fini(koksma_scene *scene)
         koksma_image_fini(scene->lights[i].image);
         free(scene->lights[i].image);
     }
+    for (size_t i = 0; i < scene->n_meshes; i++) {
+        koksma__mesh_fini(&scene->meshes[i]);
+    }
+    free(scene->meshes);
+    free(scene->placements);
     free(scene->materials);
     free(scene->shapes);
     free(scene->lights);

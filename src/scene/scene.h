@@ -6,6 +6,8 @@
 #include <koksma/render.h>
 #include <koksma/warp.h>
 
+#include "scene/mesh.h"
+
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 
 typedef enum koksma__shape_kind {
@@ -90,7 +92,9 @@ struct koksma_scene {
     koksma__material *materials;
     koksma__shape *shapes;
     koksma__light *lights;
-    size_t n_materials, n_shapes, n_lights, shape_room;
+    koksma__mesh *meshes;
+    koksma__placement *placements; /* of meshes */
+    size_t n_materials, n_shapes, n_lights, n_meshes, n_placements, shape_room;
     bool grey;  /* no colour in it: images have one channel */
     bool moves; /* something depends on time */
 };

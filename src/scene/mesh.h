@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Triangle meshes and where they stand. A mesh is in its file's own coordinates; a placement turns, scales and moves
+   it, and several placements share one mesh. */
+#ifndef KOKSMA_SCENE_MESH_H
+#define KOKSMA_SCENE_MESH_H
+
+#include <koksma/koksma.h>
+
+#define KOKSMA__MAX_VERTICES ((size_t)1 << 26)
+#define KOKSMA__MAX_TRIANGLES ((size_t)1 << 26) /* of a mesh */
+#define KOKSMA__MAX_MESH_FILE ((size_t)1 << 30)
+
+typedef struct koksma__mesh {
+    char name[64]; /* for instances; may be empty */
+    size_t n_vertices, n_triangles;
+    float *vertices;   /* 3 a vertex, and room for one number more, which Embree may read */
+    float *normals;    /* 3 a vertex, or NULL */
+    float *uvs;        /* 2 a vertex, or NULL */
+    uint32_t *indices; /* 3 a triangle, counterclockwise seen from outside */
+    double low[3], high[3];
+    size_t n_degenerate; /* triangles without area */
+} koksma__mesh;
+
+/* x -> matrix x: three rows of four. At time t everything is t motion further. */
+typedef struct koksma__placement {
+    int mesh;
+    double matrix[12], motion[3];
+    double low[3], high[3]; /* a box around it at time 0 */
+    int material;           /* -1 for a luminaire's own surface, which reflects nothing */
+    int light;              /* the luminaire whose surface this is, or -1 */
+    bool smooth;            /* normals are interpolated over the triangles */
+} koksma__placement;
+
+/* Room for so many; zeroed but for the sizes. Errors: MALFORMED (too many), MEMORY. */
+koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out);
+void koksma__mesh_fini(koksma__mesh *mesh);
+
+/* Looks at what was read: no vertex that is not finite or beyond 1e6, no index out of range, no mesh without a
+   triangle of some area; sets the box and n_degenerate, mends normals of no length. Errors: MALFORMED. */
+koksma_status koksma__mesh_check(koksma__mesh *mesh);
+
+/* Normals from the triangles around each vertex, weighed by their areas, where the file has none. Errors: MEMORY. */
+koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
+
+/* 64 bits of its content. */
+uint64_t koksma__mesh_hash(const koksma__mesh *mesh);
+
+/* The box around the mesh as it is placed. */
+void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placement);
+
+/* matrix = moved by translate, of what is turned about x, then y, then z, of what is scaled. */
+void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
+                              double matrix[12]);
+
+/* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
+
+/* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
+bool koksma__is_mesh_file(const char *path);
+
+/* All triangles of a file as one mesh. Errors: MISSING, MALFORMED, UNSUPPORTED (this build has no reader), MEMORY. */
+koksma_status koksma__mesh_read(const char *path, koksma__mesh *out);
+
+#endif

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree and assimp the
+   tests are skipped. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+enum { SIDE = 48 };
+
+static void need_meshes(void)
+{
+    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
+        skip();
+    }
+}
+
+static koksma_scene *scene_of(const char *text)
+{
+    koksma_scene *scene;
+    FILE *file = fopen("test_meshes.json", "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    assert_ok(koksma_scene_open("./test_meshes.json", &scene));
+    unlink("test_meshes.json");
+    return scene;
+}
+
+static koksma_image render_by(const koksma_scene *scene, const char *integrator, int spp, int side, int threads)
+{
+    koksma_render_options options;
+    koksma_image image;
+    const koksma_run run = {.threads = threads};
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = side;
+    options.spp = spp;
+    options.integrator = koksma_integrator_find(integrator);
+    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
+    assert_ok(koksma_render(scene, &options, &run, &image));
+    return image;
+}
+
+/* The mean difference of two scenes' pictures. */
+static double difference(const char *a, const char *b)
+{
+    koksma_scene *one = scene_of(a), *other = scene_of(b);
+    koksma_image first = render_by(one, "distribution", 9, SIDE, 2);
+    koksma_image second = render_by(other, "distribution", 9, SIDE, 2);
+    koksma_image_error error;
+    assert_ok(koksma_image_compare(&first, &second, &error));
+    koksma_image_fini(&first);
+    koksma_image_fini(&second);
+    koksma_scene_close(one);
+    koksma_scene_close(other);
+    return error.mean;
+}
+
+static void write_cube(void)
+{
+    FILE *file = fopen("cube.obj", "w");
+    assert_non_null(file);
+    for (int i = 0; i < 8; i++) {
+        fprintf(file, "v %d %d %d\n", i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    }
+    fputs("f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n", file);
+    fclose(file);
+}
+
+#define HEAD                                                                                                         \
+    "{\"camera\": {\"eye\": [3, 2.5, 6], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"background\": 0.3,"              \
+    "\"ambient\": 0.1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.7}],"                  \
+    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [2, 5, 3], \"facing\": [0, 0, 0], \"half\": [1, 1],"         \
+    "\"strength\": 1}], \"shapes\": [{\"kind\": \"plane\", \"centre\": [0, -1.5, 0], \"normal\": [0, 1, 0],"         \
+    "\"material\": \"m\"},"
+#define TAIL ", \"material\": \"m\"}]}"
+
+static void a_cube_is_a_box(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_cube();
+    /* The same samples see the same places: only rounding differs, which moves a few samples on edges. */
+    assert_near(difference(HEAD "{\"kind\": \"box\", \"centre\": [0, 0, 0], \"half\": [1, 1, 1]" TAIL,
+                           HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\"" TAIL),
+                0, 1e-5);
+    assert_near(difference(HEAD "{\"kind\": \"box\", \"centre\": [0.3, 0, -0.2], \"half\": [1, 0.5, 2], "
+                                "\"angle_deg\": 30" TAIL,
+                           HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"translate\": [0.3, 0, -0.2], "
+                                "\"scale\": [1, 0.5, 2], \"rotate_deg\": [0, 30, 0]" TAIL),
+                0, 1e-5);
+    unlink("cube.obj");
+}
+
+static void an_instance_is_its_mesh_elsewhere(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_cube();
+#define FAR_OFF "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"name\": \"c\", \"translate\": [0, 0, 90]" TAIL
+    const char *alone =
+        HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"translate\": [0.3, 0, -0.2], \"smooth\": "
+             "true, \"scale\": [1, 0.5, 2], \"rotate_deg\": [10, 20, 30], \"motion\": [0.4, 0, 0]" TAIL;
+    const char *instance =
+        HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"name\": \"c\", \"translate\": [0, 0, "
+             "90], \"material\": \"m\"}, {\"kind\": \"instance\", \"of\": \"c\", \"translate\": [0.3, "
+             "0, -0.2], \"smooth\": true, \"scale\": [1, 0.5, 2], \"rotate_deg\": [10, 20, 30], "
+             "\"motion\": [0.4, 0, 0]" TAIL;
+    assert_near(difference(alone, instance), 0, 1e-4);
+    unlink("cube.obj");
+}
+
+/* ---- Spheres ------------------------------------------------------------------------------------------- */
+
+/* A ball of 8 4^level triangles: an octahedron whose faces are split into rows. */
+static void write_ball(int level)
+{
+    const int n = 1 << level;
+    FILE *file = fopen("ball.obj", "w");
+    assert_non_null(file);
+    for (int face = 0; face < 8; face++) {
+        const double sign[3] = {face & 1 ? -1 : 1, face & 2 ? -1 : 1, face & 4 ? -1 : 1};
+        for (int i = 0; i <= n; i++) {
+            for (int j = 0; j <= n - i; j++) {
+                double v[3] = {i, j, n - i - j}, length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+                for (int k = 0; k < 3; k++) {
+                    v[k] *= sign[k] / length;
+                }
+                fprintf(file, "v %.17g %.17g %.17g\n", v[0], v[1], v[2]);
+            }
+        }
+        const int total = (n + 1) * (n + 2) / 2;
+        const bool turned = sign[0] * sign[1] * sign[2] < 0;
+        for (int i = 0; i < n; i++) {
+            const int row = 1 + face * total + i * (n + 1) - i * (i - 1) / 2, next = row + n + 1 - i;
+            for (int j = 0; j < n - i; j++) {
+                fprintf(file, turned ? "f %d %d %d\n" : "f %3$d %2$d %1$d\n", row + j, row + j + 1, next + j);
+                if (j < n - i - 1) {
+                    fprintf(file, turned ? "f %d %d %d\n" : "f %3$d %2$d %1$d\n", row + j + 1, next + j + 1,
+                            next + j);
+                }
+            }
+        }
+    }
+    fclose(file);
+}
+
+#define SPHERE HEAD "{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1" TAIL
+#define BALL(more) HEAD "{\"kind\": \"mesh\", \"file\": \"ball.obj\"" more TAIL
+
+static void a_fine_ball_is_a_sphere(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_ball(3);
+    const double coarse = difference(SPHERE, BALL(""));
+    const double smooth = difference(SPHERE, BALL(", \"smooth\": true"));
+    write_ball(5);
+    const double fine = difference(SPHERE, BALL(""));
+    /* flat normals are off by half an edge: halved twice over two levels */
+    assert_true(fine < 0.4 * coarse);
+    assert_true(smooth < 0.9 * coarse); /* the outline and the edge of the shadow stay */
+    assert_true(fine < 5e-3);
+    unlink("ball.obj");
+}
+
+/* In a white furnace a convex white body is as bright as its surroundings: no ray that starts on it may meet it, be
+   it small, large or far from the origin. */
+static void convex_bodies_do_not_shade_themselves(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_ball(4);
+    static const struct {
+        double scale, away;
+    } cases[] = {{1, 0}, {1e-3, 0}, {1e4, 0}, {1, 1000}, {0.01, 100}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        const double s = cases[i].scale, x = cases[i].away;
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [%g, 0, %g], \"target\": [%g, 0, 0], \"fov_deg\": 30}, \"materials\": "
+            "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"lights\": [{\"kind\": \"environment\", "
+            "\"radiance\": 1}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"scale\": %g, "
+            "\"translate\": [%g, 0, 0], \"material\": \"m\"}]}",
+            x, 4 * s, x, s, x);
+        koksma_scene *scene = scene_of(text);
+        koksma_image image = render_by(scene, "path", 16, 24, 2);
+        for (int p = 0; p < 24 * 24; p++) { /* with MIS the weights of a sample sum to 1 in the mean only */
+            assert_true(fabsf(image.pixels[p] - 1) < 0.35f);
+        }
+        double sum = 0;
+        for (int p = 0; p < 24 * 24; p++) {
+            sum += (double)image.pixels[p] / (24 * 24);
+        }
+        assert_near(sum, 1, 5e-3);
+        koksma_image_fini(&image);
+        koksma_scene_close(scene);
+    }
+    unlink("ball.obj");
+}
+
+/* ---- Light and time ------------------------------------------------------------------------------------- */
+
+static void write_square(void)
+{
+    FILE *file = fopen("square.ply", "w");
+    assert_non_null(file);
+    fputs("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+          "-1 0 1\n1 0 1\n1 0 -1\n-1 0 -1\n4 0 1 2 3\n",
+          file);
+    fclose(file);
+}
+
+static double pixel(const char *text, const char *integrator)
+{
+    koksma_scene *scene = scene_of(text);
+    koksma_image image = render_by(scene, integrator, 4096, 1, 1);
+    const double value = (double)image.pixels[0];
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+    return value;
+}
+
+/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
+   (Howell's catalogue, B-3). */
+static double corner_factor(double a, double b)
+{
+    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
+    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
+}
+
+#define PATCH                                                                                                        \
+    "{\"camera\": {\"eye\": [5, 1, 9], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                   \
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"                                    \
+    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 0.5],"      \
+    "\"radiance\": 2}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"square.ply\", \"scale\": 3, \"material\": "    \
+    "\"m\"}"
+
+static void light_on_meshes_is_its_form_factor(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_square();
+    const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
+    assert_near(pixel(PATCH "]}", "distribution"), full, 1e-4);
+    assert_near(pixel(PATCH ", {\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [1, 1.5, 0]" TAIL,
+                      "distribution"),
+                full / 2, 2e-3);
+    assert_near(pixel(PATCH ", {\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [0, 2.5, 0]" TAIL,
+                      "distribution"),
+                full, 1e-4);
+    unlink("square.ply");
+}
+
+/* A black square passes before a white sky: it covers the point while |x + 4 t - 2| < 1. */
+static void motion_covers_its_share_of_time(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_square();
+#define PASSING(shutter)                                                                                             \
+    "{\"camera\": {\"eye\": [0, 5, 0], \"target\": [0, 0, 0], \"up\": [0, 0, -1], \"fov_deg\": 0.01, \"shutter\": "  \
+    "[" shutter "]}, \"background\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0}],"   \
+    "\"shapes\": [{\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [-2, 0, 0], \"motion\": [4, 0, "     \
+    "0]" TAIL
+    assert_near(pixel(PASSING("0, 1"), "distribution"), 0.5, 2e-3);
+    assert_near(pixel(PASSING("0, 0.5"), "distribution"), 0.5, 2e-3);
+    assert_near(pixel(PASSING("0, 0.3"), "distribution"), 5.0 / 6, 2e-3);
+    unlink("square.ply");
+}
+
+static void threads_and_modes_leave_no_trace(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_ball(3);
+    volatile float small = 1e-38f, scale = 0.125f;
+    koksma_scene *scene = scene_of(BALL(", \"smooth\": true, \"motion\": [0.3, 0, 0]"));
+    koksma_image one = render_by(scene, "path", 4, SIDE, 1);
+    for (int threads = 2; threads <= 5; threads += 3) {
+        koksma_image many = render_by(scene, "path", 4, SIDE, threads);
+        assert_memory_equal(one.pixels, many.pixels, SIDE * SIDE * sizeof(float));
+        koksma_image_fini(&many);
+    }
+    koksma_image_fini(&one);
+    koksma_scene_close(scene);
+    assert_true(small * scale > 0); /* denormals are still numbers */
+    unlink("ball.obj");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cube_is_a_box),
+        cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
+        cmocka_unit_test(a_fine_ball_is_a_sphere),
+        cmocka_unit_test(convex_bodies_do_not_shade_themselves),
+        cmocka_unit_test(light_on_meshes_is_its_form_factor),
+        cmocka_unit_test(motion_covers_its_share_of_time),
+        cmocka_unit_test(threads_and_modes_leave_no_trace),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
