@@ -23,7 +23,6 @@ typedef struct koksma__adaptive koksma__adaptive;
 
 /* A method. Functions of a pixel are called by any thread, one at a time for each pixel. */
 typedef struct koksma__adaptive_rules {
-    bool sets;  /* its samples are sets of the pattern (adaptive_sets.c) */
     bool fresh; /* sets that are independent of each other, also of patterns that could be continued */
     bool pilot; /* the first sets only decide */
     koksma_status (*open)(koksma__adaptive *run); /* also the asks of the first round, which are all served */
@@ -53,7 +52,8 @@ struct koksma__adaptive {
     koksma__ask *asks;
     uint32_t *taken; /* samples of a pixel so far */
     bool probing;    /* this round is for probes only */
-    void *state;     /* the method's */
+    void *state;     /* the method's: koksma__pixel_sets of every pixel, or koksma__strata */
+    void *extra;     /* its own, for malloc; NULL: none */
     koksma_adaptive_report report;
 };
 

@@ -349,6 +349,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         j.frame.sampler = run.base;
     }
     koksma__frame_close(&j.frame);
+    free(run.extra);
     free(run.asks);
     free(run.taken);
     if (status && status != KOKSMA_INTERRUPTED) {
