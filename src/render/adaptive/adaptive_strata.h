@@ -47,8 +47,9 @@ typedef struct koksma__stratum {
 typedef struct koksma__tree {
     koksma__stratum *strata;
     uint32_t n, marked, splits, needless;
-    uint32_t base;  /* the use whose cells are neighbours */
-    uint32_t stage; /* of its samples */
+    uint32_t base;          /* the use whose cells are neighbours */
+    uint32_t stage;         /* of its samples */
+    bool searched, carried; /* selective: base was looked for, and found */
 } koksma__tree;
 
 typedef struct koksma__strata {
@@ -93,7 +94,7 @@ extern const char *const koksma__reuse_names[];
     {"levels", "splits of a stratum at most", 2, 0, KOKSMA__MAX_LEVELS, NULL, true},                                 \
         {"threshold", "difference of two values beyond which their strata are split", 0.05, 0, 1e30, NULL, false},   \
     {                                                                                                                \
-        "reuse", "of the sample of a split stratum", KOKSMA__REUSE_RENEWED, 0, 2, koksma__reuse_names, true          \
+        "reuse", "of the sample of a split stratum", KOKSMA__REUSE_KEPT, 0, 2, koksma__reuse_names, true          \
     }
 
 koksma_status koksma__strata_open(koksma__adaptive *run);
