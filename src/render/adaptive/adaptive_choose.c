@@ -18,7 +18,8 @@ static int by_score(const void *a, const void *b)
     if (p->score != q->score) {
         return p->score > q->score ? -1 : 1;
     }
-    return p->pixel < q->pixel ? -1 : 1;
+    /* equals in an order without pattern: pixels times an odd number modulo 2^32 */
+    return p->pixel * 2654435761u < q->pixel * 2654435761u ? -1 : 1;
 }
 
 /* Under a budget a round serves a quarter of those who ask, the highest scores first, so that later rounds know more;

@@ -74,7 +74,7 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     if (run->pixels > MAX_STRATA / spp) {
         return too_many(run);
     }
-    run->scratch = ((size_t)1 << 2 * s->levels) * spp * sizeof(uint32_t) + spp * sizeof(uint32_t);
+    run->scratch = (2 * ((size_t)spp << 2 * s->levels) + spp) * sizeof(uint32_t); /* grid, permutation, differences */
     return open_trees(run, s);
 }
 
@@ -115,53 +115,64 @@ static void paint(const koksma__adaptive *run, size_t pixel, uint32_t depth, uin
     }
 }
 
-static void compare(const koksma__strata *s, koksma__tree *tree, uint32_t i, uint32_t j, float *score)
+/* What strata i and j say of each other; most[i] is the largest difference that stratum i has to a neighbour. */
+static void compare(const koksma__strata *s, const koksma__tree *tree, uint32_t i, uint32_t j, float *most)
 {
-    koksma__stratum *a = &tree->strata[i], *b = &tree->strata[j];
-    float most = 0;
+    float off = 0;
     for (int k = 0; k < 3; k++) {
-        most = fmaxf(most, fabsf(a->value[k] - b->value[k]));
+        off = fmaxf(off, fabsf(tree->strata[i].value[k] - tree->strata[j].value[k]));
     }
-    if (i == j || !(most > s->threshold)) {
-        return;
-    }
-    a->marked |= a->level < s->levels;
-    b->marked |= b->level < s->levels;
-    if (a->marked || b->marked) {
-        *score = fmaxf(*score, most);
+    if (off > s->threshold) {
+        most[i] = fmaxf(most[i], off);
+        most[j] = fmaxf(most[j], off);
     }
 }
 
+static void compare_all(const koksma__strata *s, const koksma__tree *tree, const uint32_t *grid, uint32_t width,
+                        uint32_t height, float *most)
+{
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            const uint32_t *at = grid + y * width + x;
+            const bool right = x + 1 < width, down = y + 1 < height;
+            compare(s, tree, *at, right ? at[1] : *at, most);
+            compare(s, tree, *at, down ? at[width] : *at, most);
+            compare(s, tree, *at, right && down ? at[width + 1] : *at, most);
+            compare(s, tree, *at, x && down ? at[width - 1] : *at, most);
+        }
+    }
+}
+
+/* Under a budget the order is by the variance that a pixel may lose a sample: the sum of (volume x difference)^2 over
+   the strata to be split, over the samples that it takes. */
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
-    uint32_t depth = 0, width, *grid = scratch;
+    const size_t finest = (size_t)s->m * s->m << 2 * s->levels;
+    uint32_t depth = 0, width, *grid = scratch, *permutation = grid + finest;
+    float *most = (float *)(grid + finest + (size_t)s->m * s->m);
+    double gain = 0;
     if (tree->stage == KOKSMA__STAGE_LAST) {
         return;
     }
     for (uint32_t i = 0; i < tree->n; i++) {
         depth = tree->strata[i].level > depth ? tree->strata[i].level : depth;
+        most[i] = 0;
     }
-    const uint32_t cells = s->m * s->m << 2 * depth;
-    paint(run, pixel, depth, grid + cells, grid, &width);
-    const uint32_t height = cells / width;
-    for (uint32_t y = 0; y < height; y++) {
-        for (uint32_t x = 0; x < width; x++) {
-            const uint32_t *at = grid + y * width + x;
-            const bool right = x + 1 < width, down = y + 1 < height;
-            compare(s, tree, *at, right ? at[1] : *at, &ask->score);
-            compare(s, tree, *at, down ? at[width] : *at, &ask->score);
-            compare(s, tree, *at, right && down ? at[width + 1] : *at, &ask->score);
-            compare(s, tree, *at, x && down ? at[width - 1] : *at, &ask->score);
-        }
-    }
+    paint(run, pixel, depth, permutation, grid, &width);
+    compare_all(s, tree, grid, width, (s->m * s->m << 2 * depth) / width, most);
     tree->marked = 0;
     for (uint32_t i = 0; i < tree->n; i++) {
-        tree->marked += tree->strata[i].marked;
+        koksma__stratum *stratum = &tree->strata[i];
+        const double part = ldexp((double)most[i], -2 * stratum->level);
+        stratum->marked = most[i] > 0 && stratum->level < s->levels;
+        tree->marked += stratum->marked;
+        gain += stratum->marked ? part * part : 0;
     }
     ask->now = tree->marked * (s->reuse == KOKSMA__REUSE_RENEWED ? 4 : 3);
     ask->later = s->reuse == KOKSMA__REUSE_FRESH ? tree->marked * 3 : 0;
+    ask->score = tree->marked ? (float)(gain / ask->now) : 0;
 }
 
 /* Puts four parts in the place of each marked stratum. */
