@@ -24,19 +24,43 @@ static bool continues(const koksma__adaptive *run, const koksma_spec *spec)
            run->frame->options->pairing != KOKSMA_PAIRING_NATIVE;
 }
 
+/* Whether two seeds give the same points: what a pattern claims depends on its parameters. */
+static koksma_status compare_sets(const koksma_spec *spec, size_t n, bool *same)
+{
+    koksma_points one = {0}, two = {0};
+    koksma_status status = koksma_points_init(&one, n, 2);
+    status = status ? status : koksma_points_init(&two, n, 2);
+    status = status ? status : koksma_generate(spec, 1, NULL, &one);
+    status = status ? status : koksma_generate(spec, 2, NULL, &two);
+    *same = !status && !memcmp(one.xs, two.xs, 2 * n * sizeof *one.xs);
+    koksma_points_fini(&one);
+    koksma_points_fini(&two);
+    return status;
+}
+
 /* A second set must be another one. */
 static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
-    for (int u = 0; u < KOKSMA_N_USES; u++) {
-        const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
-        if (spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC && !spec->shift && !continues(run, spec)) {
+    koksma_status status = KOKSMA_OK;
+    for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
+        const bool own = options->patterns[u].pattern != NULL;
+        const koksma_spec *spec = own ? &options->patterns[u] : &options->pattern;
+        const koksma_pattern *p = spec->pattern;
+        bool same = false;
+        if ((u && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, spec)) {
+            continue; /* seen, idle, or one set */
+        }
+        if (p->min_dim <= 2 && p->max_dim >= 2) {
+            status = compare_sets(spec, (size_t)options->spp, &same);
+        }
+        if (same) {
             return koksma__fail(KOKSMA_ARGUMENT,
                                 "%s: every set of pattern %s is the same; with shift=1 they would differ",
-                                run->options->method->name, spec->pattern->name);
+                                run->options->method->name, p->name);
         }
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 koksma_status koksma__sets_open(koksma__adaptive *run)
