@@ -25,8 +25,8 @@ typedef struct scene {
 } scene;
 
 static const scene scenes[] = {
-    {"checker", "distribution", 16, 24, 4096, 2}, {"ball", "distribution", 16, 24, 4096, 2},
-    {"all", "distribution", 16, 24, 4096, 2},     {"glossy", "distribution", 16, 24, 4096, 2},
+    {"checker", "distribution", 16, 64, 4096, 2}, {"ball", "distribution", 16, 64, 4096, 2},
+    {"all", "distribution", 16, 64, 4096, 2},     {"glossy", "distribution", 16, 64, 4096, 2},
     {"mirror-block", "path", 400, 441, 16384, 1},
 };
 

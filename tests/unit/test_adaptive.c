@@ -233,6 +233,26 @@ static void quantiles_are_the_published(void **state)
     assert_near(koksma__chi_squared_quantile(0.05, 100), 77.929465165, 1e-7);
 }
 
+/* Copies of samples that only fill lanes are no rays. */
+static void rays_are_counted_once(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
+        "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": ["
+        "{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 1],"
+        "\"radiance\": 2}]}");
+    for (int spp = 1; spp < 40; spp++) {
+        koksma_render_options options = options_of(scene, "random", "distribution", spp, 3);
+        koksma_layers layers;
+        assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+        assert_int_equal((int)layers.rays, 2 * 9 * spp);
+        koksma_layers_fini(&layers);
+    }
+    koksma_scene_close(scene);
+}
+
 static koksma_status try(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget)
 {
     koksma_render_options options = options_for(scene, spp);
@@ -291,6 +311,7 @@ int main(void)
         cmocka_unit_test(strata_weigh_their_volume),
         cmocka_unit_test(shuffled_strata_are_split_needlessly),
         cmocka_unit_test(quantiles_are_the_published),
+        cmocka_unit_test(rays_are_counted_once),
         cmocka_unit_test(errors_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

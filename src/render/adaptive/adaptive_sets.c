@@ -43,14 +43,16 @@ static koksma_status check_patterns(const koksma__adaptive *run)
 {
     const koksma_render_options *options = run->frame->options;
     koksma_status status = KOKSMA_OK;
+    bool seen = false; /* the pattern of the uses that have none of their own */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const bool own = options->patterns[u].pattern != NULL;
         const koksma_spec *spec = own ? &options->patterns[u] : &options->pattern;
         const koksma_pattern *p = spec->pattern;
         bool same = false;
-        if ((u && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, spec)) {
-            continue; /* seen, idle, or one set */
+        if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, spec)) {
+            continue; /* the sets of a sequence are different */
         }
+        seen |= !own;
         if (p->min_dim <= 2 && p->max_dim >= 2) {
             status = compare_sets(spec, (size_t)options->spp, &same);
         }
