@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <koksma/render.h>
+#include <koksma/adaptive.h>
 
 #include "cli.h"
 
@@ -126,6 +126,19 @@ static void list_filters(cli_rows *rows)
     }
 }
 
+static void list_adaptive(cli_rows *rows)
+{
+    const koksma_adaptive *a;
+    for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
+        cli_row_text(rows, "method", a->name);
+        put_params(rows, a->params);
+        cli_row_text(rows, "samples", a->own_samples ? "own strata" : "sets of the pattern");
+        cli_row_text(rows, "source", a->cite);
+        cli_row_text(rows, "what", a->title);
+        cli_row_end(rows);
+    }
+}
+
 static void list_uses(cli_rows *rows)
 {
     const koksma_use *u;
@@ -143,6 +156,7 @@ static const struct {
 } lists[] = {
     {"patterns", list_patterns},       {"measures", list_measures}, {"scenes", list_scenes},
     {"integrators", list_integrators}, {"filters", list_filters},   {"uses", list_uses},
+    {"adaptive", list_adaptive},
 };
 
 static int run(const cli_arguments *arguments)
@@ -158,7 +172,8 @@ static int run(const cli_arguments *arguments)
     }
     const int code = cli_rows_close(rows);
     if (!code && (!found || arguments->n_operands > 1)) {
-        return cli_usage_error(arguments, "it takes one of patterns, measures, scenes, integrators, filters, uses");
+        return cli_usage_error(arguments,
+                               "it takes one of patterns, measures, scenes, integrators, filters, uses, adaptive");
     }
     return code;
 }
@@ -168,7 +183,7 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures|scenes|integrators|filters|uses] [--json]",
+    .synopsis = "[patterns|measures|scenes|integrators|filters|uses|adaptive] [--json]",
     .options = options,
     .run = run,
 };

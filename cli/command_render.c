@@ -3,8 +3,7 @@
 #include <string.h>
 #include <time.h>
 
-#include <koksma/render.h>
-
+#include "adaptive_options.h"
 #include "cli.h"
 #include "render_options.h"
 
@@ -29,18 +28,20 @@ static bool parse_size(const cli_arguments *arguments, koksma_render_options *op
     return true;
 }
 
-static int put_row(const cli_arguments *arguments, const koksma_render_options *options, uint64_t rays,
-                   double seconds)
+static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
+                   uint64_t rays, double seconds)
 {
+    const koksma_adaptive *method = adaptive->options.method;
     char pattern[KOKSMA_MAX_SPEC];
     koksma_spec_text(&options->pattern, pattern);
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     if (rows) {
         cli_row_text(rows, "scene", arguments->operands[0]);
-        cli_row_text(rows, "pattern", pattern);
+        cli_row_text(rows, "pattern", method && method->own_samples ? "-" : pattern);
         cli_row_whole(rows, "spp", (uint64_t)options->spp);
         cli_row_whole(rows, "width", (uint64_t)options->width);
         cli_row_whole(rows, "height", (uint64_t)options->height);
+        cli_adaptive_put(rows, adaptive, (double)options->width * options->height);
         cli_row_whole(rows, "rays", rays);
         cli_row_number(rows, "seconds", seconds);
         cli_row_end(rows);
@@ -50,7 +51,7 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
 
 /* What the picture is, for its file. */
 static void describe(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *o,
-                     char *text, size_t size)
+                     const koksma_adaptive_options *adaptive, char *text, size_t size)
 {
     char pattern[KOKSMA_MAX_SPEC];
     koksma_spec_text(&o->pattern, pattern);
@@ -69,18 +70,25 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
              koksma_pairing_name(o->pairing), koksma_scope_name(o->scope), koksma_light_selection_name(o->lights),
              o->integrator->name, o->depth < 0 ? o->integrator->depth : o->depth, o->filter->name,
              o->splat ? " splat" : "", (unsigned long long)o->seed);
+    if (adaptive->method) {
+        const size_t length = strlen(text);
+        koksma_adaptive_text(adaptive, pattern);
+        snprintf(text + length, size - length, " adaptive=%s budget=%g", pattern, adaptive->budget);
+    }
 }
 
 static koksma_status write_image(const cli_arguments *arguments, const koksma_scene *scene,
-                                 const koksma_render_options *options, const koksma_layers *layers)
+                                 const koksma_render_options *options, const koksma_adaptive_options *adaptive,
+                                 koksma_layers *layers)
 {
     static char metadata[(KOKSMA_N_USES + 2) * KOKSMA_MAX_SPEC];
     const koksma_layer all[] = {{"", &layers->image},          {"albedo", &layers->albedo},
                                 {"normal", &layers->normal},   {"Z", &layers->depth},
                                 {"samples", &layers->samples}, {"variance", &layers->variance}};
-    describe(arguments, scene, options, metadata, sizeof metadata);
     const size_t n = layers->albedo.pixels ? sizeof all / sizeof *all : 1;
-    return koksma_image_write_layers(cli_text(arguments, "output", ""), all, n, metadata);
+    describe(arguments, scene, options, adaptive, metadata, sizeof metadata);
+    const koksma_status status = koksma_image_write_layers(cli_text(arguments, "output", ""), all, n, metadata);
+    return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
 /* Only an EXR has a place for layers; without them it is faster. */
@@ -90,7 +98,8 @@ static bool has_layers(const char *path)
     return length > 4 && !strcmp(path + length - 4, ".exr");
 }
 
-static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options)
+static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
+                  cli_adaptive *adaptive)
 {
     koksma_layers layers;
     cli_work work;
@@ -98,13 +107,16 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return CLI_USAGE;
     }
     const double start = now_s();
-    const koksma_status status = has_layers(cli_text(arguments, "output", ""))
-                                     ? koksma_render_layers(scene, options, &work.run, &layers)
-                                     : koksma_render_only(scene, options, &work.run, &layers);
+    const koksma_status status =
+        adaptive->options.method
+            ? koksma_render_adaptive(scene, options, &adaptive->options, &work.run, &layers, &adaptive->report)
+        : has_layers(cli_text(arguments, "output", "")) ? koksma_render_layers(scene, options, &work.run, &layers)
+                                                        : koksma_render_only(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
     cli_work_end(&work);
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
-    const koksma_status written = done ? write_image(arguments, scene, options, &layers) : KOKSMA_OK;
+    const koksma_status written =
+        done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
     koksma_layers_fini(&layers);
     if (status == KOKSMA_INTERRUPTED && done && !written) {
         fprintf(stderr, "koksma render: interrupted; %s has the pixels that were done\n",
@@ -112,13 +124,14 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return koksma_status_exit_code(status);
     }
     return status || written ? cli_fail(arguments, status ? status : written)
-                             : put_row(arguments, options, layers.rays, seconds);
+                             : put_row(arguments, options, adaptive, layers.rays, seconds);
 }
 
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
     koksma_render_options options;
+    cli_adaptive adaptive;
     uint64_t spp;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -136,9 +149,10 @@ static int run(const cli_arguments *arguments)
     if (cli_whole(arguments, "spp", 16, 1, KOKSMA_MAX_SPP, &spp) &&
         cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) && parse_size(arguments, &options) &&
         cli_sampling_options(arguments, &options) &&
-        cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code)) {
+        cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
+        cli_adaptive_options(arguments, &adaptive, &code)) {
         options.spp = (int)spp;
-        code = render(arguments, scene, &options);
+        code = render(arguments, scene, &options, &adaptive);
     }
     koksma_scene_close(scene);
     return code;
@@ -151,6 +165,7 @@ static const cli_option options[] = {
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {'o', "output", "FILE", ".exr (with layers), .png or .pfm by its ending"},
     CLI_SAMPLING_OPTIONS,
+    CLI_ADAPTIVE_OPTIONS,
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -159,12 +174,15 @@ static const cli_option options[] = {
 const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a scene",
-    .synopsis = "SCENE [-p [USE=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] -o FILE",
+    .synopsis = "SCENE [-p [USE=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
+                "                     [--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
         "SCENE is a name of 'koksma list scenes', or a JSON file (docs/scenes.md).\n"
         "Every use of a sample ('koksma list uses') has a pattern of its own in every pixel; 'shuffled' pairs them\n"
         "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. With\n"
-        "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.",
+        "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.\n"
+        "With --adaptive every pixel has SPP samples at first, and then more in rounds until METHOD or the budget\n"
+        "says that it is enough.",
     .options = options,
     .run = run,
 };

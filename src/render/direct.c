@@ -87,9 +87,10 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
     }
 }
 
-/* Samples start .. start + n of the group, which hit something in `hits`. */
+/* Samples start .. start + n of the group, which hit something in `hits`; the last `copies` of them only fill lanes.
+ */
 static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
-                        int n, const room *r, koksma__values *values)
+                        int n, int copies, const room *r, koksma__values *values)
 {
     KOKSMA__LANES(float, albedo);
     KOKSMA__LANES(float, sum);
@@ -102,9 +103,9 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
         const float *places = r->places + 2 * (l * r->capacity + start);
         const int lit = f->batch->aim(&f->lights.rectangles[l], hits, places, n, &shadows);
         if (lit) {
+            values->rays += (uint64_t)(lit - (shadows.light[n - 1] != 0 ? copies : 0));
             f->geometry.occlude(&f->geometry, hits, n, &shadows);
             f->batch->add(&shadows, n, sum);
-            values->rays += (uint64_t)lit;
         }
     }
     f->batch->shade(hits, albedo, sum, (float)f->scene->background[0], (float)f->scene->clamp, n,
@@ -139,7 +140,8 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
             drawn = true;
         }
         if (!status) {
-            shade_block(f, &rays, &hits, start, n, r, values);
+            const int copies = start + (size_t)n > n_samples ? (int)(start + (size_t)n - n_samples) : 0;
+            shade_block(f, &rays, &hits, start, n, copies, r, values);
         }
     }
     return status;

@@ -23,6 +23,7 @@ typedef struct koksma__frame {
     int channels;
     const koksma__batch_table *batch;
     koksma__geometry geometry;
+    koksma__use_list uses;
     koksma__sampler sampler;
     koksma__batch_camera camera;
     koksma__lights lights;
@@ -56,6 +57,13 @@ typedef struct koksma__pipeline {
     koksma_status (*trace)(const koksma__frame *frame, void *room, const koksma__group *group,
                            koksma__values *values);
 } koksma__pipeline;
+
+/* All that is the same for every pixel; close also after a failure. Errors: ARGUMENT, the pattern's, MEMORY,
+ * INTERRUPTED.
+ */
+koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,
+                                 const koksma_run *run, koksma__frame *out);
+void koksma__frame_close(koksma__frame *frame);
 
 extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
 

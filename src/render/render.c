@@ -104,9 +104,9 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
         return status;
     }
     f->camera = make_camera(&f->scene->camera, options->width, options->height);
-    const koksma__use_list uses = list_uses(f);
-    status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &uses, run, &f->sampler)
-                                                  : koksma__pixel_samples(options, &uses, &f->sampler);
+    f->uses = list_uses(f);
+    status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
+                                                  : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status                   ? status
              : f->scene->n_placements ? koksma__accel_embree(f->scene, &f->geometry)
                                       : koksma__accel_shapes(f->scene, &f->geometry);
@@ -116,9 +116,9 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     return !status && f->rules->open ? f->rules->open(f, run) : status;
 }
 
-static void fini_frame(koksma__frame *f)
+void koksma__frame_close(koksma__frame *f)
 {
-    if (f->rules->close) {
+    if (f->rules && f->rules->close) {
         f->rules->close(f);
     }
     if (f->sampler.release) {
@@ -337,24 +337,30 @@ static koksma_status check(const koksma_render_options *o)
     return KOKSMA_OK;
 }
 
-static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
-                            bool all_layers, koksma_layers *out)
+koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,
+                                 const koksma_run *run, koksma__frame *out)
 {
-    *out = (koksma_layers){0};
-    koksma_status status = check(options);
+    *out = (koksma__frame){.scene = scene, .options = options};
+    const koksma_status status = check(options);
     if (status) {
         return status;
     }
-    koksma__frame f = {.scene = scene,
-                       .options = options,
-                       .rules = options->integrator->rules,
-                       .depth = options->depth < 0 ? options->integrator->depth : options->depth,
-                       .channels = scene->grey ? 1 : 3,
-                       .batch = koksma__batch()};
+    out->rules = options->integrator->rules;
+    out->depth = options->depth < 0 ? options->integrator->depth : options->depth;
+    out->channels = scene->grey ? 1 : 3;
+    out->batch = koksma__batch();
+    return make_frame(out, run);
+}
+
+static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
+                            bool all_layers, koksma_layers *out)
+{
+    koksma__frame f;
     job j = {.frame = &f};
-    status = make_frame(&f, run);
+    *out = (koksma_layers){0};
+    koksma_status status = koksma__frame_open(scene, options, run, &f);
     status = status ? status : render_image(&j, run, all_layers, out);
-    fini_frame(&f);
+    koksma__frame_close(&f);
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_layers_fini(out);
         *out = (koksma_layers){0};

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "adaptive_options.h"
+
+#include <string.h>
+
+/* Options that an adaptive method with samples of its own has no use for. */
+static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *method)
+{
+    static const char *const idle[] = {"pattern", "pairing"};
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++) {
+        if (method->own_samples && cli_flag(arguments, idle[i])) {
+            cli_usage_error(arguments, "--%s: adaptive method %s draws strata of its own", idle[i], method->name);
+            return false;
+        }
+    }
+    return true;
+}
+
+bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive, int *code)
+{
+    static const char *const needy[] = {"budget", "probe"};
+    const char *text = cli_text(arguments, "adaptive", NULL), *counts = cli_text(arguments, "counts", NULL);
+    double budget = 0;
+    uint64_t probes = 0;
+    *adaptive = (cli_adaptive){.options = {.method = NULL}};
+    koksma_status status = counts ? koksma_image_check_path(counts) : KOKSMA_OK;
+    status = status || !text ? status : koksma_adaptive_parse(text, &adaptive->options);
+    if (status) {
+        *code = cli_fail(arguments, status);
+        return false;
+    }
+    *code = CLI_USAGE;
+    for (size_t i = 0; i < sizeof needy / sizeof *needy; i++) {
+        if (!text && cli_flag(arguments, needy[i])) {
+            cli_usage_error(arguments, "--%s goes with --adaptive METHOD", needy[i]);
+            return false;
+        }
+    }
+    if ((text && !check_idle(arguments, adaptive->options.method)) ||
+        !cli_real(arguments, "budget", 0, 1, KOKSMA_MAX_SPP, &budget) ||
+        !cli_whole(arguments, "probe", 0, 0, KOKSMA_MAX_PROBES, &probes)) {
+        return false;
+    }
+    adaptive->options.budget = budget;
+    adaptive->options.probes = (int)probes;
+    return true;
+}
+
+void cli_adaptive_put(cli_rows *rows, const cli_adaptive *adaptive, double pixels)
+{
+    char method[KOKSMA_MAX_SPEC];
+    const koksma_adaptive_report *report = &adaptive->report;
+    if (!adaptive->options.method) {
+        return;
+    }
+    koksma_adaptive_text(&adaptive->options, method);
+    cli_row_text(rows, "adaptive", method);
+    cli_row_rounded(rows, "mean_spp", (double)report->samples / pixels, 6);
+    cli_row_rounded(rows, "extra", (double)(report->samples - report->first) / pixels, 6);
+    if (report->splits) {
+        cli_row_whole(rows, "splits", report->splits);
+    }
+    if (report->splits && adaptive->options.probes) {
+        cli_row_rounded(rows, "needless", (double)report->needless / (double)report->splits, 4);
+    }
+}
+
+koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *samples)
+{
+    const char *path = cli_text(arguments, "counts", NULL);
+    const char *end = path ? strrchr(path, '.') : NULL;
+    const size_t pixels = (size_t)samples->width * (size_t)samples->height;
+    float most = 0;
+    if (!path) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        most = samples->pixels[i] > most ? samples->pixels[i] : most;
+    }
+    for (size_t i = 0; end && !strcmp(end, ".png") && most > 0 && i < pixels; i++) {
+        samples->pixels[i] /= most;
+    }
+    return koksma_image_write(path, samples, "samples of each pixel");
+}

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The rounds: who is served, their samples through the pipeline, their values to the method, and the picture. */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "render/adaptive/adaptive.h"
+#include "render/film.h"
+
+enum { PIXELS_A_TASK = 128 };
+
+typedef struct job {
+    koksma__adaptive *run;
+    koksma__frame frame; /* with the sampler of rounds */
+    const koksma__pipeline *pipeline;
+    koksma_layers *layers;
+    bool first; /* round: its albedo, normal and depth are kept */
+    size_t capacity;
+    atomic_ullong rays;
+} job;
+
+typedef struct room {
+    koksma__sample_room draw;
+    void *pipeline, *scratch;
+    koksma__values values;
+} room;
+
+/* ---- The sampler of rounds -------------------------------------------------------------------------------- */
+
+static size_t count(const koksma__sampler *sampler, uint64_t pixel)
+{
+    const koksma__adaptive *run = sampler->made;
+    if (!run->asks[pixel].served) {
+        return 0;
+    }
+    return run->probing ? run->rules->probes(run, pixel) : run->asks[pixel].now;
+}
+
+static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
+                          koksma__sample_room *room_for, float *pairs)
+{
+    const koksma__adaptive *run = sampler->made;
+    return count(sampler, pixel) ? run->rules->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
+}
+
+/* ---- One task of a round ---------------------------------------------------------------------------------- */
+
+static void room_fini(const job *j, room *r)
+{
+    koksma__sample_room_fini(&r->draw);
+    if (r->pipeline) {
+        j->pipeline->close(r->pipeline);
+    }
+    free(r->scratch);
+    free(r->values.film);
+    free(r->values.weights);
+    free(r->values.rgb);
+    free(r->values.albedo);
+    free(r->values.normal);
+    free(r->values.depth);
+}
+
+static koksma_status room_init(const job *j, room *r)
+{
+    const size_t n = j->capacity;
+    koksma__values *v = &r->values;
+    *r = (room){.scratch = malloc(j->run->scratch + 1),
+                .values = {.film = malloc(2 * n * sizeof(float)),
+                           .weights = malloc(n * sizeof(float)),
+                           .rgb = malloc(n * (size_t)j->frame.channels * sizeof(float))}};
+    bool all = r->scratch && v->film && v->weights && v->rgb;
+    if (j->first) {
+        v->albedo = malloc(3 * n * sizeof(float));
+        v->normal = malloc(3 * n * sizeof(float));
+        v->depth = malloc(n * sizeof(float));
+        all &= v->albedo && v->normal && v->depth;
+    }
+    koksma_status status = all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
+    status = status ? status : koksma__sample_room_init(&r->draw, &j->frame.sampler);
+    return status ? status : j->pipeline->open(&j->frame, n, &r->pipeline);
+}
+
+static void keep_layers(const job *j, const koksma__values *v, size_t pixel, size_t first, size_t end)
+{
+    double sums[7] = {0};
+    size_t hits = 0;
+    for (size_t i = first; i < end; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            sums[k] += (double)v->albedo[3 * i + k];
+            sums[3 + k] += (double)v->normal[3 * i + k];
+        }
+        sums[6] += (double)v->depth[i];
+        hits += v->depth[i] > 0;
+    }
+    for (size_t k = 0; k < 3; k++) {
+        j->layers->albedo.pixels[3 * pixel + k] = (float)(sums[k] / (double)(end - first));
+        j->layers->normal.pixels[3 * pixel + k] = (float)(sums[3 + k] / (double)(end - first));
+    }
+    j->layers->depth.pixels[pixel] = hits ? (float)(sums[6] / (double)hits) : 0;
+}
+
+/* Values of a pixel to the method, and what it wants next. */
+static void hand_over(const job *j, room *r, const koksma__group *group, size_t p)
+{
+    koksma__adaptive *run = j->run;
+    const size_t pixel = group->first + p, first = group->start[p], end = group->start[p + 1];
+    const size_t channels = (size_t)j->frame.channels;
+    koksma__ask ask = {0};
+    for (size_t i = first; j->frame.filter && i < end; i++) {
+        for (size_t k = 0; k < channels; k++) {
+            r->values.rgb[channels * i + k] *= r->values.weights[i];
+        }
+    }
+    run->rules->take(run, pixel, r->values.rgb + channels * first);
+    if (run->probing) {
+        return;
+    }
+    if (j->first) {
+        keep_layers(j, &r->values, pixel, first, end);
+    }
+    run->taken[pixel] += (uint32_t)(end - first);
+    run->rules->decide(run, pixel, r->scratch, &ask);
+    run->asks[pixel] = ask;
+}
+
+static koksma_status render_group(const job *j, room *r, const koksma__group *group)
+{
+    const koksma__frame *f = &j->frame;
+    if (!group->start[group->count]) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
+    if (!status) {
+        koksma__film_place(f, group, &r->values);
+        status = j->pipeline->trace(f, r->pipeline, group, &r->values);
+    }
+    for (size_t p = 0; !status && p < group->count; p++) {
+        if (group->start[p] < group->start[p + 1]) {
+            hand_over(j, r, group, p);
+        }
+    }
+    return status;
+}
+
+/* As many pixels from `first` on as fill a block. */
+static void fill_group(const job *j, size_t first, size_t end, koksma__group *group)
+{
+    *group = (koksma__group){.first = first};
+    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
+        const size_t n = group->start[group->count] + count(&j->frame.sampler, first + group->count);
+        if (group->count && n > KOKSMA__BLOCK) {
+            return;
+        }
+        group->start[++group->count] = n;
+    }
+}
+
+static koksma_status render_task(void *context, size_t task)
+{
+    job *j = context;
+    koksma__adaptive *run = j->run;
+    const size_t first = task * PIXELS_A_TASK;
+    const size_t end = first + PIXELS_A_TASK < run->pixels ? first + PIXELS_A_TASK : run->pixels;
+    koksma_status status = KOKSMA_OK;
+    size_t served = 0;
+    for (size_t pixel = first; !status && pixel < end; pixel++) {
+        served += run->asks[pixel].served;
+        if (run->asks[pixel].served && !run->probing && run->rules->serve) {
+            status = run->rules->serve(run, pixel);
+        }
+    }
+    if (status || !served) {
+        return status;
+    }
+    room r;
+    koksma__group group;
+    status = room_init(j, &r);
+    for (size_t pixel = first; !status && pixel < end; pixel += group.count) {
+        fill_group(j, pixel, end, &group);
+        status = render_group(j, &r, &group);
+    }
+    if (!run->probing) {
+        atomic_fetch_add(&j->rays, r.values.rays);
+    }
+    room_fini(j, &r);
+    return status;
+}
+
+/* ---- Rounds ----------------------------------------------------------------------------------------------- */
+
+static koksma_status render_round(job *j, const koksma_run *how)
+{
+    koksma__adaptive *run = j->run;
+    size_t most = (size_t)j->frame.options->spp;
+    for (size_t p = 0; p < run->pixels; p++) {
+        const size_t n = run->asks[p].served ? run->taken[p] + count(&j->frame.sampler, p) : 0;
+        most = n > most ? n : most; /* a continued sequence is drawn from its start */
+    }
+    j->frame.sampler.most = most;
+    j->capacity = koksma__whole_lanes(most < KOKSMA__BLOCK ? KOKSMA__BLOCK : most);
+    return koksma__parallel(how, (run->pixels + PIXELS_A_TASK - 1) / PIXELS_A_TASK, render_task, j);
+}
+
+static koksma_status render_rounds(job *j, const koksma_run *how)
+{
+    koksma__adaptive *run = j->run;
+    size_t served = 0;
+    bool last = false;
+    j->first = true;
+    koksma_status status = render_round(j, how);
+    j->first = false;
+    for (; !status; run->report.rounds++) {
+        if (run->rules->plan && !last) {
+            run->rules->plan(run);
+        }
+        status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &served);
+        if (status || (!served && (last || !run->rules->last))) {
+            return status;
+        }
+        if (!served) {
+            last = true;
+            run->rules->last(run);
+        }
+        if (run->rules->probes && run->options->probes && !last) {
+            run->probing = true;
+            status = render_round(j, how);
+            run->probing = false;
+        }
+        status = status ? status : render_round(j, how);
+        if (last) {
+            run->report.rounds++;
+            return status;
+        }
+    }
+    return status;
+}
+
+static void write_results(const job *j)
+{
+    koksma__adaptive *run = j->run;
+    const size_t channels = (size_t)j->frame.channels;
+    for (size_t p = 0; p < run->pixels; p++) {
+        double rgb[3] = {0, 0, 0}, variance = 0;
+        if (run->taken[p]) {
+            variance = run->rules->result(run, p, rgb);
+        }
+        for (size_t k = 0; k < channels; k++) {
+            j->layers->image.pixels[channels * p + k] = (float)rgb[k];
+        }
+        j->layers->variance.pixels[p] = (float)variance;
+        j->layers->samples.pixels[p] = (float)run->taken[p];
+        run->report.samples += run->taken[p];
+    }
+    j->layers->rays = atomic_load(&j->rays);
+}
+
+/* ---- The public function ---------------------------------------------------------------------------------- */
+
+static koksma_status check(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+{
+    if (!adaptive->method) {
+        return koksma__fail(KOKSMA_ARGUMENT, "adaptive sampling takes a method");
+    }
+    const char *name = adaptive->method->name;
+    const koksma_param *params = adaptive->method->params;
+    for (int i = 0; params && params[i].name; i++) {
+        if (!(adaptive->params[i] >= params[i].min && adaptive->params[i] <= params[i].max)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.9g: it takes %.9g to %.9g", name, params[i].name,
+                                adaptive->params[i], params[i].min, params[i].max);
+        }
+    }
+    if (options->splat || options->scope == KOKSMA_SCOPE_IMAGE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive sampling keeps samples in their pixels, without %s", name,
+                            options->splat ? "splatting" : "scope image");
+    }
+    if (!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget,
+                            KOKSMA_MAX_SPP);
+    }
+    if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
+        return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
+    }
+    return KOKSMA_OK;
+}
+
+/* What the first round costs is spent whatever the budget is; the budget must have it. */
+static koksma_status open_run(koksma__adaptive *run)
+{
+    run->asks = calloc(run->pixels, sizeof *run->asks);
+    run->taken = calloc(run->pixels, sizeof *run->taken);
+    if (!run->asks || !run->taken) {
+        return koksma__fail_memory(run->pixels * sizeof *run->asks);
+    }
+    const koksma_status status = run->rules->open(run);
+    for (size_t p = 0; !status && p < run->pixels; p++) {
+        run->asks[p].served = true;
+        run->spent += (uint64_t)run->asks[p].now + run->asks[p].later;
+        run->report.first += run->asks[p].now;
+    }
+    if (!status && run->spent > run->budget) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: a budget of %.9g samples a pixel: the first round takes %.9g",
+                            run->options->method->name, run->options->budget,
+                            (double)run->spent / (double)run->pixels);
+    }
+    return status;
+}
+
+static koksma_status open_layers(const koksma__frame *frame, koksma_layers *out)
+{
+    koksma__film film;
+    const koksma_status status = koksma__film_init(frame, true, 1, out, &film);
+    koksma__film_fini(&film);
+    return status;
+}
+
+koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_render_options *options,
+                                     const koksma_adaptive_options *adaptive, const koksma_run *how,
+                                     koksma_layers *out, koksma_adaptive_report *report)
+{
+    *out = (koksma_layers){0};
+    koksma_status status = check(options, adaptive);
+    if (status) {
+        return status;
+    }
+    koksma__adaptive run = {.options = adaptive, .rules = adaptive->method->rules, .budget = UINT64_MAX};
+    job j = {.run = &run, .layers = out};
+    status = koksma__frame_open(scene, options, how, &j.frame);
+    if (!status) {
+        run.frame = &j.frame;
+        run.pixels = (size_t)options->width * (size_t)options->height;
+        run.base = j.frame.sampler;
+        run.budget = adaptive->budget > 0 ? (uint64_t)(adaptive->budget * (double)run.pixels) : UINT64_MAX;
+        j.frame.sampler = (koksma__sampler){.made = &run,
+                                            .native_dim = run.base.native_dim,
+                                            .native_slots = run.base.native_slots,
+                                            .count = count,
+                                            .draw = draw};
+        j.pipeline = koksma__direct_can(&j.frame) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
+        status = open_run(&run);
+        status = status ? status : open_layers(&j.frame, out);
+        status = status ? status : render_rounds(&j, how);
+        if (!status || status == KOKSMA_INTERRUPTED) {
+            write_results(&j);
+        }
+        run.rules->close(&run);
+        j.frame.sampler = run.base;
+    }
+    koksma__frame_close(&j.frame);
+    free(run.extra);
+    free(run.asks);
+    free(run.taken);
+    if (status && status != KOKSMA_INTERRUPTED) {
+        koksma_layers_fini(out);
+        *out = (koksma_layers){0};
+    }
+    if (report) {
+        *report = run.report;
+    }
+    return status;
+}

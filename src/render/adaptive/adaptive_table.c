@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The table of methods, and their specs. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/spec.h"
+#include "core/status.h"
+#include "render/adaptive/adaptive.h"
+
+static const koksma_adaptive *const table[] = {
+#define ADAPTIVE(name) &koksma__adaptive_##name,
+#include "render/adaptive/adaptive.def"
+#undef ADAPTIVE
+};
+
+const koksma_adaptive *koksma_adaptive_at(size_t i)
+{
+    return i < sizeof table / sizeof *table ? table[i] : NULL;
+}
+
+const koksma_adaptive *koksma_adaptive_find(const char *name)
+{
+    for (size_t i = 0; koksma_adaptive_at(i); i++) {
+        if (!strcmp(table[i]->name, name)) {
+            return table[i];
+        }
+    }
+    return NULL;
+}
+
+koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
+{
+    char name[64];
+    const size_t length = strcspn(text, ":");
+    *out = (koksma_adaptive_options){0};
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
+    out->method = koksma_adaptive_find(name);
+    if (!out->method) {
+        return koksma__fail(KOKSMA_UNKNOWN, "no adaptive method '%s'; 'koksma list adaptive' names them", name);
+    }
+    return koksma__params_parse(name, out->method->params, text[length] ? text + length + 1 : "", out->params);
+}
+
+void koksma_adaptive_text(const koksma_adaptive_options *options, char *text)
+{
+    snprintf(text, KOKSMA_MAX_SPEC, "%s", options->method->name);
+    koksma__params_text(options->method->params, options->params, text, KOKSMA_MAX_SPEC);
+}

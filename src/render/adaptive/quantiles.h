@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Quantiles of Student's t and of chi-squared, to 1e-9. */
+#ifndef KOKSMA_RENDER_ADAPTIVE_QUANTILES_H
+#define KOKSMA_RENDER_ADAPTIVE_QUANTILES_H
+
+/* x with P(T <= x) = p, 0.5 <= p < 1, degrees > 0. */
+double koksma__student_quantile(double p, double degrees);
+
+/* x with P(X <= x) = p, 0 < p < 1, degrees > 0. */
+double koksma__chi_squared_quantile(double p, double degrees);
+
+#endif

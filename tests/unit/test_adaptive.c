@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Adaptive sampling: what it costs, what it may not exceed, bits, and the strata. */
+#include <koksma/adaptive.h>
+
+#include "render/adaptive/quantiles.h"
+#include "rendering.h"
+
+enum { WIDTH = 37, HEIGHT = 23, PIXELS = WIDTH * HEIGHT };
+
+/* Every method with something that makes it go on. */
+static const char *const methods[] = {
+    "hierarchical",
+    "hierarchical:threshold=0,levels=3,reuse=renewed,pairing=shuffled",
+    "hierarchical:phase=folded,reuse=fresh",
+    "hierarchical:phase=shifted",
+    "selective:threshold=0,below=2",
+    "selective:reuse=fresh,levels=1",
+    "contrast:threshold=0.1,most=5",
+    "confidence:threshold=0.01,most=5",
+    "confidence:threshold=0.01,test=chi2,most=5,level=0.99",
+    "relative-error:threshold=0.02,most=7",
+    "two-stage:threshold=0.05,most=6,first=2",
+    "blocks:threshold=0.001,most=6",
+};
+enum { N_METHODS = sizeof methods / sizeof *methods };
+
+static koksma_adaptive_options adaptive_of(const char *text, double budget)
+{
+    koksma_adaptive_options adaptive;
+    assert_ok(koksma_adaptive_parse(text, &adaptive));
+    adaptive.budget = budget;
+    return adaptive;
+}
+
+static koksma_render_options options_for(const koksma_scene *scene, int spp)
+{
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene);
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.spp = spp;
+    return options;
+}
+
+static koksma_layers render(const koksma_scene *scene, const char *method, double budget, int threads,
+                            koksma_adaptive_report *report)
+{
+    const koksma_run run = {.threads = threads};
+    const koksma_render_options options = options_for(scene, 4);
+    const koksma_adaptive_options adaptive = adaptive_of(method, budget);
+    koksma_layers layers;
+    assert_ok(koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, report));
+    return layers;
+}
+
+static void every_method_is_tried(void **state)
+{
+    (void)state;
+    for (size_t i = 0; koksma_adaptive_at(i); i++) {
+        const char *name = koksma_adaptive_at(i)->name;
+        bool tried = false;
+        for (size_t m = 0; m < N_METHODS; m++) {
+            tried |= !strncmp(methods[m], name, strlen(name));
+        }
+        if (!tried) {
+            fail_msg("no test of %s", name);
+        }
+    }
+}
+
+static void same_bits_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("all", &scene));
+    for (size_t m = 0; m < 2 * N_METHODS; m++) {
+        const double budget = m % 2 ? 0 : 21.5;
+        koksma_adaptive_report first, other;
+        koksma_layers one = render(scene, methods[m / 2], budget, 1, &first);
+        for (int threads = 2; threads <= 5; threads += 3) {
+            koksma_layers many = render(scene, methods[m / 2], budget, threads, &other);
+            assert_memory_equal(one.image.pixels, many.image.pixels, PIXELS * sizeof(float));
+            assert_memory_equal(one.samples.pixels, many.samples.pixels, PIXELS * sizeof(float));
+            assert_memory_equal(one.variance.pixels, many.variance.pixels, PIXELS * sizeof(float));
+            assert_true(one.rays == many.rays);
+            assert_memory_equal(&first, &other, sizeof first);
+            koksma_layers_fini(&many);
+        }
+        koksma_layers_fini(&one);
+    }
+    koksma_scene_close(scene);
+}
+
+/* A grey sky: each pixel is exactly it, and costs the first samples; two-stage and fresh must draw those that count.
+ */
+static void constant_pictures_cost_the_first_samples(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40},"
+                                   "\"background\": 0.3, \"materials\": [], \"shapes\": []}");
+    for (size_t m = 0; m < 2 * N_METHODS; m++) {
+        const char *method = methods[m / 2];
+        koksma_adaptive_report report;
+        koksma_layers layers = render(scene, method, m % 2 ? 0 : 50, 2, &report);
+        const uint64_t again = strstr(method, "fresh") ? report.first : strstr(method, "two-stage") ? 4 * PIXELS : 0;
+        if (report.samples != report.first + again || layers.rays != report.samples) {
+            fail_msg("%s took %llu samples, %llu of them at first", method, (unsigned long long)report.samples,
+                     (unsigned long long)report.first);
+        }
+        for (int i = 0; i < PIXELS; i++) {
+            assert_near((double)layers.image.pixels[i], (double)0.3f, 1e-7);
+            assert_true(layers.variance.pixels[i] == 0);
+        }
+        koksma_layers_fini(&layers);
+    }
+    koksma_scene_close(scene);
+}
+
+/* The most samples that a pixel may have, 4 of them at first, or in a set. */
+static double limit_of(const koksma_adaptive_options *a)
+{
+    if (!a->method->own_samples) {
+        return 4 * a->params[1] + (strcmp(a->method->name, "two-stage") == 0 ? 4 * a->params[0] : 0);
+    }
+    const double leaves = 4 * pow(4, a->params[0]);
+    return a->params[2] == 1 ? 4 * (pow(4, a->params[0] + 1) - 1) / 3 : a->params[2] == 2 ? 2 * leaves : leaves;
+}
+
+static void limits_and_budgets_are_kept(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("all", &scene));
+    for (size_t m = 0; m < 2 * N_METHODS; m++) {
+        const double budget = m % 2 ? 0 : 16.25;
+        const koksma_adaptive_options adaptive = adaptive_of(methods[m / 2], budget);
+        koksma_adaptive_report report;
+        koksma_layers layers = render(scene, methods[m / 2], budget, 0, &report);
+        double sum = 0;
+        for (int i = 0; i < PIXELS; i++) {
+            assert_true((double)layers.samples.pixels[i] <= limit_of(&adaptive));
+            sum += (double)layers.samples.pixels[i];
+        }
+        assert_true(sum == (double)report.samples);
+        assert_true(report.samples > report.first);
+        if (budget > 0) {
+            assert_true(sum <= budget * PIXELS);
+        }
+        koksma_layers_fini(&layers);
+    }
+    koksma_scene_close(scene);
+}
+
+/* One pixel is half black, half white, and its edge runs along strata of all levels: a stratum on either side has a
+   constant value, so any subdivision gives exactly 1/2. With the edge inside of strata the finest strata bound the
+   error: the edge crosses 4 2^levels of them, each of area 1 / (4 2^levels)^2 and wrong by 1 at most. */
+static void strata_weigh_their_volume(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {
+        "hierarchical:threshold=0.5,levels=%d,reuse=kept", "hierarchical:threshold=0.5,levels=%d,reuse=renewed",
+        "hierarchical:threshold=0.5,levels=%d,reuse=fresh", "hierarchical:threshold=0.5,levels=%d,pairing=shuffled",
+        "selective:threshold=0.5,levels=%d,reuse=kept"};
+    for (int form = 0; form < 5; form++) {
+        for (int levels = 0; levels <= 5; levels++) {
+            for (int inside = 0; inside < 2; inside++) {
+                char text[600], method[80];
+                snprintf(text, sizeof text,
+                         "{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90},"
+                         "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"checker\","
+                         "\"albedos\": [0, 1], \"period\": 8, \"phase\": [%g, 0.5]}],"
+                         "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1],"
+                         "\"material\": \"m\"}]}",
+                         inside ? 0.01 : 0.0);
+                snprintf(method, sizeof method, forms[form], levels);
+                koksma_scene *scene = scene_of(text);
+                koksma_render_options options = options_of(scene, "random", "distribution", 16, 1);
+                const koksma_adaptive_options adaptive = adaptive_of(method, 0);
+                koksma_adaptive_report report;
+                koksma_layers layers;
+                assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, &report));
+                /* the picture is 2 wide, the edge at x = -8 phase */
+                const double expected = inside ? (1 - 8 * 0.01) / 2 : 0.5;
+                const double got = fmin((double)layers.image.pixels[0], 1 - (double)layers.image.pixels[0]);
+                assert_near(got, expected, inside ? 1 / (4 * ldexp(1, levels)) : 1e-7);
+                assert_true(!levels || report.splits >= 8);
+                koksma_layers_fini(&layers);
+                koksma_scene_close(scene);
+            }
+        }
+    }
+}
+
+/* Figure 5.36: with shuffled strata neighbours are far apart in other uses. */
+static double needless(const koksma_scene *scene, const char *method)
+{
+    koksma_render_options options = options_for(scene, 64);
+    koksma_adaptive_options adaptive = adaptive_of(method, 0);
+    koksma_adaptive_report report;
+    koksma_layers layers;
+    adaptive.probes = 16;
+    assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, &report));
+    assert_true(report.needless <= report.splits && report.splits > 100);
+    koksma_layers_fini(&layers);
+    return (double)report.needless / (double)report.splits;
+}
+
+static void shuffled_strata_are_split_needlessly(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("ball", &scene));
+    const double aligned = needless(scene, "hierarchical:levels=1");
+    const double shuffled = needless(scene, "hierarchical:levels=1,pairing=shuffled");
+    const double selective = needless(scene, "selective:levels=1");
+    if (!(aligned < shuffled - 0.05 && selective < shuffled)) {
+        fail_msg("needless: aligned %.3f, shuffled %.3f, selective %.3f", aligned, shuffled, selective);
+    }
+    koksma_scene_close(scene);
+}
+
+/* Abramowitz & Stegun 1964, tables 26.8 and 26.10; and in closed form: t with 1 degree is Cauchy's, chi-squared with
+   2 is exponential. */
+static void quantiles_are_the_published(void **state)
+{
+    (void)state;
+    assert_near(koksma__student_quantile(0.975, 1), tan(M_PI * 0.475), 1e-8);
+    assert_near(koksma__student_quantile(0.975, 10), 2.228138852, 1e-8);
+    assert_near(koksma__student_quantile(0.95, 30), 1.697260887, 1e-8);
+    assert_near(koksma__student_quantile(0.975, 1e6), 1.959966, 1e-5);
+    assert_near(koksma__chi_squared_quantile(0.1, 2), -2 * log(0.9), 1e-9);
+    assert_near(koksma__chi_squared_quantile(0.95, 10), 18.307038053, 1e-8);
+    assert_near(koksma__chi_squared_quantile(0.05, 100), 77.929465165, 1e-7);
+}
+
+/* Copies of samples that only fill lanes are no rays. */
+static void rays_are_counted_once(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
+        "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}], \"lights\": ["
+        "{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 1],"
+        "\"radiance\": 2}]}");
+    for (int spp = 1; spp < 40; spp++) {
+        koksma_render_options options = options_of(scene, "random", "distribution", spp, 3);
+        koksma_layers layers;
+        assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+        assert_int_equal((int)layers.rays, 2 * 9 * spp);
+        koksma_layers_fini(&layers);
+    }
+    koksma_scene_close(scene);
+}
+
+static koksma_status try(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget)
+{
+    koksma_render_options options = options_for(scene, spp);
+    const koksma_adaptive_options adaptive = adaptive_of(method, budget);
+    koksma_layers layers;
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL);
+    koksma_layers_fini(&layers);
+    return status;
+}
+
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+static void errors_are_said(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_adaptive_options adaptive;
+    koksma_layers layers;
+    const koksma_run run = {.keep_going = stop_at_once};
+    assert_int_equal(koksma_adaptive_parse("adapt", &adaptive), KOKSMA_UNKNOWN);
+    assert_int_equal(koksma_adaptive_parse("blocks:size=3", &adaptive), KOKSMA_ARGUMENT);
+    assert_ok(koksma_scene_open("ball", &scene));
+    assert_int_equal(try(scene, "hierarchical", "random", 17, 0), KOKSMA_N);
+    assert_int_equal(try(scene, "hierarchical:levels=8", "random", 64, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(try(scene, "blocks", "random", 4, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(try(scene, "contrast", "regular", 4, 8), KOKSMA_ARGUMENT);
+    assert_int_equal(try(scene, "contrast", "regular:shift=1", 4, 8), KOKSMA_OK);
+    assert_int_equal(try(scene, "contrast", "halton", 4, 8), KOKSMA_OK);
+    assert_int_equal(try(scene, "relative-error", "halton", 4, 20), KOKSMA_ARGUMENT);
+    assert_int_equal(try(scene, "contrast", "random", 4, 3), KOKSMA_ARGUMENT);
+    assert_int_equal(try(scene, "confidence", "random", 1, 3), KOKSMA_N);
+    assert_int_equal(try(scene, "contrast:first=5,most=4", "random", 1, 9), KOKSMA_ARGUMENT);
+    koksma_render_options options = options_for(scene, 4);
+    adaptive = adaptive_of("contrast", 8);
+    options.scope = KOKSMA_SCOPE_IMAGE;
+    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
+    options.scope = KOKSMA_SCOPE_PIXEL;
+    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, NULL), KOKSMA_INTERRUPTED);
+    koksma_layers_fini(&layers);
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_is_tried),
+        cmocka_unit_test(same_bits_for_any_number_of_threads),
+        cmocka_unit_test(constant_pictures_cost_the_first_samples),
+        cmocka_unit_test(limits_and_budgets_are_kept),
+        cmocka_unit_test(strata_weigh_their_volume),
+        cmocka_unit_test(shuffled_strata_are_split_needlessly),
+        cmocka_unit_test(quantiles_are_the_published),
+        cmocka_unit_test(rays_are_counted_once),
+        cmocka_unit_test(errors_are_said),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
