@@ -16,3 +16,8 @@ add_library(openexr-core INTERFACE)
 target_include_directories(openexr-core SYSTEM INTERFACE ${OPENEXR_INCLUDE_DIRS})
 target_link_libraries(openexr-core INTERFACE ${OPENEXR_CORE_LIBRARY})
 set(OPENEXR_CORE openexr-core)
+
+# Optional: studies on many machines. The sanitizers and MPI's own libraries don't go together.
+if(KOKSMA_MPI AND NOT KOKSMA_SANITIZE)
+  find_package(MPI COMPONENTS C QUIET)
+endif()

@@ -27,6 +27,10 @@ typedef struct koksma_study koksma_study;
 /* The name of shipped plan i, NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* This process's rank among those that mpirun started; 0 without it. Ranks but 0 open a study with folder NULL; its
+   koksma_study_run does jobs for rank 0 until all are done. */
+KOKSMA_API int koksma_study_rank(void);
+
 typedef struct koksma_study_options {
     const char *const *plans; /* shipped names, or JSON files when the text has a '/' or ends in ".json". Several
                                  become one plan, "a+b" */
