@@ -26,6 +26,9 @@ koksma_status koksma__pool_references(koksma__pool *pool, const koksma_run *run)
 /* Ranks of this run; 1 without MPI. */
 int koksma__pool_size(void);
 
+/* Fails in a build without MPI that runs under mpirun. */
+koksma_status koksma__pool_check(void);
+
 /* The first rank's part, and the others': until the first says that all is done. */
 koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run);
 koksma_status koksma__pool_work(koksma_study *study);
