@@ -129,6 +129,9 @@ static int run_plans(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
+    if (koksma_study_rank() > 0) {
+        options.folder = NULL;
+    }
     const int code = run_study(arguments, &options, &work);
     cli_work_end(&work);
     return code;

@@ -60,3 +60,8 @@ if(ASSIMP_FOUND)
   list(APPEND KOKSMA_LAB_LINKS -lassimp)
 endif()
 list(REMOVE_DUPLICATES KOKSMA_LAB_LINKS)
+
+# Optional: studies on many machines. The sanitizers and MPI's own libraries don't go together.
+if(KOKSMA_MPI AND NOT KOKSMA_SANITIZE)
+  find_package(MPI COMPONENTS C QUIET)
+endif()

@@ -27,6 +27,10 @@ typedef struct koksma_study koksma_study;
 /* The name of shipped plan i, NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* This process's rank among those that mpirun started; 0 without it. Ranks but 0 open a study with folder NULL; its
+   koksma_study_run does jobs for rank 0 until all are done. */
+KOKSMA_API int koksma_study_rank(void);
+
 typedef struct koksma_study_options {
     const char *const *plans; /* shipped names, or JSON files when the text has a '/' or ends in ".json". Several
                                  become one plan, "a+b" */
@@ -92,6 +96,41 @@ typedef struct koksma_study_row {
 /* Row i of the published table `id` ("5.1"), from what the store has. *found is false past the end. */
 KOKSMA_API koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                                 bool *found);
+
+/* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
+
+typedef struct koksma_rank_options {
+    const char *scene;           /* a name or a file */
+    const char *const *patterns; /* specs */
+    size_t n_patterns;
+    int spp;
+    double time_limit_s;  /* 0: until the ranking is clear, or max_trials */
+    long long max_trials; /* 0: 1024 */
+} koksma_rank_options;
+
+/* One pattern of a ranking. */
+typedef struct koksma_rank_row {
+    size_t pattern;         /* index into the options' patterns */
+    size_t place;           /* from 1; shared by those that can't be told apart from the first of them */
+    double mean, low, high; /* of the mean absolute error of the image over the trials, with its 95 % interval */
+    double behind, behind_low, behind_high; /* relative difference to the best's mean, paired by trial */
+    char reason[256];                       /* not empty: why the pattern can't serve; it comes last, with place 0 */
+} koksma_rank_row;
+
+typedef struct koksma_ranking {
+    size_t n; /* patterns in the ranking */
+    long long trials;
+    double reference_error; /* the reference's own mean absolute error */
+    bool clear;             /* every neighbours in the ranking are different, or equal to 2 % */
+    double seconds;
+} koksma_ranking;
+
+/* Renders the scene with every pattern, trial by trial, and ranks them by error. Stops when the ranking is clear:
+   rounds of doubling numbers of trials, each judged with intervals of 99.5 %, because it is judged several times.
+   rows has room for n_patterns. Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve), MEMORY,
+   INTERRUPTED. */
+KOKSMA_API koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
+                                     koksma_ranking *out);
 
 #ifdef __cplusplus
 }

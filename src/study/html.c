@@ -56,7 +56,7 @@ void koksma__html_text(koksma__html *html, const char *text)
     }
 }
 
-static void append_base64(koksma__html *html, const unsigned char *bytes, size_t size)
+void koksma__html_base64(koksma__html *html, const unsigned char *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < size; i += 3) {
@@ -75,7 +75,7 @@ static void add_embedded(koksma__html *html, const char *type, const unsigned ch
     koksma__html_add(html, "<img width=\"%d\" height=\"%d\" alt=\"", width, height);
     koksma__html_text(html, alt);
     koksma__html_add(html, "\" src=\"data:%s;base64,", type);
-    append_base64(html, bytes, size);
+    koksma__html_base64(html, bytes, size);
     koksma__html_add(html, "\">");
 }
 

@@ -17,6 +17,9 @@ void koksma__html_add(koksma__html *html, const char *format, ...) KOKSMA_PRINTF
 /* Appends text with the characters of markup escaped. */
 void koksma__html_text(koksma__html *html, const char *text);
 
+/* Appends bytes in base 64. */
+void koksma__html_base64(koksma__html *html, const unsigned char *bytes, size_t size);
+
 /* <img> with the PNG of an image inside, `scale` CSS pixels a pixel, never smoothed. */
 koksma_status koksma__html_image(koksma__html *html, const koksma_image *image, int scale, const char *alt);
 

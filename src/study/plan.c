@@ -70,11 +70,12 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
 
 static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "patterns", "measures", "warps", "n",
-                                       "dim",     "trials",   "quick",    NULL};
+    static const char *const keys[] = {"comment", "id",  "patterns", "measures", "warps",
+                                       "n",       "dim", "trials",   "quick",    NULL};
     koksma__discrepancy_block *b = item;
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "id", false, &b->id);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_specs(node, "measures", koksma_measure_spec, &b->measures);
     if (!status && koksma__json_has(node, "warps")) {
@@ -124,11 +125,12 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__t
 
 static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "scenes", "patterns", "spp",        "options",
-                                       "size",    "trials", "quick",    "references", NULL};
+    static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp", "options",
+                                       "size",    "trials", "quick",  "references", NULL};
     koksma__image_block *b = item;
     double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "id", false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
@@ -299,8 +301,8 @@ static koksma_status check_tables(const koksma__json_node *root, const koksma__p
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"comment", "name",   "title",   "about", "discrepancies",
-                                       "images",  "tables", "figures", NULL};
+    static const char *const keys[] = {"comment", "name",   "title",   "about",     "discrepancies",
+                                       "images",  "tables", "figures", "questions", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
@@ -317,6 +319,10 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     status = status ? status
                     : koksma__plan_list(root, "figures", false, sizeof *p->figures, parse_figure, trials,
                                         (void **)&p->figures, &p->n_figures);
+    status = status ? status
+                    : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
+                                        (void **)&p->questions, &p->n_questions);
+    status = status ? status : koksma__plan_check_questions(root, p);
     if (!status && p->n_discrepancies + p->n_images == 0) {
         return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
     }

@@ -19,6 +19,7 @@ void koksma__texts_fini(koksma__texts *texts);
 
 /* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {
+    char *id;                         /* what questions call it; may be NULL */
     koksma__texts patterns, measures; /* canonical specs */
     koksma__texts warps;              /* names of maps of the square onto a domain; none: the square itself */
     koksma__wholes n;
@@ -35,6 +36,7 @@ typedef struct koksma__reference {
 
 /* scenes x patterns x spp x variants x trials, each compared with every reference */
 typedef struct koksma__image_block {
+    char *id;
     koksma__texts scenes, patterns;
     koksma__texts variants; /* canonical texts of the options; at least one, "" when the plan names none */
     koksma__wholes spp;
@@ -74,9 +76,26 @@ typedef struct koksma__figure {
     bool cells;  /* draw the cells or rows and columns in */
 } koksma__figure;
 
+/* Something that the report answers from blocks of the plan. */
+typedef enum koksma__question_kind {
+    KOKSMA__ASK_CORRELATION, /* which measure orders patterns as image error does */
+    KOKSMA__ASK_SLOPES,      /* how measures, or errors, fall with n */
+    KOKSMA__ASK_EQUAL,       /* how many samples of each pattern equal 16 of the first */
+    KOKSMA__ASK_OPTIONS,     /* what options, or warps, change */
+    KOKSMA__ASK_TABLE,       /* means, sorted */
+    KOKSMA__ASK_KINDS
+} koksma__question_kind;
+
+typedef struct koksma__question {
+    char *id, *title;
+    koksma__question_kind kind;
+    char *discrepancies, *images; /* ids of blocks; NULL: none */
+} koksma__question;
+
 typedef struct koksma__plan {
     char *name, *title, *about;
-    size_t n_discrepancies, n_images, n_tables, n_figures;
+    size_t n_discrepancies, n_images, n_tables, n_figures, n_questions;
+    koksma__question *questions;
     koksma__discrepancy_block *discrepancies;
     koksma__image_block *images;
     koksma__table *tables;

@@ -53,6 +53,7 @@ koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
     JOIN(images);
     JOIN(tables);
     JOIN(figures);
+    JOIN(questions);
 #undef JOIN
     koksma__plan_fini(q);
     return status;
@@ -88,6 +89,7 @@ static void free_table(koksma__table *t)
 
 static void free_image_block(koksma__image_block *b)
 {
+    free(b->id);
     koksma__texts_fini(&b->scenes);
     koksma__texts_fini(&b->variants);
     koksma__texts_fini(&b->patterns);
@@ -102,6 +104,7 @@ static void free_image_block(koksma__image_block *b)
 void koksma__plan_fini(koksma__plan *p)
 {
     for (size_t i = 0; i < p->n_discrepancies; i++) {
+        free(p->discrepancies[i].id);
         koksma__texts_fini(&p->discrepancies[i].patterns);
         koksma__texts_fini(&p->discrepancies[i].measures);
         koksma__texts_fini(&p->discrepancies[i].warps);
@@ -119,6 +122,13 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->figures[i].pattern);
         free(p->figures[i].scene);
     }
+    for (size_t i = 0; i < p->n_questions; i++) {
+        free(p->questions[i].id);
+        free(p->questions[i].title);
+        free(p->questions[i].discrepancies);
+        free(p->questions[i].images);
+    }
+    free(p->questions);
     free(p->discrepancies);
     free(p->images);
     free(p->tables);

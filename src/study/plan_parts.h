@@ -30,4 +30,8 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
 
+/* An item of `questions`; and whether the blocks that questions name are there. */
+koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
+koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *plan);
+
 #endif

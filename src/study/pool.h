@@ -13,14 +13,21 @@
 
 typedef struct koksma__pool {
     koksma__tasks *tasks;
+    bool last; /* no other kind of jobs comes after */
     atomic_size_t done;
 } koksma__pool;
 
 /* Does all jobs that are not done on run's threads. */
 koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run);
 
+/* Makes or reads every reference that a job needs. */
+koksma_status koksma__pool_references(koksma__pool *pool, const koksma_run *run);
+
 /* Ranks of this run; 1 without MPI. */
 int koksma__pool_size(void);
+
+/* Fails in a build without MPI that runs under mpirun. */
+koksma_status koksma__pool_check(void);
 
 /* The first rank's part, and the others': until the first says that all is done. */
 koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run);

@@ -160,6 +160,18 @@ bool koksma__reference_exists(const koksma_study *study, const koksma__reference
     return !stat(path, &info);
 }
 
+koksma_status koksma__replicates_mean(const koksma__replicates *s, int width, int height, koksma_image *out,
+                                      double *error)
+{
+    const int channels = (int)(s->count / ((size_t)width * (size_t)height));
+    const koksma_status status = koksma_image_init(out, width, height, channels);
+    for (size_t i = 0; !status && i < s->count; i++) {
+        out->pixels[i] = (float)(s->sum[i] / (double)s->n);
+    }
+    *error = standard_error(s);
+    return status;
+}
+
 /* The picture last: where it is, the row is. */
 koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *study,
                                         koksma__reference_image *reference)
@@ -170,15 +182,11 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     if (mkdir(path, 0777) && errno != EEXIST) {
         status = koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     }
-    const int channels = (int)(s->count / ((size_t)reference->width * (size_t)reference->height));
-    if (!status) {
-        status = koksma_image_init(&reference->image, reference->width, reference->height, channels);
-    }
-    for (size_t i = 0; !status && i < s->count; i++) {
-        reference->image.pixels[i] = (float)(s->sum[i] / (double)s->n);
-    }
+    double error;
+    status =
+        status ? status : koksma__replicates_mean(s, reference->width, reference->height, &reference->image, &error);
     const koksma__series key = koksma__reference_key(reference, name);
-    status = status ? status : koksma__store_put_reference(study->store, &key, standard_error(s));
+    status = status ? status : koksma__store_put_reference(study->store, &key, error);
     status = status ? status : koksma__store_commit(study->store);
     koksma__reference_path(study, reference, path, sizeof path);
     status = status ? status : koksma_image_write(path, &reference->image, name);

@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.h"
 #include "core/status.h"
+#include "study/answers.h"
 #include "study/report.h"
 #include "study/report_head.h"
 #include "study/tables.h"
@@ -300,29 +301,60 @@ static koksma_status add_tables(koksma_study *study, koksma__html *h, bool image
     return status;
 }
 
+static bool has_tables(const koksma_study *study, bool images)
+{
+    for (size_t i = 0; i < study->plan.n_tables; i++) {
+        if (images == (study->plan.tables[i].scene != NULL)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* When, where and how long. One element, so that reports of the same rows differ in it alone. */
+static koksma_status add_runs(koksma_study *study, koksma__html *h)
+{
+    bool found = true;
+    koksma__run_record run;
+    koksma_status status = KOKSMA_OK;
+    koksma__html_add(h, "<ul id=\"runs\">");
+    for (long long i = 0; !status && found; i++) {
+        status = koksma__store_run(study->store, i, &run, &found);
+        if (!status && found) {
+            koksma__html_add(h, "<li>%s: %lld jobs in %.1f s with %lld workers on ", run.started, run.jobs,
+                             run.seconds, run.workers);
+            koksma__html_text(h, run.machine);
+            koksma__html_add(h, ", koksma %s</li>", run.version);
+        }
+    }
+    koksma__html_add(h, "</ul>\n");
+    return status;
+}
+
 static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma_run *run)
 {
     koksma__tally tally = {0};
     koksma__html_add(h, "%s<title>", koksma__report_head);
     koksma__html_text(h, study->plan.title);
-    koksma__html_add(h, "</title>\n</head>\n<body>\n<h1>");
+    koksma__html_add(h, "</title>\n</head>\n<body>\n<main>\n<h1>");
     koksma__html_text(h, study->plan.title);
     koksma__html_add(h, "</h1>\n<p>");
     koksma__html_text(h, study->plan.about ? study->plan.about : "");
     koksma__html_add(h, "</p>\n");
-    if (study->plan.n_images) {
+    if (has_tables(study, true)) {
         koksma__html_add(h,
                          "<h2>Errors of images</h2>\n<p>Absolute error in luminance over the pixels, one pixel wide "
                          "box filter. Intervals are 95 %% over trials. A maximum is one pixel of the picture: it is "
                          "printed and not judged.</p>\n");
     }
     koksma_status status = add_tables(study, h, true, &tally);
-    koksma__html_add(
-        h,
-        "<h2>Irregularity of the patterns</h2>\n<p>Exact values, mean over point sets. z is the difference of "
-        "the published mean from ours in standard errors of a mean of 100 sets; below "
-        "%.1f it is taken for chance. The largest of 100 is a mean over blocks of 100 sets.</p>\n",
-        AGREEMENT_Z);
+    if (has_tables(study, false))
+        koksma__html_add(
+            h,
+            "<h2>Irregularity of the patterns</h2>\n<p>Exact values, mean over point sets. z is the difference of "
+            "the published mean from ours in standard errors of a mean of 100 sets; below "
+            "%.1f it is taken for chance. The largest of 100 is a mean over blocks of 100 sets.</p>\n",
+            AGREEMENT_Z);
     if (!status) {
         status = add_tables(study, h, false, &tally);
     }
@@ -332,15 +364,16 @@ static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma
             "<p>Of %zu published means %zu agree, %zu differ for a reason that is known (notes), %zu differ.</p>\n",
             tally.cells, tally.agree, tally.explained, tally.cells - tally.agree - tally.explained);
     }
-    if (!status) {
-        status = koksma__report_figures(study, h, run);
-    }
+    status = status ? status : koksma__report_questions(study, h);
+    status = status ? status : koksma__report_pictures(study, h, run);
+    status = status ? status : koksma__report_figures(study, h, run);
     koksma__html_add(h, "<h2>How it was made</h2>\n<p>koksma %s, plan <code>", koksma_version());
     koksma__html_text(h, study->plan.name);
     koksma__html_add(
         h, "</code>. The rows are in <code>results.sqlite</code> beside this file; every one can be made again "
-           "from its key. Results do not depend on the number of threads or on interruptions.</p>\n"
-           "</body>\n</html>\n");
+           "from its key. Results do not depend on the number of threads or on interruptions.</p>\n");
+    status = status ? status : add_runs(study, h);
+    koksma__html_add(h, "</main>\n</body>\n</html>\n");
     return status;
 }
 

@@ -13,4 +13,8 @@ typedef struct koksma__tally {
 /* Appends the figures of the plan: point sets as SVG, scenes as pixels. */
 koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma_run *run);
 
+/* Appends one trial of every pattern of the image blocks beside its reference: pictures, error maps, and a comparer.
+ */
+koksma_status koksma__report_pictures(koksma_study *study, koksma__html *html, const koksma_run *run);
+
 #endif

@@ -41,7 +41,7 @@ static koksma_status do_job(void *context, size_t i)
 }
 
 /* Every reference that a job needs. */
-static koksma_status load_references(koksma__pool *pool, const koksma_run *run)
+koksma_status koksma__pool_references(koksma__pool *pool, const koksma_run *run)
 {
     koksma_study *study = pool->tasks->study;
     koksma_status status = KOKSMA_OK;
@@ -56,7 +56,7 @@ static koksma_status load_references(koksma__pool *pool, const koksma_run *run)
 
 koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run)
 {
-    const koksma_status status = load_references(pool, run);
+    const koksma_status status = koksma__pool_references(pool, run);
     return status ? status : koksma__parallel(run, pool->tasks->n_jobs, do_job, pool);
 }
 
@@ -125,7 +125,7 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
     if (status) {
         return status;
     }
-    koksma__pool pool = {.tasks = &tasks};
+    koksma__pool pool = {.tasks = &tasks, .last = images || !study->plan.n_images};
     status = koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
@@ -133,7 +133,7 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
         done_before += (size_t)tasks.at[i].done_before;
     }
     summary->done_before += done_before;
-    if (!status && !before && done_before < tasks.n_jobs) {
+    if (!status && !before && (done_before < tasks.n_jobs || (koksma__pool_size() > 1 && tasks.n_jobs))) {
         status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool, run) : koksma__pool_threads(&pool, run);
     }
     summary->done_now += atomic_load(&pool.done);

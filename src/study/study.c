@@ -7,6 +7,7 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
+#include "study/pool.h"
 #include "study/study.h"
 
 enum { MAX_PLAN = 1 << 22 };
@@ -209,8 +210,10 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
     if (!study) {
         return koksma__fail_memory(sizeof *study);
     }
-    const koksma_status status =
-        options->n_plans ? open_with_plans(study, options) : open_folder(study, options->folder);
+    koksma_status status = koksma__pool_check();
+    status = status             ? status
+             : options->n_plans ? open_with_plans(study, options)
+                                : open_folder(study, options->folder);
     if (status) {
         koksma_study_close(study);
         return status;

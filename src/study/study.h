@@ -74,6 +74,10 @@ typedef struct koksma__replicates {
 
 koksma_status koksma__replicates_add(koksma__replicates *sums, const koksma_image *image);
 
+/* Their mean, and its own expected absolute error. Allocates out. */
+koksma_status koksma__replicates_mean(const koksma__replicates *sums, int width, int height, koksma_image *out,
+                                      double *error);
+
 /* The mean of all replicates becomes the reference's pixels, its file, and a row of the store. Frees the sums. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);

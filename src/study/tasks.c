@@ -289,14 +289,18 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
     return status;
 }
 
-/* The seed is a hash of the key without the options, so that options are compared on the same points. */
+/* A hash of the key without the options, so that options are compared on the same points. */
+uint64_t koksma__task_seed(const koksma__task *t, long long trial)
+{
+    return t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
+                                       t->n, t->width, t->height, trial)
+                    : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
+}
+
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, long long trial,
                               koksma__result *results)
 {
-    const uint64_t seed =
-        t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
-                                    t->n, t->width, t->height, trial)
-                 : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
+    const uint64_t seed = koksma__task_seed(t, trial);
     for (size_t k = 0; k < t->n_series; k++) {
         results[k].trial = trial;
         results[k].seed = seed;

@@ -55,6 +55,8 @@ bool koksma__task_is_done(const koksma__task *task, long long trial);
 /* The key of result k of a task's jobs; `name` holds a text of it. */
 koksma__series koksma__task_series(const koksma__task *task, size_t k, char name[KOKSMA__REFERENCE_NAME]);
 
+uint64_t koksma__task_seed(const koksma__task *task, long long trial);
+
 /* Does one job: n_series results. The references must have their pixels. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               koksma__result *results);

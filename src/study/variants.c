@@ -10,28 +10,64 @@
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = 256 };
 
-/* An option of koksma_render_options. `canonical` checks a word, sets it, and gives its canonical form. */
+/* An option of koksma_render_options; set checks a word. */
 typedef struct option {
     const char *name, *fallback;
     bool changes_image;
-    koksma_status (*set)(koksma_render_options *options, const char *word, char canonical[MAX_WORD]);
+    koksma_status (*set)(koksma_render_options *options, const char *word);
 } option;
 
-static koksma_status set_pairing(koksma_render_options *options, const char *word, char canonical[MAX_WORD])
+/* The index of a word among names, which end at NULL. */
+static koksma_status find(const char *what, const char *(*name_at)(int i), const char *word, int *index)
 {
-    for (int i = 0; koksma_pairing_name((koksma_pairing)i); i++) {
-        if (!strcmp(koksma_pairing_name((koksma_pairing)i), word)) {
-            options->pairing = (koksma_pairing)i;
-            snprintf(canonical, MAX_WORD, "%s", word);
+    char list[MAX_WORD] = "";
+    for (*index = 0; name_at(*index); (*index)++) {
+        if (!strcmp(name_at(*index), word)) {
             return KOKSMA_OK;
         }
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", name_at(*index));
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "pairing '%s': it takes shuffled or aligned", word);
+    return koksma__fail(KOKSMA_ARGUMENT, "%s '%s': it takes %s", what, word, list);
 }
+
+#define NAMES(function, call)                                                                                        \
+    static const char *function(int i)                                                                               \
+    {                                                                                                                \
+        return call;                                                                                                 \
+    }
+NAMES(pairing_at, koksma_pairing_name((koksma_pairing)i))
+NAMES(scope_at, koksma_scope_name((koksma_scope)i))
+NAMES(lights_at, koksma_light_selection_name((koksma_light_selection)i))
+NAMES(filter_at, koksma_filter_at((size_t)i) ? koksma_filter_at((size_t)i)->name : NULL)
+NAMES(integrator_at, koksma_integrator_at((size_t)i) ? koksma_integrator_at((size_t)i)->name : NULL)
+NAMES(flag_at, i == 0 ? "no" : i == 1 ? "yes" : NULL)
+#undef NAMES
+
+#define SETTER(name, field, value)                                                                                   \
+    static koksma_status set_##name(koksma_render_options *options, const char *word)                                \
+    {                                                                                                                \
+        int i;                                                                                                       \
+        const koksma_status status = find(#name, name##_at, word, &i);                                               \
+        if (!status) {                                                                                               \
+            options->field = value;                                                                                  \
+        }                                                                                                            \
+        return status;                                                                                               \
+    }
+#define splat_at flag_at
+SETTER(pairing, pairing, (koksma_pairing)i)
+SETTER(scope, scope, (koksma_scope)i)
+SETTER(lights, lights, (koksma_light_selection)i)
+SETTER(filter, filter, koksma_filter_at((size_t)i))
+SETTER(integrator, integrator, koksma_integrator_at((size_t)i))
+SETTER(splat, splat, i == 1)
+#undef SETTER
 
 /* One line an option that studies may vary. */
 static const option known[] = {
-    {"pairing", "shuffled", false, set_pairing},
+    {"pairing", "shuffled", false, set_pairing}, {"scope", "pixel", false, set_scope},
+    {"lights", "all", false, set_lights},        {"filter", "box", true, set_filter},
+    {"splat", "no", false, set_splat},           {"integrator", "distribution", true, set_integrator},
 };
 
 enum { N_KNOWN = sizeof known / sizeof *known };
@@ -63,10 +99,10 @@ koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_
 {
     koksma_status status = KOKSMA_OK;
     for (int i = 0; !status && i < N_KNOWN; i++) {
-        char word[MAX_WORD], canonical[MAX_WORD];
+        char word[MAX_WORD];
         word_of(text, &known[i], word);
         if (known[i].changes_image || !of_reference) {
-            status = known[i].set(options, word, canonical);
+            status = known[i].set(options, word);
         }
     }
     return status;
@@ -86,7 +122,7 @@ void koksma__variant_of_reference(const char *text, char *out)
 
 /* ---- Parsing ------------------------------------------------------------------------------------------- */
 
-/* The words of one option, canonical; none when the plan doesn't name it. */
+/* The words of one option; none when the plan doesn't name it. */
 static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
 {
     if (!koksma__json_has(node, o->name)) {
@@ -97,18 +133,11 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
     status = status ? status : koksma__json_member(node, o->name, &list);
     for (size_t i = 0; !status && i < words->n; i++) {
         koksma_render_options scratch;
-        char canonical[MAX_WORD] = "";
         memset(&scratch, 0, sizeof scratch);
         const koksma__json_node item = koksma__json_item(&list, i);
-        if (o->set(&scratch, words->at[i], canonical)) {
+        if (o->set(&scratch, words->at[i])) {
             return koksma__json_fail(&item, "%s", koksma_error_text());
         }
-        char *copy = strdup(canonical);
-        if (!copy) {
-            return koksma__fail_memory(strlen(canonical));
-        }
-        free(words->at[i]);
-        words->at[i] = copy;
     }
     return status;
 }

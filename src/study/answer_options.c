@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What options (of renders) and warps (of points) change: the relative difference to the first of them, paired by
+   trial, because both see the same points. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/answers.h"
+
+/* One comparison: option v of a pattern at n in a case against option 0. */
+typedef struct tally {
+    size_t cases, better, worse;
+    double logs; /* sum of the logs of the ratios */
+} tally;
+
+typedef struct side {
+    koksma__result *results;
+    koksma__summary mean;
+} side;
+
+static void compare(koksma__grid *g, const side *base, const side *other, tally *t)
+{
+    const size_t n = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
+    const koksma__summary d = koksma__paired(other->results->values, base->results->values, n, KOKSMA__RESULT_STRIDE);
+    koksma__estimate e = {d.mean / base->mean.mean, d.low / base->mean.mean, d.high / base->mean.mean};
+    koksma__grid_interval(g, e, 3);
+    if (!isnan(e.value)) {
+        t->cases++;
+        t->better += e.high < 0;
+        t->worse += e.low > 0;
+        t->logs += log(other->mean.mean / base->mean.mean);
+    }
+}
+
+static void add_answer(koksma__html *h, const char *base, const char *other, const tally *t)
+{
+    if (t->cases) {
+        koksma__html_add(h, "<p><strong>Answer.</strong> ");
+        koksma__html_text(h, other[0] ? other : "defaults");
+        koksma__html_add(h, " instead of ");
+        koksma__html_text(h, base[0] ? base : "defaults");
+        koksma__html_add(
+            h,
+            ": the value is %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely larger "
+            "in %zu, too close to tell in %zu.</p>\n",
+            100 * (exp(t->logs / (double)t->cases) - 1), t->cases, t->better, t->worse,
+            t->cases - t->better - t->worse);
+    }
+}
+
+/* The rows of one case: patterns x n, the first option's value and the others' relative differences. */
+typedef struct grid_case {
+    const char *name, *measure;
+    const koksma__texts *patterns, *options;
+    const koksma__wholes *n;
+    const koksma__image_block *image;
+    const koksma__discrepancy_block *discrepancy;
+} grid_case;
+
+static koksma_status add_row(koksma_study *study, koksma__grid *g, const grid_case *c, const char *pattern,
+                             long long n, tally *tallies)
+{
+    side base = {0};
+    koksma_status status = KOKSMA_OK;
+    koksma__grid_row(g);
+    koksma__grid_text(g, c->image ? c->name : c->measure);
+    koksma__grid_text(g, pattern);
+    koksma__grid_number(g, (double)n, 7);
+    for (size_t v = 0; !status && v < c->options->n; v++) {
+        side s = {0};
+        status = c->image ? koksma__image_mean(study, c->image, c->name, c->options->at[v], pattern, n, &s.results,
+                                               &s.mean)
+                          : koksma__discrepancy_mean(study, c->discrepancy, c->options->at[v], pattern, n, c->measure,
+                                                     &s.results, &s.mean);
+        if (!status && v == 0) {
+            base = s;
+            koksma__grid_interval(g, koksma__estimate_of(&s.mean), 3);
+        } else if (!status) {
+            compare(g, &base, &s, &tallies[v]);
+            free(s.results);
+        }
+    }
+    free(base.results);
+    return status;
+}
+
+static koksma_status add_case(koksma_study *study, koksma__grid *g, const grid_case *c, tally *tallies)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < c->patterns->n * c->n->n; i++) {
+        status = add_row(study, g, c, c->patterns->at[i / c->n->n], c->n->at[i % c->n->n], tallies);
+    }
+    return status;
+}
+
+/* All cases of a block: its scenes, or its measures. */
+static koksma_status add_block(koksma_study *study, koksma__html *h, const char *id, size_t number, grid_case *c)
+{
+    const koksma__texts *cases = c->image ? &c->image->scenes : &c->discrepancy->measures;
+    tally *tallies = calloc(c->options->n, sizeof *tallies);
+    koksma__html rows = {0};
+    koksma__grid grid;
+    char text[KOKSMA__VARIANT_TEXT + 64];
+    koksma_status status = tallies ? KOKSMA_OK : koksma__fail_memory(c->options->n * sizeof *tallies);
+    snprintf(text, sizeof text, "options-%.32s-%zu", id, number);
+    koksma__grid_open(&grid, &rows, text);
+    koksma__grid_head(&grid, c->image ? "scene" : "measure");
+    koksma__grid_head(&grid, "pattern");
+    koksma__grid_head(&grid, "N");
+    for (size_t v = 0; v < c->options->n; v++) {
+        snprintf(text, sizeof text, "%s%s", v ? "relative change: " : "",
+                 c->options->at[v][0] ? c->options->at[v] : "defaults");
+        koksma__grid_head_interval(&grid, text);
+    }
+    for (size_t i = 0; !status && i < cases->n; i++) {
+        *(c->image ? &c->name : &c->measure) = cases->at[i];
+        status = add_case(study, &grid, c, tallies);
+    }
+    koksma__grid_close(&grid);
+    for (size_t v = 1; !status && v < c->options->n; v++) {
+        add_answer(h, c->options->at[0], c->options->at[v], &tallies[v]);
+    }
+    koksma__html_add(h, "%s", rows.text ? rows.text : "");
+    h->failed |= rows.failed;
+    free(rows.text);
+    free(tallies);
+    return status;
+}
+
+koksma_status koksma__answer_options(koksma_study *study, koksma__html *h, const koksma__topic *topic)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t number = 0;
+    for (size_t b = 0; !status && b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = topic->discrepancies[b];
+        grid_case c = {.discrepancy = d, .patterns = &d->patterns, .options = &d->warps, .n = &d->n};
+        status = d->warps.n > 1 ? add_block(study, h, topic->id, ++number, &c) : KOKSMA_OK;
+    }
+    for (size_t b = 0; !status && b < topic->n_images; b++) {
+        const koksma__image_block *i = topic->images[b];
+        grid_case c = {.image = i, .patterns = &i->patterns, .options = &i->variants, .n = &i->spp};
+        status = i->variants.n > 1 ? add_block(study, h, topic->id, ++number, &c) : KOKSMA_OK;
+    }
+    return status;
+}

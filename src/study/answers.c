@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/answers.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+/* ---- What the store has -------------------------------------------------------------------------------- */
+
+static koksma_status mean_of(koksma_study *study, const koksma__series *series, long long trials,
+                             koksma__result **results, koksma__summary *mean)
+{
+    koksma__result *found;
+    size_t n;
+    const koksma_status status = koksma__series_results(study, series, trials, &found, &n);
+    if (status) {
+        return status;
+    }
+    *mean = koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
+    if (results) {
+        *results = found;
+    } else {
+        free(found);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discrepancy_block *block, const char *warp,
+                                       const char *pattern, long long n, const char *measure,
+                                       koksma__result **results, koksma__summary *mean)
+{
+    const koksma__series series = {.kind = "discrepancy",
+                                   .scene = "",
+                                   .scene_hash = "",
+                                   .options = warp,
+                                   .pattern = pattern,
+                                   .what = measure,
+                                   .n = n,
+                                   .dim = block->dim};
+    return mean_of(study, &series, block->trials, results, mean);
+}
+
+koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
+                                 const char *variant, const char *pattern, long long spp, koksma__result **results,
+                                 koksma__summary *mean)
+{
+    const koksma__study_scene *s = koksma__study_scene_of(study, scene);
+    char name[KOKSMA__REFERENCE_NAME];
+    int width, height;
+    koksma__block_size(block, s, &width, &height);
+    koksma__reference_name(&block->references[block->n_references - 1], name);
+    const koksma__series series = {.kind = "image",
+                                   .scene = s->name,
+                                   .scene_hash = s->hash,
+                                   .options = variant,
+                                   .pattern = pattern,
+                                   .what = name,
+                                   .n = spp,
+                                   .width = width,
+                                   .height = height};
+    return mean_of(study, &series, block->trials, results, mean);
+}
+
+void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s", scene, variant[0] ? ", " : "", variant);
+}
+
+koksma__estimate koksma__estimate_of(const koksma__summary *s)
+{
+    return (koksma__estimate){s->mean, s->low, s->high};
+}
+
+/* ---- Questions ----------------------------------------------------------------------------------------- */
+
+typedef koksma_status (*answer)(koksma_study *study, koksma__html *html, const koksma__topic *topic);
+
+static const answer answers[KOKSMA__ASK_KINDS] = {
+    [KOKSMA__ASK_CORRELATION] = koksma__answer_correlation,
+    [KOKSMA__ASK_SLOPES] = koksma__answer_slopes,
+    [KOKSMA__ASK_EQUAL] = koksma__answer_equal,
+    [KOKSMA__ASK_OPTIONS] = koksma__answer_options,
+    [KOKSMA__ASK_TABLE] = koksma__answer_table,
+};
+
+static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__question *q)
+{
+    const koksma__plan *plan = &study->plan;
+    koksma__topic topic = {.id = q->id};
+    for (size_t b = 0; b < plan->n_discrepancies && topic.n_discrepancies < KOKSMA__TOPIC_BLOCKS; b++) {
+        const char *id = plan->discrepancies[b].id;
+        if (q->discrepancies && id && !strcmp(id, q->discrepancies)) {
+            topic.discrepancies[topic.n_discrepancies++] = &plan->discrepancies[b];
+        }
+    }
+    for (size_t b = 0; b < plan->n_images && topic.n_images < KOKSMA__TOPIC_BLOCKS; b++) {
+        if (q->images && plan->images[b].id && !strcmp(plan->images[b].id, q->images)) {
+            topic.images[topic.n_images++] = &plan->images[b];
+        }
+    }
+    koksma__html_add(html, "<h3 id=\"question-%s\">(%s) ", q->id, q->id);
+    koksma__html_text(html, q->title);
+    koksma__html_add(html, "</h3>\n");
+    return answers[q->kind](study, html, &topic);
+}
+
+/* A plan that asks nothing gets what its blocks can answer. */
+static koksma_status ask_all(koksma_study *study, koksma__html *html)
+{
+    static const char *const titles[KOKSMA__ASK_KINDS] = {"Which measure orders the patterns as the error does?",
+                                                          "How fast does it fall?", "How many samples are as good?",
+                                                          "What do the options change?", "Means"};
+    static const koksma__question_kind order[] = {KOKSMA__ASK_TABLE, KOKSMA__ASK_CORRELATION, KOKSMA__ASK_SLOPES,
+                                                  KOKSMA__ASK_EQUAL, KOKSMA__ASK_OPTIONS};
+    const koksma__plan *plan = &study->plan;
+    koksma_status status = KOKSMA_OK;
+    koksma__topic topic = {.id = ""};
+    for (; topic.n_discrepancies < plan->n_discrepancies && topic.n_discrepancies < KOKSMA__TOPIC_BLOCKS;
+         topic.n_discrepancies++) {
+        topic.discrepancies[topic.n_discrepancies] = &plan->discrepancies[topic.n_discrepancies];
+    }
+    for (; topic.n_images < plan->n_images && topic.n_images < KOKSMA__TOPIC_BLOCKS; topic.n_images++) {
+        topic.images[topic.n_images] = &plan->images[topic.n_images];
+    }
+    for (size_t k = 0; !status && k < sizeof order / sizeof *order; k++) {
+        char id[16];
+        snprintf(id, sizeof id, "%zu", k + 1);
+        topic.id = id;
+        const size_t before = html->size;
+        koksma__html_add(html, "<h3>%s</h3>\n", titles[order[k]]);
+        const size_t heading = html->size;
+        status = answers[order[k]](study, html, &topic);
+        if (html->size == heading && !html->failed) { /* nothing to say */
+            html->size = before;
+            html->text[before] = '\0';
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__report_questions(koksma_study *study, koksma__html *html)
+{
+    const koksma__plan *plan = &study->plan;
+    koksma_status status = KOKSMA_OK;
+    if (plan->n_questions) {
+        koksma__html_add(html, "<h2 id=\"questions\">Questions that the papers leave open</h2>\n");
+    } else if (!plan->n_tables) {
+        koksma__html_add(html, "<h2 id=\"results\">Results</h2>\n");
+        return ask_all(study, html);
+    }
+    for (size_t i = 0; !status && i < plan->n_questions; i++) {
+        status = ask(study, html, &plan->questions[i]);
+    }
+    return status;
+}

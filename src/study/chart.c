@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WIDTH = 560, HEIGHT = 380, LEFT = 70, RIGHT = 170, TOP = 14, BOTTOM = 48, COLOURS = 8 };
+
+typedef struct axis {
+    double low, high;
+    bool is_log;
+    double from, to; /* in the picture */
+} axis;
+
+static double place(const axis *a, double value)
+{
+    const double v = a->is_log ? log10(value) : value;
+    return a->from + (a->to - a->from) * (v - a->low) / (a->high - a->low);
+}
+
+static bool fits(const axis *a, double value)
+{
+    return isfinite(value) && (!a->is_log || value > 0);
+}
+
+static void widen(axis *a, double value)
+{
+    if (fits(a, value)) {
+        const double v = a->is_log ? log10(value) : value;
+        a->low = fmin(a->low, v);
+        a->high = fmax(a->high, v);
+    }
+}
+
+static void settle(axis *a)
+{
+    if (!(a->high > a->low)) {
+        const double middle = isfinite(a->low) ? a->low : 0;
+        a->low = middle - 0.5;
+        a->high = middle + 0.5;
+    }
+    const double margin = 0.05 * (a->high - a->low);
+    a->low -= margin;
+    a->high += margin;
+}
+
+static void add_tick(koksma__html *h, const axis *a, bool horizontal, double value)
+{
+    const double at = place(a, value);
+    if (horizontal) {
+        koksma__html_add(h,
+                         "<path class=\"tick\" d=\"M%.1f %dV%d\"/><text x=\"%.1f\" y=\"%d\" "
+                         "text-anchor=\"middle\">%.4g</text>",
+                         at, TOP, HEIGHT - BOTTOM, at, HEIGHT - BOTTOM + 17, value);
+    } else {
+        koksma__html_add(h,
+                         "<path class=\"tick\" d=\"M%d %.1fH%d\"/><text x=\"%d\" y=\"%.1f\" "
+                         "text-anchor=\"end\">%.4g</text>",
+                         LEFT, at, WIDTH - RIGHT, LEFT - 6, at + 4, value);
+    }
+}
+
+/* Decades with 2 and 5 where there is room; or 1, 2, 5 times a power of ten. */
+static void add_ticks(koksma__html *h, const axis *a, bool horizontal)
+{
+    if (a->is_log) {
+        const double decades = a->high - a->low;
+        for (double d = floor(a->low); d <= ceil(a->high); d++) {
+            static const double steps[] = {1, 2, 5};
+            for (int k = 0; k < (decades < 2.5 ? 3 : 1); k++) {
+                const double value = steps[k] * pow(10, d);
+                if (log10(value) >= a->low && log10(value) <= a->high && (decades < 8 || fmod(d, 2) == 0)) {
+                    add_tick(h, a, horizontal, value);
+                }
+            }
+        }
+        return;
+    }
+    const double raw = (a->high - a->low) / 5, power = pow(10, floor(log10(raw)));
+    const double step = raw / power < 1.5 ? power : raw / power < 3.5 ? 2 * power : 5 * power;
+    for (double v = ceil(a->low / step); v * step <= a->high; v++) {
+        add_tick(h, a, horizontal, v * step);
+    }
+}
+
+static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t i)
+{
+    const double at_x = place(x, s->x[i]), at_y = place(y, s->y[i]);
+    if (s->low[i] < s->high[i] && fits(y, s->low[i])) {
+        koksma__html_add(h, "<path d=\"M%.1f %.1fV%.1f\"/>", at_x, place(y, s->low[i]), place(y, s->high[i]));
+    }
+    koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"><title>", at_x, at_y);
+    koksma__html_text(h, s->label);
+    koksma__html_add(h, ": %.6g, %.6g</title></circle>", s->x[i], s->y[i]);
+}
+
+static void add_series(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t index)
+{
+    koksma__html_add(h, "<g class=\"%s s%zu\">", s->theory ? "theory" : "series", index % COLOURS);
+    bool begun = false;
+    for (size_t i = 0; i < s->n && (s->line || s->theory); i++) {
+        if (fits(x, s->x[i]) && fits(y, s->y[i])) {
+            koksma__html_add(h, begun ? "L%.1f %.1f" : "<path class=\"line\" d=\"M%.1f %.1f", place(x, s->x[i]),
+                             place(y, s->y[i]));
+            begun = true;
+        }
+    }
+    koksma__html_add(h, "%s", begun ? "\"/>" : "");
+    for (size_t i = 0; i < s->n && !s->theory; i++) {
+        if (fits(x, s->x[i]) && fits(y, s->y[i])) {
+            add_mark(h, x, y, s, i);
+        }
+    }
+    koksma__html_add(h, "</g>\n");
+}
+
+static void add_legend(koksma__html *h, const koksma__chart *c)
+{
+    for (size_t s = 0; s < c->n; s++) {
+        const double at = TOP + 12 + 15 * (double)s;
+        koksma__html_add(
+            h, "<g class=\"%s s%zu\"><path class=\"line\" d=\"M%d %.1fh18\"/></g><text x=\"%d\" y=\"%.1f\">",
+            c->series[s].theory ? "theory" : "series", s % COLOURS, WIDTH - RIGHT + 8, at - 4, WIDTH - RIGHT + 30,
+            at);
+        koksma__html_text(h, c->series[s].label);
+        koksma__html_add(h, "</text>");
+    }
+}
+
+void koksma__html_chart(koksma__html *h, const koksma__chart *c)
+{
+    axis x = {INFINITY, -INFINITY, c->log_x, LEFT, WIDTH - RIGHT};
+    axis y = {INFINITY, -INFINITY, c->log_y, HEIGHT - BOTTOM, TOP};
+    for (size_t s = 0; s < c->n; s++) {
+        for (size_t i = 0; i < c->series[s].n; i++) {
+            widen(&x, c->series[s].x[i]);
+            widen(&y, c->series[s].y[i]);
+        }
+    }
+    settle(&x);
+    settle(&y);
+    koksma__html_add(h, "<figure class=\"chart\"><svg viewBox=\"0 0 %d %d\" width=\"%d\" role=\"img\" aria-label=\"",
+                     WIDTH, HEIGHT, WIDTH);
+    koksma__html_text(h, c->title);
+    koksma__html_add(h, "\">\n");
+    add_ticks(h, &x, true);
+    add_ticks(h, &y, false);
+    koksma__html_add(h, "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\">", (LEFT + WIDTH - RIGHT) / 2, HEIGHT - 8);
+    koksma__html_text(h, c->x_title);
+    koksma__html_add(h, "</text><text transform=\"translate(14 %d) rotate(-90)\" text-anchor=\"middle\">",
+                     (TOP + HEIGHT - BOTTOM) / 2);
+    koksma__html_text(h, c->y_title);
+    koksma__html_add(h, "</text>\n");
+    for (size_t s = 0; s < c->n; s++) {
+        add_series(h, &x, &y, &c->series[s], s);
+    }
+    add_legend(h, c);
+    koksma__html_add(h, "</svg><figcaption>");
+    koksma__html_text(h, c->title);
+    koksma__html_add(h, "</figcaption></figure>\n");
+}

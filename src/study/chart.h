@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Charts of a report as SVG in the page's own colours: lines or marks, axes linear or logarithmic. */
+#ifndef KOKSMA_STUDY_CHART_H
+#define KOKSMA_STUDY_CHART_H
+
+#include "study/html.h"
+
+enum { KOKSMA__CHART_SERIES = 24, KOKSMA__CHART_POINTS = 64 };
+
+typedef struct koksma__chart_series {
+    char label[96];
+    bool line;   /* joined, else marks with their labels beside them */
+    bool theory; /* a dashed line without marks */
+    size_t n;
+    double x[KOKSMA__CHART_POINTS], y[KOKSMA__CHART_POINTS];
+    double low[KOKSMA__CHART_POINTS], high[KOKSMA__CHART_POINTS]; /* of y; equal for none */
+} koksma__chart_series;
+
+typedef struct koksma__chart {
+    const char *title, *x_title, *y_title; /* title: also its text for those who don't see it */
+    bool log_x, log_y;
+    size_t n;
+    koksma__chart_series *series; /* room for KOKSMA__CHART_SERIES */
+} koksma__chart;
+
+/* Non-finite points, and on logarithmic axes those that are not positive, are left out. */
+void koksma__html_chart(koksma__html *html, const koksma__chart *chart);
+
+#endif

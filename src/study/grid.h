@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A table of a report, with its own CSV behind a link. */
+#ifndef KOKSMA_STUDY_GRID_H
+#define KOKSMA_STUDY_GRID_H
+
+#include "study/html.h"
+#include "study/statistics.h"
+
+typedef struct koksma__grid {
+    koksma__html *html, csv;
+    char name[64];
+    bool in_body, in_row;
+} koksma__grid;
+
+/* Heads come first, then rows; name is the CSV's file name without its ending. */
+void koksma__grid_open(koksma__grid *grid, koksma__html *html, const char *name);
+void koksma__grid_head(koksma__grid *grid, const char *text);
+/* A column with an interval: in the CSV two more columns follow, low and high. */
+void koksma__grid_head_interval(koksma__grid *grid, const char *text);
+void koksma__grid_row(koksma__grid *grid);
+void koksma__grid_text(koksma__grid *grid, const char *text);
+void koksma__grid_number(koksma__grid *grid, double value, int digits);
+void koksma__grid_interval(koksma__grid *grid, koksma__estimate estimate, int digits);
+void koksma__grid_close(koksma__grid *grid);
+
+#endif

@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which pattern leaves the least error in a scene. Trials come in rounds of 8, 16, 32, …; after each the patterns are
+ * ordered by their mean error and neighbours compared, paired by trial. A pair is settled when the interval of its
+ * difference excludes 0, or lies within 2 % of the better's mean: equal for all purposes. Looking again and again
+ * would make 95 % intervals err too often, so the rounds are judged at 99.5 %: at most ten looks keep the chance of a
+ * wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95 %.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "study/statistics.h"
+#include "study/study.h"
+
+static const double EQUAL = 0.02, Z_9975 = 2.807033768343811;
+
+/* A reference's error adds in squares to those that are measured: 1/10 of them changes them by 1/200. */
+static const double REFERENCE_SHARE = 0.1;
+enum { FIRST_ROUND = 8, MOST_TRIALS = 1024, REFERENCE_SPP = 1024, MOST_REPLICATES = 64 };
+
+typedef struct ranking {
+    const koksma_rank_options *options;
+    koksma__study_scene scene;
+    koksma_image reference;
+    double *errors;            /* pattern p, trial t: errors[p * room + t] */
+    size_t room, first, n_now; /* trials of the round in work */
+    size_t n;
+    size_t *patterns; /* those that can serve */
+    double end_s;
+    const koksma_run *run;
+    bool is_up;
+} ranking;
+
+static double now_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool keep_going(void *context, double fraction)
+{
+    ranking *r = context;
+    r->is_up = r->end_s > 0 && now_s() > r->end_s;
+    return !r->is_up && koksma__keep_going(r->run, fraction);
+}
+
+static koksma_status render(const ranking *r, const char *pattern, long long spp, uint64_t seed,
+                            const koksma_run *run, koksma_image *out)
+{
+    const koksma__picture picture = {.pattern = pattern,
+                                     .variant = "",
+                                     .spp = spp,
+                                     .width = r->scene.width,
+                                     .height = r->scene.height,
+                                     .seed = seed};
+    return koksma__study_render(&r->scene, &picture, run, out);
+}
+
+/* ---- Trials -------------------------------------------------------------------------------------------- */
+
+static koksma_status do_trial(void *context, size_t i)
+{
+    static const koksma_run single = {.threads = 1};
+    ranking *r = context;
+    const size_t p = i % r->n, trial = r->first + i / r->n;
+    const char *pattern = r->options->patterns[r->patterns[p]];
+    koksma_image image;
+    koksma_image_error error = {0};
+    const uint64_t seed =
+        koksma__job_seed("rank|%s|%s|%s|%d|%zu", r->scene.name, r->scene.hash, pattern, r->options->spp, trial);
+    koksma_status status = render(r, pattern, r->options->spp, seed, &single, &image);
+    if (!status) {
+        status = koksma_image_compare(&image, &r->reference, &error);
+        koksma_image_fini(&image);
+    }
+    r->errors[p * r->room + trial] = error.mean;
+    return status;
+}
+
+/* Patterns that can't serve so many samples are known by trying; *reason gets their words. */
+static koksma_status try_patterns(ranking *r, koksma_rank_row *rows, size_t *n_refused)
+{
+    for (size_t p = 0; p < r->options->n_patterns; p++) {
+        koksma_spec spec;
+        koksma_points points;
+        koksma_status status = koksma_pattern_spec(r->options->patterns[p], &spec);
+        status = status ? status : koksma_points_init(&points, (size_t)r->options->spp, 2);
+        if (status) {
+            return status;
+        }
+        status = koksma_generate(&spec, 0, NULL, &points);
+        koksma_points_fini(&points);
+        if (status) {
+            koksma_rank_row *row = &rows[r->options->n_patterns - 1 - (*n_refused)++];
+            *row = (koksma_rank_row){.pattern = p, .mean = NAN, .low = NAN, .high = NAN, .behind = NAN};
+            snprintf(row->reason, sizeof row->reason, "%s", koksma_error_text());
+        } else {
+            r->patterns[r->n++] = p;
+        }
+    }
+    return r->n ? KOKSMA_OK
+                : koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", rows[r->options->n_patterns - 1].reason);
+}
+
+/* The smallest error of one trial of every pattern. */
+static koksma_status pilot(ranking *r, double *smallest)
+{
+    *smallest = INFINITY;
+    r->first = 0;
+    const koksma_status status = koksma__parallel(r->run, r->n, do_trial, r);
+    for (size_t p = 0; p < r->n; p++) {
+        *smallest = fmin(*smallest, r->errors[p * r->room]);
+    }
+    return status;
+}
+
+/* Independent replicates until their own error is small beside the smallest measured one. */
+static koksma_status make_reference(ranking *r, double *error)
+{
+    koksma__replicates sums = {0};
+    koksma_status status = KOKSMA_OK;
+    int side = 32;
+    while (side * side < REFERENCE_SPP || side * side < 4 * r->options->spp) {
+        side++;
+    }
+    long long wanted = 4;
+    double smallest = INFINITY;
+    const double start = now_s(),
+                 budget = r->options->time_limit_s > 0 ? r->options->time_limit_s / 3 : (double)INFINITY;
+    do {
+        for (; !status && sums.n < wanted;) {
+            koksma_image image;
+            const uint64_t seed = koksma__job_seed("rank-reference|%s|%s|%lld", r->scene.name, r->scene.hash, sums.n);
+            status = render(r, "jittered", (long long)side * side, seed, r->run, &image);
+            if (!status) {
+                status = koksma__replicates_add(&sums, &image);
+                koksma_image_fini(&image);
+            }
+        }
+        koksma_image_fini(&r->reference);
+        status =
+            status ? status : koksma__replicates_mean(&sums, r->scene.width, r->scene.height, &r->reference, error);
+        status = status ? status : pilot(r, &smallest);
+        wanted *= 2;
+    } while (!status && *error > REFERENCE_SHARE * smallest && wanted <= MOST_REPLICATES &&
+             2 * (now_s() - start) < budget);
+    free(sums.sum);
+    return status;
+}
+
+/* ---- Judging ------------------------------------------------------------------------------------------- */
+
+static koksma__summary difference(const ranking *r, size_t worse, size_t better, size_t trials)
+{
+    return koksma__paired(r->errors + worse * r->room, r->errors + better * r->room, trials, 1);
+}
+
+/* order[i]: the i-th best of the patterns that serve. */
+static void order_patterns(const ranking *r, size_t trials, size_t *order)
+{
+    for (size_t p = 0; p < r->n; p++) {
+        size_t at = p;
+        const double mean = koksma__summarize(r->errors + p * r->room, trials, 1).mean;
+        while (at > 0 && koksma__summarize(r->errors + order[at - 1] * r->room, trials, 1).mean > mean) {
+            order[at] = order[at - 1];
+            at--;
+        }
+        order[at] = p;
+    }
+}
+
+static bool is_clear(const ranking *r, size_t trials, const size_t *order)
+{
+    bool clear = true;
+    for (size_t i = 0; i + 1 < r->n; i++) {
+        const koksma__summary d = difference(r, order[i + 1], order[i], trials);
+        const double half = koksma__student(Z_9975, trials - 1) * d.sd / sqrt((double)trials);
+        const double mean = koksma__summarize(r->errors + order[i] * r->room, trials, 1).mean;
+        clear &= d.mean - half > 0 || d.mean + half < EQUAL * mean;
+    }
+    return clear;
+}
+
+static void fill_rows(const ranking *r, size_t trials, const size_t *order, koksma_rank_row *rows)
+{
+    const double best = koksma__summarize(r->errors + order[0] * r->room, trials, 1).mean;
+    size_t leader = 0;
+    for (size_t i = 0; i < r->n; i++) {
+        const koksma__summary s = koksma__summarize(r->errors + order[i] * r->room, trials, 1);
+        const koksma__summary d = difference(r, order[i], order[0], trials);
+        if (i && difference(r, order[i], order[leader], trials).low > 0) {
+            leader = i;
+        }
+        rows[i] = (koksma_rank_row){.pattern = r->patterns[order[i]],
+                                    .place = leader + 1,
+                                    .mean = s.mean,
+                                    .low = s.low,
+                                    .high = s.high,
+                                    .behind = d.mean / best,
+                                    .behind_low = d.low / best,
+                                    .behind_high = d.high / best};
+    }
+}
+
+/* Rounds until it is clear. A round that the time cut short is left out, unless it is the first. */
+static koksma_status run_rounds(ranking *r, size_t *order, koksma_ranking *out)
+{
+    const koksma_run run = {.threads = koksma__threads(r->run), .keep_going = keep_going, .context = r};
+    koksma_status status = KOKSMA_OK;
+    size_t trials = 0;
+    for (size_t wanted = FIRST_ROUND; !status && !out->clear && wanted <= r->room; wanted *= 2) {
+        r->first = trials;
+        const koksma_run *how = trials ? &run : r->run;
+        status = koksma__parallel(how, (wanted - trials) * r->n, do_trial, r);
+        if (status == KOKSMA_INTERRUPTED && r->is_up) {
+            status = KOKSMA_OK;
+            break;
+        }
+        trials = wanted;
+        order_patterns(r, trials, order);
+        out->clear = is_clear(r, trials, order);
+    }
+    out->trials = (long long)trials;
+    return status;
+}
+
+static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_ranking *out)
+{
+    const size_t n = r->options->n_patterns;
+    size_t n_refused = 0;
+    r->room = r->options->max_trials > 0 ? (size_t)r->options->max_trials : MOST_TRIALS;
+    r->room = r->room < FIRST_ROUND ? FIRST_ROUND : r->room;
+    r->errors = calloc(n * r->room, sizeof *r->errors);
+    r->patterns = calloc(2 * n, sizeof *r->patterns);
+    if (!r->errors || !r->patterns) {
+        return koksma__fail_memory(n * r->room * sizeof *r->errors);
+    }
+    size_t *order = r->patterns + n;
+    koksma_status status = try_patterns(r, rows, &n_refused);
+    status = status ? status : make_reference(r, &out->reference_error);
+    status = status ? status : run_rounds(r, order, out);
+    out->n = r->n;
+    if (!status) {
+        fill_rows(r, (size_t)out->trials, order, rows);
+    }
+    return status;
+}
+
+koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
+                          koksma_ranking *out)
+{
+    const double start = now_s();
+    ranking r = {.options = options, .run = run, .scene = {.name = options->scene}};
+    r.end_s = options->time_limit_s > 0 ? start + options->time_limit_s : 0;
+    *out = (koksma_ranking){0};
+    if (!options->n_patterns) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");
+    }
+    koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
+    if (!status) {
+        koksma_render_options defaults;
+        koksma_render_options_init(&defaults, r.scene.scene);
+        r.scene.width = defaults.width;
+        r.scene.height = defaults.height;
+        snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));
+        status = rank_scene(&r, rows, out);
+        koksma_scene_close(r.scene.scene);
+    }
+    out->seconds = now_s() - start;
+    koksma_image_fini(&r.reference);
+    free(r.errors);
+    free(r.patterns);
+    return status;
+}
