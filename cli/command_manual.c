@@ -60,8 +60,8 @@ static void put_synopsis(const char *name, const char *synopsis)
 
 static void put_page(const cli_command *command)
 {
-    printf(".TH KOKSMA\\-%s 1 \"\" \"koksma %s\"\n.nh\n.ad l\n.SH NAME\nkoksma\\-%s \\- ", command->name, koksma_version(),
-           command->name);
+    printf(".TH KOKSMA\\-%s 1 \"\" \"koksma %s\"\n.nh\n.ad l\n.SH NAME\nkoksma\\-%s \\- ", command->name,
+           koksma_version(), command->name);
     put(command->summary);
     printf("\n.SH SYNOPSIS\n");
     put_synopsis(command->name, command->synopsis);

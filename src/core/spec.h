@@ -4,11 +4,14 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* Parses "key=value,key=value" for a table of parameters (NULL: it has none); values get defaults first.
    owner is what errors call the thing. */
-koksma_status koksma__params_parse(const char *owner, const koksma_param *params, const char *text, double *values);
+KOKSMA__LAB koksma_status koksma__params_parse(const char *owner, const koksma_param *params, const char *text,
+                                               double *values);
 
 /* Appends ":key=value,…" for the parameters that are not at their defaults. */
-void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
+KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
 #endif

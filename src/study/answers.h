@@ -3,8 +3,8 @@
 #ifndef KOKSMA_STUDY_ANSWERS_H
 #define KOKSMA_STUDY_ANSWERS_H
 
-#include "study/chart.h"
 #include "study/grid.h"
+#include "study/report_chart.h"
 #include "study/tables.h"
 
 enum { KOKSMA__TOPIC_BLOCKS = 16, KOKSMA__RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };

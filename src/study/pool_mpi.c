@@ -5,6 +5,8 @@
  * jobs; a job is its number. They get reference images from rank 0 when they first need them, so that only the plan's
  * own files must be readable everywhere.
  *
+ * Long because both sides of every message stand together here, in the one file that sees MPI.
+ *
  * A batch stays on a rank's lease until its results are in. When no other jobs are left, leases that are still out
  * are done again here: a rank that was lost costs its batch, where MPI lets the others live on (MPICH's
  * -disable-auto-cleanup); else the run ends, and the same command goes on from the store.

@@ -12,6 +12,8 @@
 #include <string.h>
 #include <time.h>
 
+#include <koksma/series.h>
+
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/statistics.h"
@@ -180,7 +182,7 @@ static bool is_clear(const ranking *r, size_t trials, const size_t *order)
     bool clear = true;
     for (size_t i = 0; i + 1 < r->n; i++) {
         const koksma__summary d = difference(r, order[i + 1], order[i], trials);
-        const double half = koksma__student(Z_9975, trials - 1) * d.sd / sqrt((double)trials);
+        const double half = koksma_student(Z_9975, trials - 1) * d.sd / sqrt((double)trials);
         const double mean = koksma__summarize(r->errors + order[i] * r->room, trials, 1).mean;
         clear &= d.mean - half > 0 || d.mean + half < EQUAL * mean;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The L2 discrepancies against their definitions, integrated cell by cell; their kernels against each other; the two
-   ways to compute them; digits at large n against 128-bit sums and a closed form; threads. */
+/* Long because the table of kinds and its definitions serve every case here. The L2 discrepancies against their
+   definitions, integrated cell by cell; their kernels against each other; the two ways to compute them; digits at
+   large n against 128-bit sums and a closed form; threads. */
 #include <string.h>
 
 #include "measures/parts/l2.h"

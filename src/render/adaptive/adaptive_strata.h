@@ -94,7 +94,7 @@ extern const char *const koksma__reuse_names[];
     {"levels", "splits of a stratum at most", 2, 0, KOKSMA__MAX_LEVELS, NULL, true},                                 \
         {"threshold", "difference of two values beyond which their strata are split", 0.05, 0, 1e30, NULL, false},   \
     {                                                                                                                \
-        "reuse", "of the sample of a split stratum", KOKSMA__REUSE_KEPT, 0, 2, koksma__reuse_names, true          \
+        "reuse", "of the sample of a split stratum", KOKSMA__REUSE_KEPT, 0, 2, koksma__reuse_names, true             \
     }
 
 koksma_status koksma__strata_open(koksma__adaptive *run);

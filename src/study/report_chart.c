@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "study/chart.h"
+#include "study/report_chart.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Charts of a report as SVG in the page's own colours: lines or marks, axes linear or logarithmic. */
-#ifndef KOKSMA_STUDY_CHART_H
-#define KOKSMA_STUDY_CHART_H
+#ifndef KOKSMA_STUDY_REPORT_CHART_H
+#define KOKSMA_STUDY_REPORT_CHART_H
 
 #include "study/html.h"
 
