@@ -7,6 +7,8 @@
 
 #include "cli.h"
 
+enum { MAX_PLANS = 16 };
+
 /* Prints table `id` of the plan, ours beside the published numbers. */
 static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
 {
@@ -56,12 +58,28 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     return status;
 }
 
+/* Both papers together bring the questions that they leave open. */
+static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
+{
+    bool shirley = false, mitchell = false;
+    size_t n = 0;
+    for (int i = 0; i < arguments->n_operands; i++) {
+        plans[n++] = arguments->operands[i];
+        shirley |= !strcmp(arguments->operands[i], "shirley1991");
+        mitchell |= !strcmp(arguments->operands[i], "mitchell1992");
+    }
+    if (shirley && mitchell && n < MAX_PLANS) {
+        plans[n++] = "open-questions";
+    }
+    return n;
+}
+
 static int run(const cli_arguments *arguments)
 {
     cli_work work;
     uint64_t trials;
     const char *folder = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands < 1 || !folder) {
+    if (arguments->n_operands < 1 || arguments->n_operands >= MAX_PLANS || !folder) {
         return cli_usage_error(arguments, "it takes a paper and a folder, as in shirley1991 -o DIR");
     }
     if (!cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
@@ -73,8 +91,9 @@ static int run(const cli_arguments *arguments)
         return koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_study_summary summary;
-    const koksma_study_options options = {.plans = (const char *const *)arguments->operands,
-                                          .n_plans = (size_t)arguments->n_operands,
+    const char *plans[MAX_PLANS];
+    const koksma_study_options options = {.plans = plans,
+                                          .n_plans = choose_plans(arguments, plans),
                                           .folder = folder,
                                           .trials = (long long)trials,
                                           .quick = cli_flag(arguments, "quick")};
@@ -113,6 +132,7 @@ const cli_command cli_command_reproduce = {
     .synopsis = "PAPER... -o DIR [--quick] [--trials T] [--table ID] [--json]",
     .details =
         "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
+        "Both papers together also bring the plan open-questions: what the papers leave open, answered.\n"
         "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
         "on where it was and ends with the same report.",
     .options = option_table,

@@ -213,6 +213,51 @@ static int report(const cli_arguments *arguments)
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* ---- images -------------------------------------------------------------------------------------------- */
+
+static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t n)
+{
+    for (size_t i = 0; out && i < n; i++) {
+        cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
+        cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
+        cli_row_whole(out, "trials", rows[i].trials);
+        cli_row_rounded(out, "mean", rows[i].mean, 4);
+        cli_row_rounded(out, "low", rows[i].low, 4);
+        cli_row_rounded(out, "high", rows[i].high, 4);
+        cli_row_rounded(out, "sd", rows[i].sd, 4);
+        cli_row_rounded(out, "max", rows[i].max, 4);
+        cli_row_rounded(out, "rmse", rows[i].rmse, 4);
+        cli_row_rounded(out, "slope", rows[i].slope, 3);
+        cli_row_rounded(out, "slope_low", rows[i].slope_low, 3);
+        cli_row_rounded(out, "slope_high", rows[i].slope_high, 3);
+        cli_row_end(out);
+    }
+}
+
+static int images(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_images_row *rows = NULL;
+    size_t n = 0;
+    const char *reference = cli_text(arguments, "reference", NULL);
+    if (arguments->n_operands != 2 || !reference) {
+        return cli_usage_error(arguments, "images takes a path with places and a reference, as in "
+                                          "images 'out_{spp}_{trial}.exr' --reference ref.exr");
+    }
+    if (!cli_work_begin(arguments, "comparing", &work)) {
+        return CLI_USAGE;
+    }
+    const koksma_status status = koksma_study_images(arguments->operands[1], reference, &work.run, &rows, &n);
+    cli_work_end(&work);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
+    put_image_rows(out, rows, n);
+    free(rows);
+    return cli_rows_close(out);
+}
+
 /* ---- The command --------------------------------------------------------------------------------------- */
 
 static int run(const cli_arguments *arguments)
@@ -220,14 +265,14 @@ static int run(const cli_arguments *arguments)
     static const struct {
         const char *name;
         int (*run)(const cli_arguments *arguments);
-    } verbs[] = {
-        {"run", run_plans}, {"new", new_plan}, {"estimate", estimate}, {"export", export_rows}, {"report", report}};
+    } verbs[] = {{"run", run_plans},      {"new", new_plan},  {"estimate", estimate},
+                 {"export", export_rows}, {"report", report}, {"images", images}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return verbs[i].run(arguments);
         }
     }
-    return cli_usage_error(arguments, "it takes run, new, estimate, export or report");
+    return cli_usage_error(arguments, "it takes run, new, estimate, export, report or images");
 }
 
 static const cli_option options[] = {
@@ -236,6 +281,7 @@ static const cli_option options[] = {
     {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
+    {0, "reference", "FILE", "images: what they are compared with"},
     {0, "format", "F", "export: csv, json or npy (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -249,12 +295,14 @@ const cli_command cli_command_study = {
                 "       koksma study new [FILE]\n"
                 "       koksma study estimate PLAN... [--json]\n"
                 "       koksma study export DIR [--format csv|json|npy] [-o FILE]\n"
-                "       koksma study report DIR",
+                "       koksma study report DIR\n"
+                "       koksma study images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, 'estimate' says what\n"
         "it would cost on one thread. Results go to DIR/results.sqlite as they are made. Stopped in any way and\n"
         "started again, a run goes on where it was. 'export' writes all rows sorted by their keys: the same\n"
-        "bytes for any number of threads and interruptions.",
+        "bytes for any number of threads and interruptions. 'images' makes such tables for pictures that another\n"
+        "renderer made: PLACES is a path with {spp}, {trial} and other names in braces.",
     .options = options,
     .run = run,
 };

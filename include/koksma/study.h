@@ -97,6 +97,26 @@ typedef struct koksma_study_row {
 KOKSMA_API koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                                 bool *found);
 
+/* ---- Images from elsewhere -------------------------------------------------------------------------------- */
+
+enum { KOKSMA_IMAGES_GROUP = 256 };
+
+/* The images that differ only in {trial}. */
+typedef struct koksma_images_row {
+    char group[KOKSMA_IMAGES_GROUP]; /* the other places' texts, "pattern=halton scene=ball"; may be empty */
+    long long spp;                   /* the number at {spp}; 0 without it */
+    size_t trials;
+    double mean, low, high;              /* mean over the trials of the mean absolute error, with its 95 % interval */
+    double sd, max, rmse;                /* means over the trials */
+    double slope, slope_low, slope_high; /* of the group's mean in log-log over {spp}; NaN below 2 numbers */
+} koksma_images_row;
+
+/* Compares all images whose paths fit `places`, such as "out_{spp}_{trial}.exr", with a reference: rows sorted by
+   group and spp, which the caller frees. {spp} and {trial} take digits, other names any text without '/'. Errors:
+   ARGUMENT (a place that is not closed), MISSING (no such file), what reading an image says, MEMORY. */
+KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
+                                             koksma_images_row **rows, size_t *n);
+
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 
 typedef struct koksma_rank_options {

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The tables of a study for images that another renderer made, known by their file names. */
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "study/statistics.h"
+#include "study/study.h"
+
+/* One file. */
+typedef struct picture {
+    const char *path;
+    char group[KOKSMA_IMAGES_GROUP];
+    long long spp, trial;
+    koksma_image_error error;
+} picture;
+
+typedef struct pictures {
+    size_t n;
+    picture *at;
+    koksma_image reference;
+} pictures;
+
+/* ---- Names --------------------------------------------------------------------------------------------- */
+
+static bool takes_digits(const char *place)
+{
+    return !strncmp(place, "{spp}", 5) || !strncmp(place, "{trial}", 7);
+}
+
+static void keep(picture *p, const char *place, const char *text, size_t length)
+{
+    if (!strncmp(place, "{spp}", 5)) {
+        p->spp = strtoll(text, NULL, 10);
+    } else if (!strncmp(place, "{trial}", 7)) {
+        p->trial = strtoll(text, NULL, 10);
+    } else {
+        const size_t used = strlen(p->group);
+        snprintf(p->group + used, sizeof p->group - used, "%s%.*s=%.*s", used ? " " : "",
+                 (int)strcspn(place + 1, "}"), place + 1, (int)length, text);
+    }
+}
+
+/* Whether a path fits, the longest text for the first place first; its texts go to p. Depth: the number of places. */
+static bool fit(const char *places, const char *path, picture *p)
+{
+    while (*places && *places != '{') {
+        if (*places++ != *path++) {
+            return false;
+        }
+    }
+    if (!*places) {
+        return !*path;
+    }
+    const char *after = strchr(places, '}') + 1;
+    const picture before = *p;
+    for (size_t length = takes_digits(places) ? strspn(path, "0123456789") : strcspn(path, "/"); length > 0;
+         length--) {
+        keep(p, places, path, length);
+        if (fit(after, path + length, p)) {
+            return true;
+        }
+        *p = before;
+    }
+    return false;
+}
+
+/* The places as stars, all else as itself. */
+static koksma_status pattern_of(const char *places, char *pattern, size_t size)
+{
+    size_t used = 0;
+    for (const char *at = places; *at && used + 3 < size; at++) {
+        if (*at == '{') {
+            at = strchr(at, '}');
+            if (!at) {
+                return koksma__fail(KOKSMA_ARGUMENT, "'%s': a place that is not closed", places);
+            }
+            pattern[used++] = '*';
+        } else {
+            if (strchr("*?[]\\", *at)) {
+                pattern[used++] = '\\';
+            }
+            pattern[used++] = *at;
+        }
+    }
+    pattern[used] = '\0';
+    return KOKSMA_OK;
+}
+
+static int compare_pictures(const void *a, const void *b)
+{
+    const picture *p = a, *q = b;
+    const int group = strcmp(p->group, q->group);
+    if (group || p->spp != q->spp) {
+        return group ? group : p->spp < q->spp ? -1 : 1;
+    }
+    return p->trial != q->trial ? (p->trial < q->trial ? -1 : 1) : strcmp(p->path, q->path);
+}
+
+static koksma_status collect(const char *places, const glob_t *found, pictures *out)
+{
+    out->at = calloc(found->gl_pathc + 1, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(found->gl_pathc * sizeof *out->at);
+    }
+    for (size_t i = 0; i < found->gl_pathc; i++) {
+        picture p = {.path = found->gl_pathv[i]};
+        if (fit(places, p.path, &p)) {
+            out->at[out->n++] = p;
+        }
+    }
+    qsort(out->at, out->n, sizeof *out->at, compare_pictures);
+    return out->n ? KOKSMA_OK : koksma__fail(KOKSMA_MISSING, "%s: no such images", places);
+}
+
+/* ---- Errors -------------------------------------------------------------------------------------------- */
+
+static koksma_status compare_one(void *context, size_t i)
+{
+    pictures *all = context;
+    koksma_image image;
+    koksma_status status = koksma_image_read(all->at[i].path, &image);
+    if (!status) {
+        status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
+        if (status) {
+            status = koksma__fail_in(status, all->at[i].path);
+        }
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+/* Gives the rows first … first + n - 1, one group's, their slope. */
+static void add_slope(koksma_images_row *rows, size_t n)
+{
+    double x[64], y[64], sigma[64];
+    size_t used = 0;
+    for (size_t i = 0; i < n && used < 64; i++) {
+        if (rows[i].spp > 0 && rows[i].mean > 0) {
+            x[used] = log((double)rows[i].spp);
+            y[used] = log(rows[i].mean);
+            const double half = rows[i].high - rows[i].mean;
+            sigma[used++] = rows[i].trials > 1 ? half / koksma__student_975(rows[i].trials - 1) / rows[i].mean : 0;
+        }
+    }
+    const koksma__line line = koksma__fit_line(x, y, sigma, used);
+    for (size_t i = 0; i < n; i++) {
+        rows[i].slope = line.slope;
+        rows[i].slope_low = line.slope - 1.959963984540054 * line.slope_error;
+        rows[i].slope_high = line.slope + 1.959963984540054 * line.slope_error;
+    }
+}
+
+static void fill_row(const picture *first, size_t n, koksma_images_row *row)
+{
+    const size_t stride = sizeof *first / sizeof(double);
+    const koksma__summary mean = koksma__summarize(&first->error.mean, n, stride);
+    snprintf(row->group, sizeof row->group, "%s", first->group);
+    row->spp = first->spp;
+    row->trials = n;
+    row->mean = mean.mean;
+    row->low = mean.low;
+    row->high = mean.high;
+    row->sd = koksma__summarize(&first->error.sd, n, stride).mean;
+    row->max = koksma__summarize(&first->error.max, n, stride).mean;
+    row->rmse = koksma__summarize(&first->error.rmse, n, stride).mean;
+}
+
+static koksma_status make_rows(const pictures *all, koksma_images_row **rows, size_t *n)
+{
+    *rows = calloc(all->n, sizeof **rows);
+    if (!*rows) {
+        return koksma__fail_memory(all->n * sizeof **rows);
+    }
+    for (size_t i = 0, end; i < all->n; i = end) {
+        for (end = i + 1;
+             end < all->n && !strcmp(all->at[end].group, all->at[i].group) && all->at[end].spp == all->at[i].spp;) {
+            end++;
+        }
+        fill_row(&all->at[i], end - i, &(*rows)[(*n)++]);
+    }
+    for (size_t i = 0, end; i < *n; i = end) {
+        for (end = i + 1; end < *n && !strcmp((*rows)[end].group, (*rows)[i].group);) {
+            end++;
+        }
+        add_slope(*rows + i, end - i);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
+                                  koksma_images_row **rows, size_t *n)
+{
+    char pattern[KOKSMA__PATH];
+    glob_t found = {0};
+    pictures all = {0};
+    *rows = NULL;
+    *n = 0;
+    if (2 * strlen(places) + 4 > sizeof pattern) {
+        return koksma__fail(KOKSMA_ARGUMENT, "the path is longer than %zu characters", sizeof pattern / 2);
+    }
+    koksma_status status = pattern_of(places, pattern, sizeof pattern);
+    if (status) {
+        return status;
+    }
+    glob(pattern, 0, NULL, &found);
+    status = collect(places, &found, &all);
+    status = status ? status : koksma_image_read(reference, &all.reference);
+    status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
+    status = status ? status : make_rows(&all, rows, n);
+    koksma_image_fini(&all.reference);
+    free(all.at);
+    globfree(&found);
+    return status;
+}
