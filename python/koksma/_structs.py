@@ -29,7 +29,7 @@ class Pattern(Structure):
 
 
 class Measure(Structure):
-    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("min_dim", c_int),
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
                 ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
 
 

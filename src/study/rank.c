@@ -12,14 +12,13 @@
 #include <string.h>
 #include <time.h>
 
-#include <koksma/series.h>
-
 #include "core/parallel.h"
 #include "core/status.h"
+#include "render/adaptive/quantiles.h"
 #include "study/statistics.h"
 #include "study/study.h"
 
-static const double EQUAL = 0.02, Z_9975 = 2.807033768343811;
+static const double EQUAL = 0.02;
 
 /* A reference's error adds in squares to those that are measured: 1/10 of them changes them by 1/200. */
 static const double REFERENCE_SHARE = 0.1;
@@ -182,7 +181,7 @@ static bool is_clear(const ranking *r, size_t trials, const size_t *order)
     bool clear = true;
     for (size_t i = 0; i + 1 < r->n; i++) {
         const koksma__summary d = difference(r, order[i + 1], order[i], trials);
-        const double half = koksma_student(Z_9975, trials - 1) * d.sd / sqrt((double)trials);
+        const double half = koksma__student_quantile(0.9975, (double)(trials - 1)) * d.sd / sqrt((double)trials);
         const double mean = koksma__summarize(r->errors + order[i] * r->room, trials, 1).mean;
         clear &= d.mean - half > 0 || d.mean + half < EQUAL * mean;
     }

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "image/formats.h"
+#include "target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    koksma_image image = {0};
+    if (koksma__format_png.recognises(bytes, size)) {
+        fuzz_check_status(koksma__format_png.read(bytes, size, &image));
+        koksma_image_fini(&image);
+    }
+    return 0;
+}

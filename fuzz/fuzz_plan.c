@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan.h"
+#include "target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    koksma__plan plan = {0};
+    const koksma__plan_trials trials = {0};
+    fuzz_check_status(koksma__plan_parse("fuzz", (const char *)bytes, size, &trials, &plan));
+    koksma__plan_fini(&plan);
+    return 0;
+}

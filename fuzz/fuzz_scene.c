@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "scene/scene.h"
+#include "target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    koksma_scene *scene = calloc(1, sizeof *scene);
+    if (scene) {
+        fuzz_check_status(koksma__scene_parse("fuzz", (const char *)bytes, size, scene));
+        koksma_scene_close(scene);
+    }
+    return 0;
+}
