@@ -165,9 +165,15 @@ KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
     return x;
 }
 
+/* x 2^-32, exact; by way of a signed number, which compilers make many of at once. */
+KOKSMA_INLINE double koksma_fraction(uint32_t x)
+{
+    return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
+}
+
 KOKSMA_INLINE double koksma_scrambled(uint32_t mirrored, uint32_t seed)
 {
-    return koksma_mirror(koksma_owen_hash(mirrored, seed)) * (1.0 / 4294967296.0);
+    return koksma_fraction(koksma_mirror(koksma_owen_hash(mirrored, seed)));
 }
 
 /* The keys of a domain's sequence, for loops over many samples of one domain. */

@@ -17,11 +17,12 @@
 #include "patterns/parts/grow.h"
 #include "patterns/parts/radical.h"
 
-enum { FEW = 256, MAX_BASE = 38880 };
+enum { FEW = 256, MANY = 4096, STREAM = 1 << 20, MAX_BASE = 38880 };
 
 typedef struct job {
     uint64_t seed;
     koksma_points *out;
+    double *columns; /* of n values, which become rows together; NULL: each column is stored by itself */
 } job;
 
 typedef struct column {
@@ -90,6 +91,53 @@ static void place_pairs(const column *c, size_t step, double width)
     }
 }
 
+/* Bases below 16: the digits that are left as the 4-bit parts of one word. The same draws as place_relatives. */
+static inline __attribute__((always_inline)) void place_small(const column *c, uint32_t base, size_t step,
+                                                              double width)
+{
+    const size_t n = c->n, parents = n - step < step ? n - step : step;
+    double *v = c->v;
+    for (size_t r = 0; r < parents; r++) {
+        const double upper = whole_part(v[r] / width), prefix = whole_part(upper / base) * base;
+        const uint32_t own = (uint32_t)(upper - prefix);
+        uint64_t order = 0xfedcba9876543210u;
+        order = (order & ~((uint64_t)15 << 4 * own)) | own;
+        for (uint32_t d = 1; d < base; d++) {
+            const size_t i = r + d * step;
+            if (i >= n) {
+                break;
+            }
+            const uint32_t pick = d + koksma__below(c->word[2 * i], base - d);
+            const uint64_t digit = order >> 4 * pick & 15, kept = order >> 4 * d & 15;
+            order ^= (digit ^ kept) << 4 * pick; /* place d is not looked at again */
+            v[i] = (prefix + (double)(int32_t)digit) * width + below(width, c->word[2 * i + 1]);
+        }
+    }
+}
+
+static void place_level(const column *c, size_t step, double width)
+{
+    switch (c->base) {
+    case 3:
+        place_pairs(c, step, width);
+        return;
+    case 5:
+        place_small(c, 5, step, width);
+        return;
+    case 7:
+        place_small(c, 7, step, width);
+        return;
+    case 11:
+    case 13:
+        place_small(c, c->base, step, width);
+        return;
+    default:
+        for (size_t r = 0; r < (c->n - step < step ? c->n - step : step); r++) {
+            place_relatives(c, r, step, width);
+        }
+    }
+}
+
 static void place_all(const column *c, double whole)
 {
     for (uint32_t a = 0; a < c->base; a++) {
@@ -100,14 +148,7 @@ static void place_all(const column *c, double whole)
     double width = whole;
     for (size_t step = 1; step < c->n; step *= c->base) {
         width /= c->base;
-        const size_t parents = c->n - step < step ? c->n - step : step;
-        if (c->base == 3) {
-            place_pairs(c, step, width);
-            continue;
-        }
-        for (size_t r = 0; r < parents; r++) {
-            place_relatives(c, r, step, width);
-        }
+        place_level(c, step, width);
     }
 }
 
@@ -117,14 +158,16 @@ static koksma_status fill_base2(const job *j)
     const uint32_t partners[32] = {0};
     double few[FEW];
     const size_t n = j->out->n;
-    koksma_points line = {n, 1, n <= FEW ? few : malloc(n * sizeof *line.xs)};
+    koksma_points line = {n, 1, j->columns ? j->columns : n <= FEW ? few : malloc(n * sizeof *line.xs)};
     if (!line.xs) {
         return koksma__fail_memory(n * sizeof *line.xs);
     }
     const koksma_run one = {.threads = 1};
     const koksma_status status = koksma__grow(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, &line);
-    koksma__store_column(n, line.xs, j->out->dim, 0, j->out->xs);
-    if (line.xs != few) {
+    if (!j->columns) {
+        koksma__store_column(n, line.xs, j->out->dim, 0, j->out->xs);
+    }
+    if (!j->columns && line.xs != few) {
         free(line.xs);
     }
     return status;
@@ -144,13 +187,13 @@ static koksma_status fill(void *context, size_t k)
     uint32_t *word = few_words;
     void *memory = NULL;
     if (n > FEW) {
-        const size_t bytes = n * sizeof *c.v + (2 * n + 2) * sizeof *word;
+        const size_t bytes = (j->columns ? 0 : n * sizeof *c.v) + (2 * n + 2) * sizeof *word;
         memory = malloc(bytes);
         if (!memory) {
             return koksma__fail_memory(bytes);
         }
-        c.v = memory;
-        word = (uint32_t *)(c.v + n);
+        c.v = j->columns ? j->columns + k * n : memory;
+        word = j->columns ? memory : (uint32_t *)(c.v + n);
     }
     koksma__kernels()->words(j->seed, KOKSMA__PURPOSE_SCRAMBLE, 0, (uint32_t)k, (n + 1) / 2, word);
     c.word = word;
@@ -160,20 +203,34 @@ static koksma_status fill(void *context, size_t k)
     }
     place_all(&c, whole);
     koksma__kernels()->quotients(n, c.v, 0, whole, c.v);
-    koksma__store_column(n, c.v, j->out->dim, (int)k, j->out->xs);
+    if (!j->columns) {
+        koksma__store_column(n, c.v, j->out->dim, (int)k, j->out->xs);
+    }
     free(memory);
     return KOKSMA_OK;
 }
 
 koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_points *out)
 {
-    job j = {seed, out};
-    if (out->n >= 4096) {
-        return koksma__parallel(run, (size_t)out->dim, fill, &j);
-    }
+    const size_t n = out->n, dim = (size_t)out->dim;
+    job j = {seed, out, NULL};
     koksma_status status = KOKSMA_OK;
-    for (int k = 0; k < out->dim && !status; k++) {
-        status = fill(&j, (size_t)k);
+    if (n < MANY) {
+        for (size_t k = 0; k < dim && !status; k++) {
+            status = fill(&j, k);
+        }
+        return status;
     }
+    if (dim == 2) { /* with more the fresh pages cost more than the long steps */
+        j.columns = malloc(dim * n * sizeof *j.columns);
+        if (!j.columns) {
+            return koksma__fail_memory(dim * n * sizeof *j.columns);
+        }
+    }
+    status = koksma__parallel(run, dim, fill, &j);
+    if (!status && j.columns) {
+        koksma__kernels()->rows_of_columns(n, out->dim, j.columns, n, dim * n > STREAM, out->xs);
+    }
+    free(j.columns);
     return status;
 }
