@@ -49,7 +49,7 @@ static const struct {
     {"confidence:test=t", 1, true},
     {"confidence:test=chi2", 1, true},
     {"relative-error", 4, true},
-    {"two-stage:first=2", 4, true},
+    {"two-stage", 4, true},
     {"blocks", 2, true},
 };
 

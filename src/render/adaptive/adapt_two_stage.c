@@ -8,18 +8,23 @@
  *     with a budget      k proportional to e, as many as it has room for (Neyman 1934: the best allocation for sums
  *                        of squared relative errors)
  *
- * s is the standard deviation of the sets' means, m their mean. Every pixel gets one fresh set at least.
+ * s is the standard deviation of the sets' means, m their mean. A few sets can agree by luck; so where the samples
+ * are not all equal, e^2 is averaged with that of the image, which weighs as `prior` degrees of freedom. Every pixel
+ * gets one fresh set at least.
  */
 #include <math.h>
+#include <stdlib.h>
 
+#include "core/status.h"
 #include "render/adaptive/adaptive.h"
 
-enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1 };
+enum { FLOOR = KOKSMA__SETS_THRESHOLD + 1, PRIOR };
 
 static const koksma_param params[] = {
     KOKSMA__SETS_PARAMS(4, 2),
     {"threshold", "standard error over (mean + floor); 0: none, the budget decides", 0, 0, 1e6, NULL, false},
     {"floor", "luminance below which errors count as absolute", 0.01, 1e-9, 1e9, NULL, false},
+    {"prior", "degrees of freedom that the mean error of the image weighs", 1, 0, 1e6, NULL, false},
     {0},
 };
 
@@ -31,18 +36,40 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     (void)ask;
 }
 
-/* The relative error of one set. */
-static double error_of(const koksma__adaptive *run, size_t pixel)
+/* The squared relative error of one set, from the pilot alone. */
+static double square_of(const koksma__adaptive *run, size_t pixel)
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
-    return koksma__sets_standard_error(run, p) * sqrt(p->sets) /
-           (fmax(koksma__sets_mean(run, p), 0) + run->options->params[FLOOR]);
+    const double error =
+        koksma__sets_standard_error(run, p) / (fmax(koksma__sets_mean(run, p), 0) + run->options->params[FLOOR]);
+    return error * error * p->sets;
+}
+
+/* extra: relative errors of one set, by pixel. */
+static void find_errors(const koksma__adaptive *run, double *errors)
+{
+    const double prior = run->options->params[PRIOR];
+    double mean = 0;
+    for (size_t p = 0; p < run->pixels; p++) {
+        errors[p] = square_of(run, p);
+        mean += errors[p] / (double)run->pixels;
+    }
+    for (size_t p = 0; p < run->pixels; p++) {
+        const koksma__pixel_sets *sets = koksma__sets_of(run, p);
+        bool varies = false;
+        for (int k = 0; k < run->frame->channels; k++) {
+            varies |= sets->lo[k] < sets->hi[k];
+        }
+        const double own = sets->sets - 1.0;
+        errors[p] = varies ? sqrt((own * errors[p] + prior * mean) / (own + prior)) : 0;
+    }
 }
 
 /* Sets of a pixel for a scale: 1 at least, `most` at most. */
 static double sets_for(const koksma__adaptive *run, size_t pixel, double scale)
 {
-    const double threshold = run->options->params[KOKSMA__SETS_THRESHOLD], error = error_of(run, pixel);
+    const double *errors = run->extra;
+    const double threshold = run->options->params[KOKSMA__SETS_THRESHOLD], error = errors[pixel];
     const double wanted = threshold > 0 ? ceil(error * error / (threshold * threshold)) : HUGE_VAL;
     const double most = run->options->params[KOKSMA__SETS_MOST], sets = fmin(wanted, floor(error * scale));
     return sets > most ? most : sets < 1 ? 1 : sets;
@@ -77,8 +104,16 @@ static double find_scale(const koksma__adaptive *run)
     return lo;
 }
 
+static koksma_status open(koksma__adaptive *run)
+{
+    const koksma_status status = koksma__sets_open(run);
+    run->extra = status ? NULL : malloc(run->pixels * sizeof(double));
+    return status || run->extra ? status : koksma__fail_memory(run->pixels * sizeof(double));
+}
+
 static void last(koksma__adaptive *run)
 {
+    find_errors(run, run->extra);
     const double scale = find_scale(run);
     for (size_t p = 0; p < run->pixels; p++) {
         koksma__pixel_sets *sets = koksma__sets_of(run, p);
@@ -90,7 +125,7 @@ static void last(koksma__adaptive *run)
 
 static const koksma__adaptive_rules rules = {.fresh = true,
                                              .pilot = true,
-                                             .open = koksma__sets_open,
+                                             .open = open,
                                              .close = koksma__sets_close,
                                              .draw = koksma__sets_draw,
                                              .take = koksma__sets_take,

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Bias of adaptive sampling, measured: methods whose deciding samples are not counted are right in the mean, pixel by
+   pixel; hierarchical subdivision that counts them is not, and aligned strata are not even without a split. */
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/adaptive.h>
+
+#include "test.h"
+
+enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, SEEDS = 120 };
+
+typedef struct moments {
+    double mean[PIXELS], square_error[PIXELS]; /* of the mean */
+} moments;
+
+static void measure(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget,
+                    int seeds, uint64_t first, moments *out)
+{
+    static double sum[PIXELS], squares[PIXELS];
+    koksma_render_options options;
+    koksma_adaptive_options adaptive = {.method = NULL};
+    koksma_render_options_init(&options, scene);
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    options.width = WIDTH;
+    options.height = HEIGHT;
+    options.spp = spp;
+    if (method) {
+        assert_ok(koksma_adaptive_parse(method, &adaptive));
+        adaptive.budget = budget;
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        sum[i] = squares[i] = 0;
+    }
+    for (int s = 0; s < seeds; s++) {
+        koksma_layers layers;
+        options.seed = first + (uint64_t)s;
+        assert_ok(method ? koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL)
+                         : koksma_render_layers(scene, &options, NULL, &layers));
+        for (int i = 0; i < PIXELS; i++) {
+            const double value = (double)layers.image.pixels[i];
+            sum[i] += value;
+            squares[i] += value * value;
+        }
+        koksma_layers_fini(&layers);
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        out->mean[i] = sum[i] / seeds;
+        out->square_error[i] = fmax(squares[i] / seeds - out->mean[i] * out->mean[i], 0) / (seeds - 1);
+    }
+}
+
+/* The mean over pixels with noise of the squared deviation in standard errors: 1 without bias. Where few of the seeds
+   see anything of an edge the noise is not known from them; there the deviation itself must be small. */
+static double deviation(const moments *reference, const moments *few, bool biased)
+{
+    double sum = 0;
+    int used = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const double variance = few->square_error[i] + reference->square_error[i];
+        const double off = few->mean[i] - reference->mean[i];
+        if (few->square_error[i] > 2e-7) {
+            sum += off * off / variance;
+            used++;
+        } else if (!biased) {
+            assert_near(off, 0, 2e-3);
+        }
+    }
+    assert_true(used > PIXELS / 4);
+    return sum / used;
+}
+
+/* The deviation's own spread is about sqrt(2 / pixels), 0.1. */
+static void bias_is_where_it_must_be(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        double budget;
+        bool biased;
+    } cases[] = {
+        {"two-stage", 40, false},
+        {"two-stage:threshold=0.1", 0, false},
+        {"hierarchical:phase=folded,reuse=fresh,levels=1", 0, false},
+        {"hierarchical:phase=shifted,reuse=fresh,levels=1", 0, false},
+        {"hierarchical:phase=folded,levels=0", 0, false},
+        {"hierarchical:pairing=shuffled,reuse=fresh,levels=1", 0, false},
+        {"selective:reuse=fresh,levels=1", 0, false},
+        {"hierarchical:levels=0", 0, true}, /* aligned strata leave most of the product unsampled */
+        {"hierarchical:levels=1", 0, true},
+        {"hierarchical:pairing=shuffled,levels=1", 0, true},
+        {"selective:levels=1", 0, true},
+        {"relative-error:threshold=0.05", 0, true},
+    };
+    koksma_scene *scene;
+    static moments reference, few;
+    assert_ok(koksma_scene_open("ball", &scene));
+    measure(scene, NULL, "sobol:scramble=owen", 1024, 0, 12, 100000, &reference);
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        const bool sets = strstr(cases[c].method, "two-stage") || strstr(cases[c].method, "relative");
+        measure(scene, cases[c].method, "jittered", sets ? 4 : 16, cases[c].budget, SEEDS, 1000 * c, &few);
+        const double off = deviation(&reference, &few, cases[c].biased);
+        if (cases[c].biased ? !(off > 1.6) : !(off < 1.4)) {
+            fail_msg("%s: mean square deviation %.2f", cases[c].method, off);
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(bias_is_where_it_must_be)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
