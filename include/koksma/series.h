@@ -33,10 +33,7 @@ KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);
 
-/* The point of Student's t beyond which lies the share that is beyond z of the normal law, degrees >= 1, by Fisher &
-   Cornish's expansion; 1 and 2 degrees exactly for the 97.5 % point. Error there below 1 % of it from 3 degrees on.
- */
-KOKSMA_API double koksma_student(double z, size_t degrees);
+/* The 97.5 % point of Student's t with the given degrees of freedom, at least 1. */
 KOKSMA_API double koksma_student_975(size_t degrees);
 
 /* log y = slope log x + intercept by least squares, with the error that the residuals give the slope. */

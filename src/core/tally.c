@@ -3,6 +3,8 @@
 
 #include <koksma/series.h>
 
+#include "core/quantiles.h"
+
 void koksma_tally_add(koksma_tally *t, double value)
 {
     t->count++;
@@ -28,21 +30,9 @@ double koksma_tally_interval(const koksma_tally *t)
     return t->count > 1 ? koksma_student_975((size_t)t->count - 1) * koksma_tally_error(t) : (double)NAN;
 }
 
-static const double Z_975 = 1.959963984540054;
-
-double koksma_student(double z, size_t degrees)
-{
-    const double v = (double)degrees, z2 = z * z;
-    if (z == Z_975 && degrees <= 2) {
-        return degrees == 1 ? 12.706204736174705 : 4.302652729749464;
-    }
-    return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
-           z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
-}
-
 double koksma_student_975(size_t degrees)
 {
-    return koksma_student(Z_975, degrees);
+    return koksma__student_quantile(0.975, (double)degrees);
 }
 
 /* Two passes: sums of squares of what is left when the means are taken off lose no digits. */

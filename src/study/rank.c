@@ -13,8 +13,8 @@
 #include <time.h>
 
 #include "core/parallel.h"
+#include "core/quantiles.h"
 #include "core/status.h"
-#include "render/adaptive/quantiles.h"
 #include "study/statistics.h"
 #include "study/study.h"
 

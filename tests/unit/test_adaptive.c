@@ -2,7 +2,7 @@
 /* Adaptive sampling: what it costs, what it may not exceed, bits, and the strata. */
 #include <koksma/adaptive.h>
 
-#include "render/adaptive/quantiles.h"
+#include "core/quantiles.h"
 #include "rendering.h"
 
 enum { WIDTH = 37, HEIGHT = 23, PIXELS = WIDTH * HEIGHT };

@@ -13,9 +13,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/quantiles.h"
 #include "core/status.h"
 #include "render/adaptive/adaptive.h"
-#include "render/adaptive/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
 enum { FACTORS = 1024 }; /* for 1 .. FACTORS sets; beyond, where they hardly change, the last one serves */

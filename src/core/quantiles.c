@@ -3,7 +3,7 @@
  * By bisection of the distribution functions: the regularised incomplete beta function by its continued fraction, and
  * the incomplete gamma function by its series (Abramowitz & Stegun 1964, 26.5.8, 26.7.1, 6.5.29, 26.4.19).
  */
-#include "render/adaptive/quantiles.h"
+#include "core/quantiles.h"
 
 #include <math.h>
 
