@@ -2,7 +2,7 @@
 """The power spectrum of plane point sets."""
 from __future__ import annotations
 
-from ctypes import byref, c_double
+from ctypes import byref
 from dataclasses import dataclass
 from typing import Iterable
 
@@ -20,7 +20,8 @@ class Spectrum:
 
     power[half + ky, half + kx] is the power at (kx, ky). Ring i has the frequencies of length i + 1/2 to i + 3/2:
     its mean, the standard error over the sets (NaN for one), and the anisotropy in dB. After Heck, Schlömer and
-    Deussen (2013), effective_nyquist and oscillation sum the rings up.
+    Deussen (2013), effective_nyquist (also over that of the square lattice) and oscillation sum
+    the rings up; oscillation is NaN when the spectrum ends too early for it.
     """
 
     power: npt.NDArray[np.float64]
@@ -29,21 +30,22 @@ class Spectrum:
     standard_error: npt.NDArray[np.float64]
     anisotropy_db: npt.NDArray[np.float64]
     effective_nyquist: float
+    relative_nyquist: float
     oscillation: float
     sets: int
 
 
 def _result(raw: s.Spectrum) -> Spectrum:
     half, width = raw.half, 2 * raw.half + 1
-    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width)) / raw.sets  # ky >= 0; the rest is its mirror
+    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width))  # ky >= 0; the rest is its mirror
     power = np.concatenate([upper[:0:-1, ::-1], upper])
     rings = (s.Ring * half)()
-    core().koksma_spectrum_rings(byref(raw), rings)
+    check(core().koksma_spectrum_rings(byref(raw), rings))
     table = np.frombuffer(rings, dtype=np.float64).reshape(half, 4).copy()
-    nyquist, oscillation = c_double(), c_double()
-    core().koksma_spectrum_quality(byref(raw), byref(nyquist), byref(oscillation))
-    return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], nyquist.value, oscillation.value,
-                    raw.sets)
+    quality = s.Quality()
+    core().koksma_spectrum_quality(byref(raw), byref(quality))
+    return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], quality.effective_nyquist,
+                    quality.relative_nyquist, quality.oscillation, raw.sets)
 
 
 def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: int = 64, *, exact: bool = False,

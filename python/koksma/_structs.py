@@ -29,8 +29,8 @@ class Pattern(Structure):
 
 
 class Measure(Structure):
-    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
-                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int),
+                ("min_dim", c_int), ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
 
 
 class Spec(Structure):
@@ -67,6 +67,10 @@ class Ring(Structure):
                 ("anisotropy_db", c_double)]
 
 
+class Quality(Structure):
+    _fields_ = [("effective_nyquist", c_double), ("relative_nyquist", c_double), ("oscillation", c_double)]
+
+
 class Image(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("channels", c_int), ("pixels", POINTER(c_float))]
 
@@ -84,5 +88,6 @@ LAYOUTS = [
     ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
     ("spectrum.h", "koksma_spectrum", Spectrum), ("spectrum.h", "koksma_ring", Ring),
+    ("spectrum.h", "koksma_spectrum_quality_values", Quality),
     ("image.h", "koksma_image", Image), ("render.h", "koksma_render_options", RenderOptions),
 ]
