@@ -257,7 +257,8 @@ static void rays_are_counted_once(void **state)
 static void shown_strata_are_a_partition(void **state)
 {
     (void)state;
-    static const char *const forms[] = {"hierarchical:levels=3", "hierarchical:levels=3,pairing=shuffled,reuse=fresh",
+    static const char *const forms[] = {"hierarchical:levels=3,threshold=0",
+                                        "hierarchical:levels=3,threshold=0,pairing=shuffled,reuse=fresh",
                                         "selective:levels=2,below=2,threshold=0"};
     koksma_scene *scene;
     assert_ok(koksma_scene_open("all", &scene));
