@@ -27,7 +27,7 @@ typedef struct scene {
 static const scene scenes[] = {
     {"checker", "distribution", 16, 64, 4096, 2}, {"ball", "distribution", 16, 64, 4096, 2},
     {"all", "distribution", 16, 64, 4096, 2},     {"glossy", "distribution", 16, 64, 4096, 2},
-    {"mirror-block", "path", 400, 441, 16384, 1},
+    {"mirror-block", "path", 400, 441, 4096, 1},
 };
 
 /* A method, and how its first samples are had: sets of first / parts samples. parts 0: all of them in strata, the

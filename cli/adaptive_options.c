@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "adaptive_options.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Options that an adaptive method with samples of its own has no use for. */
@@ -16,15 +18,36 @@ static bool check_idle(const cli_arguments *arguments, const koksma_adaptive *me
     return true;
 }
 
+/* "X,Y:FILE" */
+static bool parse_strata(const cli_arguments *arguments, cli_adaptive *adaptive)
+{
+    const char *text = cli_text(arguments, "strata", NULL);
+    int used = 0;
+    if (!text) {
+        return true;
+    }
+    if (sscanf(text, "%6d,%6d:%n", &adaptive->strata.x, &adaptive->strata.y, &used) != 2 || !used || !text[used]) {
+        cli_usage_error(arguments, "--strata %s: it takes X,Y:FILE, such as 41,60:strata.svg", text);
+        return false;
+    }
+    adaptive->strata_path = text + used;
+    adaptive->options.strata = &adaptive->strata;
+    return true;
+}
+
 bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive, int *code)
 {
-    static const char *const needy[] = {"budget", "probe"};
+    static const char *const needy[] = {"budget", "probe", "strata"};
     const char *text = cli_text(arguments, "adaptive", NULL), *counts = cli_text(arguments, "counts", NULL);
     double budget = 0;
     uint64_t probes = 0;
     *adaptive = (cli_adaptive){.options = {.method = NULL}};
     koksma_status status = counts ? koksma_image_check_path(counts) : KOKSMA_OK;
     status = status || !text ? status : koksma_adaptive_parse(text, &adaptive->options);
+    if (!status && cli_flag(arguments, "strata")) {
+        koksma_plot_format format;
+        status = koksma_plot_format_of(cli_text(arguments, "strata", ""), &format);
+    }
     if (status) {
         *code = cli_fail(arguments, status);
         return false;
@@ -36,7 +59,7 @@ bool cli_adaptive_options(const cli_arguments *arguments, cli_adaptive *adaptive
             return false;
         }
     }
-    if ((text && !check_idle(arguments, adaptive->options.method)) ||
+    if ((text && !check_idle(arguments, adaptive->options.method)) || !parse_strata(arguments, adaptive) ||
         !cli_real(arguments, "budget", 0, 1, KOKSMA_MAX_SPP, &budget) ||
         !cli_whole(arguments, "probe", 0, 0, KOKSMA_MAX_PROBES, &probes)) {
         return false;
@@ -81,4 +104,24 @@ koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *
         samples->pixels[i] /= most;
     }
     return koksma_image_write(path, samples, "samples of each pixel");
+}
+
+koksma_status cli_adaptive_strata(cli_adaptive *adaptive)
+{
+    koksma_plot_format format;
+    unsigned char *bytes = NULL;
+    size_t size;
+    char caption[96];
+    const koksma_strata *strata = &adaptive->strata;
+    if (!adaptive->strata_path) {
+        return KOKSMA_OK;
+    }
+    snprintf(caption, sizeof caption, "pixel %d,%d: %zu strata, use %s", strata->x, strata->y, strata->n,
+             strata->use);
+    koksma_status status = koksma_plot_format_of(adaptive->strata_path, &format);
+    status = status ? status : koksma_plot_strata(strata->list, strata->n, 0, caption, format, &bytes, &size);
+    status = status ? status : koksma_plot_write(adaptive->strata_path, bytes, size);
+    free(bytes);
+    free(adaptive->strata.list);
+    return status;
 }

@@ -10,6 +10,7 @@
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
     {0, "adaptive", "METHOD", "after SPP samples more where needed: see 'koksma list adaptive'"},                    \
         {0, "budget", "SPP", "of --adaptive: samples a pixel in the mean, at most (default: no limit)"},             \
+        {0, "strata", "X,Y:FILE", "of --adaptive: picture of how pixel X,Y was split, .svg, .pdf or .png"},          \
         {0, "probe", "K", "of --adaptive: K samples that count for nothing tell needless splits (default: 0)"},      \
     {                                                                                                                \
         0, "counts", "FILE", "picture of the samples of each pixel; .png: over the largest"                          \
@@ -19,6 +20,8 @@
 typedef struct cli_adaptive {
     koksma_adaptive_options options;
     koksma_adaptive_report report;
+    koksma_strata strata;
+    const char *strata_path; /* NULL: not asked for */
 } cli_adaptive;
 
 /* Values of those options; false after an error, whose code is in *code. */
@@ -29,5 +32,8 @@ void cli_adaptive_put(cli_rows *rows, const cli_adaptive *adaptive, double pixel
 
 /* Writes --counts, if asked for; scales a .png's numbers in place. */
 koksma_status cli_adaptive_counts(const cli_arguments *arguments, koksma_image *samples);
+
+/* Writes --strata, if asked for, and frees them. */
+koksma_status cli_adaptive_strata(cli_adaptive *adaptive);
 
 #endif

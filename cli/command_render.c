@@ -107,7 +107,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return CLI_USAGE;
     }
     const double start = now_s();
-    const koksma_status status =
+    koksma_status status =
         adaptive->options.method
             ? koksma_render_adaptive(scene, options, &adaptive->options, &work.run, &layers, &adaptive->report)
         : has_layers(cli_text(arguments, "output", "")) ? koksma_render_layers(scene, options, &work.run, &layers)
@@ -118,6 +118,9 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     const koksma_status written =
         done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
     koksma_layers_fini(&layers);
+    if (!status && !written) {
+        status = cli_adaptive_strata(adaptive);
+    }
     if (status == KOKSMA_INTERRUPTED && done && !written) {
         fprintf(stderr, "koksma render: interrupted; %s has the pixels that were done\n",
                 cli_text(arguments, "output", ""));

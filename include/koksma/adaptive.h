@@ -13,6 +13,7 @@
 #ifndef KOKSMA_ADAPTIVE_H
 #define KOKSMA_ADAPTIVE_H
 
+#include <koksma/plot.h>
 #include <koksma/render.h>
 
 #ifdef __cplusplus
@@ -30,12 +31,21 @@ typedef struct koksma_adaptive {
 KOKSMA_API const koksma_adaptive *koksma_adaptive_at(size_t i);
 KOKSMA_API const koksma_adaptive *koksma_adaptive_find(const char *name);
 
+/* The subdivision of one pixel, for a picture of it (koksma_plot_strata). */
+typedef struct koksma_strata {
+    int x, y;             /* which pixel: set before */
+    const char *use;      /* in whose square they lie */
+    size_t n;             /* of list, which the caller frees */
+    koksma_stratum *list; /* values are luminances */
+} koksma_strata;
+
 typedef struct koksma_adaptive_options {
     const koksma_adaptive *method;
     double params[KOKSMA_MAX_PARAMS];
     double budget; /* samples a pixel, in the mean over the image, at most; 0: the method alone decides */
     int probes; /* samples, which count for nothing else, in each stratum that is split, to see whether it needed to
                    be; 0: not asked */
+    koksma_strata *strata; /* NULL, or where the strata of one pixel go; only methods with samples of their own */
 } koksma_adaptive_options;
 
 enum { KOKSMA_MAX_PROBES = 256 };
@@ -57,8 +67,8 @@ typedef struct koksma_adaptive_report {
 /* Renders as koksma_render_layers does: `samples` says how many a pixel had, `variance` is that of the pixel's
    luminance as if its samples were independent; albedo, normal and depth are of the first round. report may be NULL.
    Equal arguments give equal bits on any number of threads.
-   Errors: those of koksma_render_layers; ARGUMENT for splatting, scope image, a deterministic pattern that is no
-   sequence, and a method without anything that stops it. */
+   Errors: those of koksma_render_layers; ARGUMENT for splatting, scope image, a pattern whose sets are all the same,
+   and a method without anything that stops it. */
 KOKSMA_API koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_render_options *options,
                                                 const koksma_adaptive_options *adaptive, const koksma_run *run,
                                                 koksma_layers *out, koksma_adaptive_report *report);

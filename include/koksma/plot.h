@@ -65,6 +65,19 @@ typedef struct koksma_chart {
 KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format,
                                            unsigned char **bytes, size_t *n_bytes);
 
+/* A square of a subdivided unit square, and its sample. */
+typedef struct koksma_stratum {
+    double x, y, width, height; /* from the upper left corner */
+    double at[2];               /* the sample's place */
+    double value;               /* grey: 0 black, 1 white */
+    int level;                  /* splits that made it */
+} koksma_stratum;
+
+/* Draws strata, y down, in their values' greys with their samples. size is the side; 0: 320. caption: NULL for none.
+   Errors: MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double size, const char *caption,
+                                            koksma_plot_format format, unsigned char **bytes, size_t *n_bytes);
+
 /* Writes bytes to a file whole or not at all; "-" is standard output. Errors: IO. */
 KOKSMA_API koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size);
 

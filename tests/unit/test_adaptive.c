@@ -253,6 +253,39 @@ static void rays_are_counted_once(void **state)
     koksma_scene_close(scene);
 }
 
+/* The strata of a pixel are a partition of the square, with each sample in its own; their values are the pixel. */
+static void shown_strata_are_a_partition(void **state)
+{
+    (void)state;
+    static const char *const forms[] = {"hierarchical:levels=3,threshold=0",
+                                        "hierarchical:levels=3,threshold=0,pairing=shuffled,reuse=fresh",
+                                        "selective:levels=2,below=2,threshold=0"};
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("all", &scene));
+    for (size_t f = 0; f < 3; f++) {
+        const koksma_render_options options = options_for(scene, 16);
+        koksma_adaptive_options adaptive = adaptive_of(forms[f], 0);
+        koksma_strata strata = {.x = 15, .y = 17};
+        koksma_layers layers;
+        adaptive.strata = &strata;
+        assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL));
+        double area = 0, sum = 0;
+        for (size_t i = 0; i < strata.n; i++) {
+            const koksma_stratum *s = &strata.list[i];
+            area += s->width * s->height;
+            sum += s->width * s->height * s->value;
+            assert_true(s->at[0] >= s->x - 1e-7 && s->at[0] <= s->x + s->width + 1e-7);
+            assert_true(s->at[1] >= s->y - 1e-7 && s->at[1] <= s->y + s->height + 1e-7);
+        }
+        assert_true(strata.n > 16);
+        assert_near(area, 1, 1e-12);
+        assert_near(sum, (double)layers.image.pixels[17 * WIDTH + 15], 1e-6);
+        free(strata.list);
+        koksma_layers_fini(&layers);
+    }
+    koksma_scene_close(scene);
+}
+
 static koksma_status try(const koksma_scene *scene, const char *method, const char *pattern, int spp, double budget)
 {
     koksma_render_options options = options_for(scene, spp);
@@ -311,6 +344,7 @@ int main(void)
         cmocka_unit_test(strata_weigh_their_volume),
         cmocka_unit_test(shuffled_strata_are_split_needlessly),
         cmocka_unit_test(quantiles_are_the_published),
+        cmocka_unit_test(shown_strata_are_a_partition),
         cmocka_unit_test(rays_are_counted_once),
         cmocka_unit_test(errors_are_said),
     };

@@ -39,7 +39,8 @@ static const koksma__adaptive_rules rules = {.open = open,
                                              .decide = koksma__strata_decide,
                                              .last = koksma__strata_last,
                                              .probes = koksma__strata_probes,
-                                             .result = koksma__strata_result};
+                                             .result = koksma__strata_result,
+                                             .show = koksma__strata_show};
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",

@@ -140,7 +140,8 @@ static const koksma__adaptive_rules rules = {.open = open,
                                              .decide = decide,
                                              .last = koksma__strata_last,
                                              .probes = koksma__strata_probes,
-                                             .result = koksma__strata_result};
+                                             .result = koksma__strata_result,
+                                             .show = koksma__strata_show};
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",

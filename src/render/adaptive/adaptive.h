@@ -40,6 +40,8 @@ typedef struct koksma__adaptive_rules {
     /* NULL, or the number of probes that a served pixel's splits take; draw and take then serve those. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]); /* returns the variance */
+    /* NULL, or a pixel's strata for a picture. Errors: MEMORY. */
+    koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 } koksma__adaptive_rules;
 
 struct koksma__adaptive {

@@ -283,6 +283,14 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
         return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     }
+    const koksma_strata *strata = adaptive->strata;
+    if (strata && !((const koksma__adaptive_rules *)adaptive->method->rules)->show) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
+    }
+    if (strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "pixel %d,%d is outside of %d x %d pixels", strata->x, strata->y,
+                            options->width, options->height);
+    }
     return KOKSMA_OK;
 }
 
@@ -344,6 +352,11 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         status = status ? status : render_rounds(&j, how);
         if (!status || status == KOKSMA_INTERRUPTED) {
             write_results(&j);
+        }
+        if (!status && adaptive->strata) {
+            const koksma_strata *strata = adaptive->strata;
+            status = run.rules->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
+                                     adaptive->strata);
         }
         run.rules->close(&run);
         j.frame.sampler = run.base;

@@ -106,6 +106,7 @@ void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb);
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
 void koksma__strata_last(koksma__adaptive *run);
 size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel);
+koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
 
 #endif
