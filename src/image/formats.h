@@ -31,6 +31,9 @@ typedef struct koksma__image_format {
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
+/* An image file in memory, known by its content. Errors name no file. */
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);
+
 /* koksma_image_init for sizes that a file claims: MALFORMED when they are out of range, or when `bytes` bytes can't
    hold so many pixels at `pixels_a_byte` at best. */
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,

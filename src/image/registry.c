@@ -87,6 +87,22 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    const koksma__image_format *format = NULL;
+    *out = (koksma_image){0};
+    for (size_t i = 0; formats[i] && !format; i++) {
+        format = formats[i]->recognises(bytes, size) ? formats[i] : NULL;
+    }
+    const koksma_status status = format
+                                     ? format->read(bytes, size, out)
+                                     : koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+    if (status) {
+        koksma_image_fini(out);
+    }
+    return status;
+}
+
 koksma_status koksma_image_read(const char *path, koksma_image *out)
 {
     unsigned char *bytes;
@@ -96,18 +112,9 @@ koksma_status koksma_image_read(const char *path, koksma_image *out)
     if (status) {
         return status;
     }
-    const koksma__image_format *format = NULL;
-    for (size_t i = 0; formats[i] && !format; i++) {
-        format = formats[i]->recognises(bytes, size) ? formats[i] : NULL;
-    }
-    status = format ? format->read(bytes, size, out)
-                    : koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+    status = koksma__image_read_bytes(bytes, size, out);
     free(bytes);
-    if (status) {
-        koksma_image_fini(out);
-        return koksma__fail_in(status, path);
-    }
-    return KOKSMA_OK;
+    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
 static const koksma__image_format *format_of_name(const char *path)

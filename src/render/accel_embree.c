@@ -4,10 +4,6 @@
  * shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's place and normal are
  * made from its triangle, not from the ray, so that they are as exact as the vertices.
  *
- * A ray that starts on a triangle starts a little off it, on the side where it goes: 2^-20 of the largest coordinate
- * of the triangle, which is 16 units in its last place and more than the error of a place on it. So it meets neither
- * its own triangle nor those that share its edges (an idea of Waechter & Binder 2019, with a measure of our own).
- *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that it chooses by itself. The floating-point
  * mode (Embree would like denormals to be 0) is left as it is.
@@ -53,6 +49,7 @@ typedef struct embree {
     RTCDevice device;
     RTCScene scene, *shared; /* shared[m]: the tree of mesh m, if it has instances */
     koksma__geometry shapes;
+    const koksma__batch_table *batch;
     size_t n_parts, n_meshes;
     int32_t n_shapes;
     bool moves, wide;
@@ -87,23 +84,33 @@ static const part *part_of(const embree *e, int32_t primitive)
     return &e->parts[low];
 }
 
-static void start(const embree *e, const int32_t *from, const float *x, const float *y, const float *z,
-                  const float *dx, const float *dy, const float *dz, int n, starts *s)
+static void set_starts(const float *x, const float *y, const float *z, int n, starts *s)
 {
     memcpy(s->x, x, (size_t)n * sizeof *x);
     memcpy(s->y, y, (size_t)n * sizeof *y);
     memcpy(s->z, z, (size_t)n * sizeof *z);
+}
+
+/* The starts, off the triangles that they are on. */
+static void start(const embree *e, const int32_t *from, const float *times, const float *const d[3], int n, starts *s)
+{
+    koksma__landings on;
+    int any = 0;
     for (int i = 0; from && i < n; i++) {
+        any |= from[i] >= e->n_shapes;
+    }
+    if (!any) {
+        return;
+    }
+    memset(on.corners, 0, sizeof on.corners);
+    for (int i = 0; i < n; i++) {
+        on.primitive[i] = -1;
         if (from[i] >= e->n_shapes) {
-            const float d[3] = {dx[i], dy[i], dz[i]};
-            float o[3] = {x[i], y[i], z[i]};
             const part *p = part_of(e, from[i]);
-            step_off(p, (uint32_t)(from[i] - p->first), d, o);
-            s->x[i] = o[0];
-            s->y[i] = o[1];
-            s->z[i] = o[2];
+            set_lane(p, (uint32_t)(from[i] - p->first), e->moves ? times[i] : 0, i, &on);
         }
     }
+    e->batch->step_off(&on, d[0], d[1], d[2], n, s->x, s->y, s->z);
 }
 
 /* ---- Packets ---------------------------------------------------------------------------------------------- */
@@ -138,29 +145,45 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
                    koksma__hits *hits)
 {
     const embree *e = geometry->made;
+    const float *const d[3] = {rays->dx, rays->dy, rays->dz};
     starts s;
-    int hit = 0;
-    e->shapes.closest(&e->shapes, rays, from, n, hits);
-    start(e, from, rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz, n, &s);
+    koksma__landings on;
+    int count = e->shapes.closest(&e->shapes, rays, from, n, hits), landed = 0, fine = 0;
+    set_starts(rays->ox, rays->oy, rays->oz, n, &s);
+    start(e, from, rays->time, d, n, &s);
     for (int i = 0; i < n; i += e->wide ? 16 : 8) {
-        if (e->wide) {
-            intersect_16(e, &s, rays, i, !from, hits);
-        } else {
-            intersect_8(e, &s, rays, i, !from, hits);
+        landed +=
+            e->wide ? intersect_16(e, &s, rays, i, !from, hits, &on) : intersect_8(e, &s, rays, i, !from, hits, &on);
+    }
+    if (!landed) {
+        return count;
+    }
+    memset(on.corners, 0, sizeof on.corners);
+    for (int i = 0; i < n; i++) {
+        const int32_t number = on.primitive[i]; /* of the part, until set_lane */
+        if (number >= 0) {
+            count += hits->primitive[i] < 0;
+            fine |= e->parts[number].smooth || e->parts[number].mesh->uvs;
+            set_lane(&e->parts[number], on.triangle[i], e->moves ? rays->time[i] : 0, i, &on);
         }
     }
-    for (int i = 0; i < n; i++) {
-        hit += hits->primitive[i] >= 0;
+    e->batch->land(&on, rays, n, hits);
+    for (int i = 0; fine && i < n; i++) {
+        if (on.primitive[i] >= 0) {
+            refine(part_of(e, on.primitive[i]), &on, rays, i, hits);
+        }
     }
-    return hit;
+    return count;
 }
 
 static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
 {
     const embree *e = geometry->made;
+    const float *const d[3] = {shadows->dx, shadows->dy, shadows->dz};
     starts s;
     e->shapes.occlude(&e->shapes, hits, n, shadows);
-    start(e, hits->primitive, hits->px, hits->py, hits->pz, shadows->dx, shadows->dy, shadows->dz, n, &s);
+    set_starts(hits->px, hits->py, hits->pz, n, &s);
+    start(e, hits->primitive, hits->time, d, n, &s);
     for (int i = 0; i < n; i += e->wide ? 16 : 8) {
         if (e->wide) {
             shade_16(e, &s, hits, i, shadows);
@@ -352,6 +375,7 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
     e->n_meshes = scene->n_meshes;
     e->n_shapes = (int32_t)scene->n_shapes;
     e->shared = calloc(scene->n_meshes + 1, sizeof(RTCScene));
+    e->batch = koksma__batch();
     e->device = rtcNewDevice("threads=1,set_affinity=0");
     koksma_status status = koksma__accel_shapes(scene, &e->shapes);
     if (!status && (!e->device || !e->shared)) {

@@ -3,37 +3,42 @@
    again, with another WIDTH. */
 #define PACKET(name) PASTE(PASTE(name, _), WIDTH)
 
-/* Rays start .. start + WIDTH - 1 of the block that are alive. */
-static void PACKET(intersect)(const embree *e, const starts *s, const koksma__rays *rays, int start, bool coherent,
-                              koksma__hits *hits)
+/* Rays start .. start + WIDTH - 1 of the block; on gets the parts (as primitives) and triangles that are closer than
+   what hits has, and the return value is their number. */
+static int PACKET(intersect)(const embree *e, const starts *s, const koksma__rays *rays, int start, bool coherent,
+                             const koksma__hits *hits, koksma__landings *on)
 {
     _Alignas(64) int valid[WIDTH];
     struct PASTE(RTCRayHit, WIDTH) packet;
+    int landed = 0;
+    memcpy(packet.ray.org_x, s->x + start, sizeof packet.ray.org_x);
+    memcpy(packet.ray.org_y, s->y + start, sizeof packet.ray.org_y);
+    memcpy(packet.ray.org_z, s->z + start, sizeof packet.ray.org_z);
+    memcpy(packet.ray.dir_x, rays->dx + start, sizeof packet.ray.dir_x);
+    memcpy(packet.ray.dir_y, rays->dy + start, sizeof packet.ray.dir_y);
+    memcpy(packet.ray.dir_z, rays->dz + start, sizeof packet.ray.dir_z);
+    memcpy(packet.ray.tfar, hits->t + start, sizeof packet.ray.tfar);
     for (int i = 0; i < WIDTH; i++) {
         valid[i] = -1;
         packet.ray.tnear[i] = 0;
         packet.ray.mask[i] = ~0u;
         packet.ray.id[i] = packet.ray.flags[i] = 0;
-        packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-        packet.ray.tfar[i] = hits->t[start + i];
         packet.ray.time[i] = e->moves ? rays->time[start + i] : 0;
-        packet.ray.dir_x[i] = rays->dx[start + i];
-        packet.ray.dir_y[i] = rays->dy[start + i];
-        packet.ray.dir_z[i] = rays->dz[start + i];
-        packet.ray.org_x[i] = s->x[start + i];
-        packet.ray.org_y[i] = s->y[start + i];
-        packet.ray.org_z[i] = s->z[start + i];
+        packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
     CONTEXT(coherent);
     INTERSECT(WIDTH, valid, e, &packet);
+    memcpy(on->t + start, packet.ray.tfar, sizeof packet.ray.tfar);
+    memcpy(on->u + start, packet.hit.u, sizeof packet.hit.u);
+    memcpy(on->v + start, packet.hit.v, sizeof packet.hit.v);
+    memcpy(on->triangle + start, packet.hit.primID, sizeof packet.hit.primID);
     for (int i = 0; i < WIDTH; i++) {
-        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
-            const uint32_t instance = packet.hit.instID[0][i];
-            const uint32_t number = instance == RTC_INVALID_GEOMETRY_ID ? packet.hit.geomID[i] : instance;
-            hits->t[start + i] = packet.ray.tfar[i];
-            finish(&e->parts[number], packet.hit.primID[i], packet.hit.u[i], packet.hit.v[i], rays, start + i, hits);
-        }
+        const uint32_t instance = packet.hit.instID[0][i], geometry = packet.hit.geomID[i];
+        /* RTC_INVALID_GEOMETRY_ID is -1 */
+        on->primitive[start + i] = (int32_t)(instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance);
+        landed += geometry != RTC_INVALID_GEOMETRY_ID;
     }
+    return landed;
 }
 
 static void PACKET(shade)(const embree *e, const starts *s, const koksma__hits *hits, int start,

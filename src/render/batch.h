@@ -78,6 +78,18 @@ typedef struct koksma__batch_shapes {
     const koksma__batch_shape *shapes;
 } koksma__batch_shapes;
 
+/* Triangles that rays met, or that they start on; lanes with primitive -1 have none. */
+typedef struct koksma__landings {
+    _Alignas(64) float corners[9][KOKSMA__BLOCK]; /* 3 c + k: coordinate k of corner c */
+    _Alignas(64) float shift[3][KOKSMA__BLOCK];   /* by their motion */
+    KOKSMA__LANES(float, u);                      /* weight of corner 1 */
+    KOKSMA__LANES(float, v);                      /* of corner 2 */
+    KOKSMA__LANES(float, t);
+    KOKSMA__LANES(int32_t, primitive);
+    KOKSMA__LANES(int32_t, material);
+    KOKSMA__LANES(uint32_t, triangle); /* its number in its mesh */
+} koksma__landings;
+
 /* A checker's turn and scale as a matrix: s = su u + sv v + s0, t = tu u + tv v + t0. */
 typedef struct koksma__batch_material {
     bool checker;

@@ -26,7 +26,7 @@ bool koksma__direct_can(const koksma__frame *frame)
         can = scene->lights[i].kind == KOKSMA__LIGHT_RECTANGLE && !scene->lights[i].visible;
     }
     for (size_t i = 0; can && i < scene->n_materials; i++) {
-        can = scene->materials[i].kind == KOKSMA__MATERIAL_LAMBERT;
+        can = scene->materials[i].kind == KOKSMA__MATERIAL_LAMBERT && !scene->materials[i].image;
     }
     return can;
 }

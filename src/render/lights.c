@@ -111,7 +111,9 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
     for (size_t i = 0; !status && i < n; i++) {
         out->lamps[i] = make_lamp(&scene->lights[i]);
         out->rectangles[i] = make_rectangle(&scene->lights[i]);
-        if (scene->lights[i].kind == KOKSMA__LIGHT_ENVIRONMENT) {
+        if (scene->lights[i].kind == KOKSMA__LIGHT_MESH) {
+            status = koksma__lamp_mesh_open(scene, &scene->lights[i], &out->lamps[i]);
+        } else if (scene->lights[i].kind == KOKSMA__LIGHT_ENVIRONMENT) {
             status = koksma__environment_open(&scene->lights[i], &out->environment);
             out->environment_lamp = (int)i;
             out->lamps[i].environment = out->environment;
@@ -139,6 +141,9 @@ koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out
 void koksma__lights_fini(koksma__lights *lights)
 {
     koksma__environment_close(lights->environment);
+    for (size_t i = 0; lights->lamps && i < lights->n; i++) {
+        koksma__lamp_mesh_close(lights->lamps[i].mesh);
+    }
     free(lights->lamps);
     free(lights->rectangles);
     free(lights->cdf);
@@ -259,6 +264,8 @@ bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float
     }
     case KOKSMA__LIGHT_SPHERE:
         return aim_sphere(lamp, p, u, out);
+    case KOKSMA__LIGHT_MESH:
+        return koksma__lamp_mesh_sample(lamp, p, u, out);
     case KOKSMA__LIGHT_POINT:
         return aim_point(lamp, p, 1, out);
     case KOKSMA__LIGHT_DIRECTIONAL:
@@ -282,6 +289,15 @@ bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__bea
         return true;
     case KOKSMA__LIGHT_SPHERE:
         return aim_point(lamp, p, KOKSMA__PI_F * lamp->half[0] * lamp->half[0], out);
+    case KOKSMA__LIGHT_MESH: /* a convex body shows a quarter of its surface in the mean (Cauchy) */
+        if (!aim_point(lamp, p, lamp->area / 4, out)) {
+            return false;
+        }
+        for (int k = 0; k < 3; k++) { /* ends before the mesh itself */
+            const float rest = out->d[k] - lamp->half[0] * out->w[k];
+            out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
+        }
+        return true;
     default:
         if (!koksma__lamp_sample(lamp, p, middle, out)) {
             return false;
@@ -291,12 +307,13 @@ bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__bea
     }
 }
 
-float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t)
+float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t, const float n[3])
 {
     switch (lamp->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
-    case KOKSMA__LIGHT_DISK: {
-        const float cosine = -koksma__dot3(lamp->normal, w);
+    case KOKSMA__LIGHT_DISK:
+    case KOKSMA__LIGHT_MESH: {
+        const float cosine = -koksma__dot3(n, w);
         return cosine > 0 ? t * t / (cosine * lamp->area) : 0;
     }
     case KOKSMA__LIGHT_SPHERE: {

@@ -12,6 +12,8 @@
 
 typedef struct koksma__environment koksma__environment;
 
+typedef struct koksma__lamp_mesh koksma__lamp_mesh;
+
 typedef struct koksma__lamp {
     koksma__light_kind kind;
     bool visible;
@@ -20,6 +22,7 @@ typedef struct koksma__lamp {
     float power;     /* luminous, for choosing: of the whole surface, over pi */
     int light_shape; /* id of its own surface, or -1 */
     const koksma__environment *environment;
+    koksma__lamp_mesh *mesh; /* of a luminous mesh, or NULL */
 } koksma__lamp;
 
 typedef struct koksma__lights {
@@ -51,11 +54,18 @@ bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float
 bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out);
 
 /* The density with which sample() would choose the way w (of length 1) from p, which meets the luminaire at distance
-   t. */
-float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t);
+   t, where its normal is n (idle for the environment). */
+float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t, const float n[3]);
 
 /* Radiance along the way w from far away. */
 void koksma__environment_radiance(const koksma__environment *environment, const float w[3], float out[3]);
+
+/* ---- lamp_mesh.c --------------------------------------------------------------------------------------- */
+
+/* Sets what a lamp has of its mesh. Errors: MALFORMED (no area), MEMORY. */
+koksma_status koksma__lamp_mesh_open(const koksma_scene *scene, const koksma__light *light, koksma__lamp *lamp);
+void koksma__lamp_mesh_close(koksma__lamp_mesh *mesh);
+bool koksma__lamp_mesh_sample(const koksma__lamp *lamp, const float p[3], const float u[2], koksma__beam *out);
 
 /* ---- environment.c ------------------------------------------------------------------------------------- */
 

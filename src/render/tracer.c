@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "render/texture.h"
 #include "render/tracer.h"
 #include "render/vector3.h"
 
@@ -76,12 +77,13 @@ static void gather(const koksma__path *paths, int n, int whole, koksma__rays *ra
 
 /* The part of the light that a ray brings which met its luminaire by chance: the power heuristic against sampling it.
  */
-static float chance_weight(const koksma__frame *frame, const koksma__path *path, int lamp, const float w[3], float t)
+static float chance_weight(const koksma__frame *frame, const koksma__path *path, int lamp, const float w[3], float t,
+                           const float n[3])
 {
     if (!(path->density > 0)) {
         return path->density < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
     }
-    const float sampled = koksma__lamp_density(&frame->lights.lamps[lamp], path->o, w, t) *
+    const float sampled = koksma__lamp_density(&frame->lights.lamps[lamp], path->o, w, t, n) *
                           koksma__lamp_chance(frame, path->o, path->n, lamp);
     return path->density * path->density / (path->density * path->density + sampled * sampled);
 }
@@ -103,7 +105,7 @@ static void add_miss(const koksma__frame *frame, const koksma__path *path, float
         float w[3] = {path->d[0], path->d[1], path->d[2]}, radiance[3];
         koksma__unit3(w);
         koksma__environment_radiance(frame->lights.environment, w, radiance);
-        add_scaled(path->beta, radiance, chance_weight(frame, path, lamp, w, 0), sum);
+        add_scaled(path->beta, radiance, chance_weight(frame, path, lamp, w, 0, w), sum);
     }
 }
 
@@ -113,10 +115,11 @@ static void add_luminaire(const koksma__frame *frame, const koksma__path *path, 
     const int lamp = frame->geometry.light(&frame->geometry, hits->primitive[i]);
     if (!hits->back[i]) {
         float w[3] = {path->d[0], path->d[1], path->d[2]};
+        const float n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
         const float length = sqrtf(koksma__dot3(w, w));
         koksma__unit3(w);
         add_scaled(path->beta, frame->lights.lamps[lamp].radiance,
-                   chance_weight(frame, path, lamp, w, hits->t[i] * length), sum);
+                   chance_weight(frame, path, lamp, w, hits->t[i] * length, n), sum);
     }
 }
 
@@ -139,6 +142,12 @@ static void set_surface(const koksma__frame *frame, const koksma__path *path, co
                            .primitive = h->primitive[i]};
     koksma__unit3(s->out);
     memcpy(s->albedo, substance->albedo[which], sizeof s->albedo);
+    if (substance->image) {
+        const size_t shape = (size_t)h->primitive[i];
+        const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
+        koksma__texture(substance->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+                        half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], s->albedo);
+    }
 }
 
 /* What the eye sees first, for the layers. */

@@ -32,6 +32,8 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys);
 
+/* Whether the object has the key with an object. */
+bool koksma__json_is_object_at(const koksma__json_node *node, const char *key);
 bool koksma__json_is_array(const koksma__json_node *node);
 
 /* Whether the object has the key; a member of an object, which must be there; an item of an array. */

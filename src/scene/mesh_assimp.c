@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
+ * Long because only one file may include assimp, and this is meshes, materials, cameras and lights.
+ *
  * Mesh files by assimp's C interface, in builds that have it. It gets its files from memory through us, so that what
  * it opens is a plain file of bounded size; what comes back is checked (koksma__mesh_check). assimp is C++ of many
  * authors: a file made to harm may still harm it, which is why the program never opens one that it wasn't told to.
  */
-#include "scene/mesh.h"
+#include "scene/model.h"
 
 #include <string.h>
 
@@ -27,6 +29,13 @@ bool koksma__is_mesh_file(const char *path)
 
 #ifndef KOKSMA_ASSIMP
 
+koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
+{
+    (void)scene;
+    (void)has_camera;
+    return koksma__mesh_read(path, NULL);
+}
+
 const char *koksma_mesh_reader(void)
 {
     return NULL;
@@ -42,14 +51,19 @@ koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include "core/read_file.h"
+#include "image/formats.h"
+#include "scene/parse.h"
+#include "scene/vector.h"
 
 enum { MAX_DEPTH = 512 /* of nodes */ };
 
@@ -311,6 +325,267 @@ koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
     if (!status) {
         status = gather(scene, out);
         aiReleaseImport(scene);
+        status = status ? koksma__fail_in(status, path) : KOKSMA_OK;
+    }
+    return status;
+}
+
+/* ---- Whole files as scenes ------------------------------------------------------------------------------- */
+
+typedef struct builder {
+    koksma_scene *scene;
+    const struct aiScene *from;
+    const char *path;
+    int *meshes;        /* of ours, by theirs; -1: not yet */
+    double (*glows)[3]; /* by material */
+    koksma_status status;
+} builder;
+
+static double clamp01(float x)
+{
+    return x > 0 ? fmin((double)x, 1) : 0;
+}
+
+/* The texture that the file holds under this name ("*3": by its number), or NULL. */
+static const struct aiTexture *embedded(const struct aiScene *from, const char *name)
+{
+    for (unsigned i = 0; i < from->mNumTextures; i++) {
+        char number[16];
+        snprintf(number, sizeof number, "*%u", i);
+        if (!strcmp(name, number) || !strcmp(name, from->mTextures[i]->mFilename.data)) {
+            return from->mTextures[i];
+        }
+    }
+    return NULL;
+}
+
+/* An image of the file's own (glb), or a file beside it; what we can't read is left out, and the colour is taken. */
+static koksma_image *read_texture(const builder *b, const char *name)
+{
+    char full[KOKSMA__MAX_PATH];
+    koksma_image *image = calloc(1, sizeof *image);
+    koksma_status status = KOKSMA_MALFORMED;
+    const struct aiTexture *own = embedded(b->from, name);
+    if (image && own && !own->mHeight) {
+        status = koksma__image_read_bytes((const unsigned char *)own->pcData, own->mWidth, image);
+    } else if (image && !own && koksma__path_beside(b->path, name, full) && is_plain(full)) {
+        status = koksma_image_read(full, image);
+    }
+    if (status) {
+        koksma_image_fini(image);
+        free(image);
+        return NULL;
+    }
+    return image;
+}
+
+static void read_material(builder *b, unsigned i)
+{
+    const struct aiMaterial *from = b->from->mMaterials[i];
+    koksma__material *m = &b->scene->materials[b->scene->n_materials++];
+    struct aiColor4D colour = {0.8f, 0.8f, 0.8f, 1}, glow = {0, 0, 0, 1};
+    float metallic = 0, roughness = 1, strength = 1;
+    struct aiString file;
+    unsigned one = 1;
+    if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour)) {
+        aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour);
+    }
+    aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &glow);
+    aiGetMaterialFloatArray(from, AI_MATKEY_EMISSIVE_INTENSITY, &strength, &one);
+    aiGetMaterialFloatArray(from, AI_MATKEY_METALLIC_FACTOR, &metallic, &one);
+    aiGetMaterialFloatArray(from, AI_MATKEY_ROUGHNESS_FACTOR, &roughness, &one);
+    snprintf(m->name, sizeof m->name, "%u", i);
+    m->kind = metallic > 0.5f ? KOKSMA__MATERIAL_GGX : KOKSMA__MATERIAL_LAMBERT;
+    m->roughness = fmin(fmax((double)roughness, 0.03), 1);
+    double *to = m->kind == KOKSMA__MATERIAL_GGX ? m->reflectance : m->albedo[0];
+    to[0] = clamp01(colour.r);
+    to[1] = clamp01(colour.g);
+    to[2] = clamp01(colour.b);
+    memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
+    b->glows[i][0] = (double)(glow.r * strength);
+    b->glows[i][1] = (double)(glow.g * strength);
+    b->glows[i][2] = (double)(glow.b * strength);
+    for (int k = 0; k < 3; k++) {
+        b->glows[i][k] = b->glows[i][k] > 0 ? fmin(b->glows[i][k], 1e6) : 0;
+    }
+    if (m->kind == KOKSMA__MATERIAL_LAMBERT &&
+        (!aiGetMaterialTexture(from, aiTextureType_BASE_COLOR, 0, &file, NULL, NULL, NULL, NULL, NULL, NULL) ||
+         !aiGetMaterialTexture(from, aiTextureType_DIFFUSE, 0, &file, NULL, NULL, NULL, NULL, NULL, NULL))) {
+        m->image = read_texture(b, file.data);
+    }
+    if (m->image) {
+        koksma__material_mean(m);
+    }
+}
+
+/* One placement of a mesh; the mesh itself at its first. */
+static void place_mesh(void *context, const struct aiMesh *mesh, const double matrix[12])
+{
+    builder *b = context;
+    unsigned which = 0;
+    koksma__placement *p = NULL;
+    if (b->status || !count_triangles(mesh)) {
+        return;
+    }
+    while (b->from->mMeshes[which] != mesh) {
+        which++;
+    }
+    if (b->meshes[which] < 0) {
+        koksma__mesh *to = NULL;
+        gatherer g = {.normals = mesh->mNormals, .uvs = mesh->mTextureCoords[0]};
+        b->status = koksma__scene_add_mesh(b->scene, &to);
+        b->status = b->status ? b->status
+                              : koksma__mesh_init(mesh->mNumVertices, count_triangles(mesh), g.normals, g.uvs, to);
+        if (!b->status) {
+            g.out = to;
+            append(&g, mesh, identity);
+            b->status = koksma__mesh_check(to);
+            b->scene->hash ^= koksma__mesh_hash(to) + b->scene->n_meshes;
+        }
+        b->meshes[which] = (int)b->scene->n_meshes - 1;
+    }
+    b->status = b->status ? b->status : koksma__scene_add_placement(b->scene, &p);
+    if (b->status) {
+        return;
+    }
+    const unsigned material = mesh->mMaterialIndex < b->scene->n_materials ? mesh->mMaterialIndex : 0;
+    p->mesh = b->meshes[which];
+    p->material = (int)material;
+    p->smooth = mesh->mNormals != NULL;
+    memcpy(p->matrix, matrix, sizeof p->matrix);
+    koksma__placement_box(&b->scene->meshes[p->mesh], p);
+    for (int k = 0; k < 3; k++) {
+        if (!(p->low[k] >= -1e6 && p->high[k] <= 1e6)) {
+            b->status = koksma__fail(KOKSMA_MALFORMED, "a node places a mesh beyond 1e6");
+        }
+    }
+    const double *glow = b->glows[material];
+    if (!b->status && (glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
+        p->smooth = false;
+        b->status = koksma__scene_add_glow(b->scene, p, glow);
+    }
+    if (!b->status && b->scene->materials[material].image && !b->scene->meshes[p->mesh].uvs) {
+        b->status = koksma__fail(KOKSMA_MALFORMED, "a mesh with a texture has no texture coordinates");
+    }
+}
+
+/* The matrix of the node of this name; false: there is none. */
+static bool find_node(const struct aiNode *node, const char *name, const double parent[12], int depth, double out[12])
+{
+    double matrix[12];
+    node_matrix(node, parent, matrix);
+    if (!strcmp(node->mName.data, name)) {
+        memcpy(out, matrix, sizeof matrix);
+        return true;
+    }
+    for (unsigned i = 0; depth < MAX_DEPTH && i < node->mNumChildren; i++) {
+        if (find_node(node->mChildren[i], name, matrix, depth + 1, out)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void transform(const double m[12], const struct aiVector3D *v, double w, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] =
+            m[4 * k] * (double)v->x + m[4 * k + 1] * (double)v->y + m[4 * k + 2] * (double)v->z + w * m[4 * k + 3];
+    }
+}
+
+static bool within(const double v[3], double bound)
+{
+    return fabs(v[0]) <= bound && fabs(v[1]) <= bound && fabs(v[2]) <= bound;
+}
+
+static bool read_camera(const builder *b)
+{
+    const struct aiCamera *c = b->from->mNumCameras ? b->from->mCameras[0] : NULL;
+    double matrix[12], eye[3], forward[3], up[3];
+    if (!c || !find_node(b->from->mRootNode, c->mName.data, identity, 0, matrix)) {
+        return false;
+    }
+    transform(matrix, &c->mPosition, 1, eye);
+    transform(matrix, &c->mLookAt, 0, forward);
+    transform(matrix, &c->mUp, 0, up);
+    const double aspect = c->mAspect > 0 ? (double)c->mAspect : 4.0 / 3;
+    const double fov = 2 * atan(tan((double)c->mHorizontalFOV / 2) / aspect); /* theirs is of the whole width */
+    return within(eye, 1e6) && within(forward, 1e6) && within(up, 1e6) && fov > 2e-4 && fov < 3.1 &&
+           koksma__camera_aim(eye, forward, up, fov, &b->scene->camera);
+}
+
+static koksma_status read_light(const builder *b, const struct aiLight *from)
+{
+    double matrix[12];
+    koksma__light *to = NULL;
+    const float colour[3] = {from->mColorDiffuse.r, from->mColorDiffuse.g, from->mColorDiffuse.b};
+    const bool far_away = from->mType == aiLightSource_DIRECTIONAL;
+    if ((!far_away && from->mType != aiLightSource_POINT && from->mType != aiLightSource_SPOT) ||
+        !find_node(b->from->mRootNode, from->mName.data, identity, 0, matrix)) {
+        return KOKSMA_OK; /* of a kind that we have none of */
+    }
+    const koksma_status status = koksma__scene_add_light(b->scene, &to);
+    if (status) {
+        return status;
+    }
+    to->kind = far_away ? KOKSMA__LIGHT_DIRECTIONAL : KOKSMA__LIGHT_POINT;
+    transform(matrix, &from->mPosition, 1, to->centre);
+    transform(matrix, &from->mDirection, 0, to->normal);
+    for (int k = 0; k < 3; k++) {
+        to->radiance[k] = colour[k] > 0 ? fmin((double)colour[k], 1e6) : 0;
+    }
+    if (!within(to->centre, 1e6) || (far_away && !koksma__normalise(to->normal))) {
+        return koksma__fail(KOKSMA_MALFORMED, "light '%s' is beyond 1e6 or leads nowhere", from->mName.data);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status build(builder *b, bool *has_camera)
+{
+    const struct aiScene *from = b->from;
+    if (from->mNumMaterials > KOKSMA__MAX_MATERIALS - 1) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d materials", KOKSMA__MAX_MATERIALS - 1);
+    }
+    b->meshes = malloc((from->mNumMeshes + 1) * sizeof *b->meshes);
+    b->glows = calloc(from->mNumMaterials + 1, sizeof *b->glows);
+    if (!b->meshes || !b->glows) {
+        return koksma__fail_memory((from->mNumMeshes + 1) * sizeof *b->meshes);
+    }
+    for (unsigned i = 0; i < from->mNumMeshes; i++) {
+        b->meshes[i] = -1;
+    }
+    for (unsigned i = 0; i < from->mNumMaterials; i++) {
+        read_material(b, i);
+    }
+    if (!from->mNumMaterials) {
+        b->scene->n_materials = 1; /* grey */
+        for (int i = 0; i < 6; i++) {
+            b->scene->materials[0].albedo[i / 3][i % 3] = 0.8;
+        }
+    }
+    if (!from->mRootNode || !walk(from, from->mRootNode, identity, 0, place_mesh, b)) {
+        return koksma__fail(KOKSMA_MALFORMED, "nodes are nested too deeply, or name a mesh that is not there");
+    }
+    if (!b->status && !b->scene->n_placements) {
+        return koksma__fail(KOKSMA_MALFORMED, "no triangles");
+    }
+    *has_camera = read_camera(b);
+    for (unsigned i = 0; !b->status && i < from->mNumLights; i++) {
+        b->status = read_light(b, from->mLights[i]);
+    }
+    return b->status;
+}
+
+koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
+{
+    builder b = {.scene = scene, .path = path};
+    koksma_status status = import(path, &b.from);
+    if (!status) {
+        status = build(&b, has_camera);
+        free(b.meshes);
+        free(b.glows);
+        aiReleaseImport(b.from);
         status = status ? koksma__fail_in(status, path) : KOKSMA_OK;
     }
     return status;

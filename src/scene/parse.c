@@ -54,11 +54,15 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
 {
     field list, item;
     size_t n = 0;
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights); /* meshes bring some, too */
+    if (!scene->lights) {
+        return koksma__fail_memory(KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
+    }
     koksma_status status =
         open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
-        status = koksma__parse_material(&item, scene);
+        status = koksma__parse_material(name, &item, scene);
     }
     status = status ? status : open_list(root, "shapes", KOKSMA__MAX_SHAPES, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
@@ -68,7 +72,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     if (status || !koksma__json_has(root, "lights")) {
         return status;
     }
-    status = open_list(root, "lights", KOKSMA__MAX_LIGHTS, sizeof *scene->lights, &scene->lights, &list, &n);
+    status = open_list(root, "lights", KOKSMA__MAX_LIGHTS, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
         status = koksma__parse_light(name, &item, scene);
@@ -82,12 +86,13 @@ static bool is_grey(const double rgb[3])
 }
 
 /* What follows from the rest. */
-static void finish(koksma_scene *scene)
+void koksma__scene_finish(koksma_scene *scene)
 {
     scene->grey = is_grey(scene->background) && is_grey(scene->ambient);
     for (size_t i = 0; i < scene->n_materials; i++) {
         const koksma__material *m = &scene->materials[i];
-        scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && is_grey(m->reflectance);
+        scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && is_grey(m->reflectance) &&
+                       !(m->image && m->image->channels == 3);
     }
     for (size_t i = 0; i < scene->n_lights; i++) {
         const koksma__light *l = &scene->lights[i];
@@ -121,7 +126,7 @@ static koksma_status parse_root(const char *name, const field *root, koksma_scen
     status = status ? status : koksma__json_get_number(root, "clamp", false, TINY, BRIGHT, &scene->clamp);
     status = status ? status : parse_lists(name, root, scene);
     if (!status) {
-        finish(scene);
+        koksma__scene_finish(scene);
     }
     return status;
 }

@@ -22,8 +22,8 @@ enum { KOKSMA__MAX_PATH = 4096 };
 typedef koksma__json_node field;
 
 koksma_status koksma__parse_camera(const field *root, koksma__camera *camera);
-koksma_status koksma__parse_material(const field *f, koksma_scene *scene);
 /* name: of the scene's file, next to which the files that it names are looked for. */
+koksma_status koksma__parse_material(const char *name, const field *f, koksma_scene *scene);
 koksma_status koksma__parse_shape(const char *name, const field *f, koksma_scene *scene);
 koksma_status koksma__parse_mesh(const char *name, const field *f, koksma_scene *scene);
 koksma_status koksma__parse_instance(const field *f, koksma_scene *scene);
@@ -33,6 +33,9 @@ koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene
    (too many; f is named), MEMORY. */
 koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__shape **out);
 
+/* What follows from the rest: grey and moves. */
+void koksma__scene_finish(koksma_scene *scene);
+
 /* One more mesh, zeroed; one more placement, zeroed but for material = light = -1. They may move the others.
    Errors: MALFORMED (too many), MEMORY. */
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
@@ -40,6 +43,18 @@ koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement
 
 /* A path in the file `name` starts at the file's folder; false when it is too long. */
 bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
+
+/* Makes the placement a luminaire. Errors: MALFORMED (too many). */
+koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
+
+/* One more luminaire, zeroed. Errors: MALFORMED (too many). */
+koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
+
+/* The image of a file that the file `name` names, read; NULL on failure, which names f. */
+koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out);
+
+/* The albedo of a material with an image: its mean. */
+void koksma__material_mean(koksma__material *material);
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3]);
 koksma_status koksma__parse_direction(const field *object, const char *key, double out[3]);

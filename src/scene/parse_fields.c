@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/parse.h"
@@ -10,6 +11,19 @@ bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MA
     const char *slash = strrchr(name, '/');
     const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
     return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
+}
+
+koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out)
+{
+    char full[KOKSMA__MAX_PATH];
+    if (!koksma__path_beside(name, path, full)) {
+        return koksma__json_fail(f, "the path is too long");
+    }
+    *out = calloc(1, sizeof **out);
+    if (!*out) {
+        return koksma__fail_memory(sizeof **out);
+    }
+    return koksma_image_read(full, *out) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
 }
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3])

@@ -134,15 +134,16 @@ static koksma_status parse_environment(const char *name, const field *f, koksma_
     if (status) {
         return status;
     }
-    light->image = calloc(1, sizeof *light->image);
-    if (!light->image) {
-        return koksma__fail_memory(sizeof *light->image);
+    return koksma__parse_image(name, f, path, &light->image);
+}
+
+koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out)
+{
+    if (scene->n_lights == KOKSMA__MAX_LIGHTS) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d luminaires", KOKSMA__MAX_LIGHTS);
     }
-    char full[KOKSMA__MAX_PATH];
-    if (!koksma__path_beside(name, path, full)) {
-        return koksma__json_fail(f, "the path is too long");
-    }
-    return koksma_image_read(full, light->image) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
+    *out = &scene->lights[scene->n_lights++];
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene *scene)
@@ -152,13 +153,16 @@ koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene
         [KOKSMA__LIGHT_SPHERE] = "sphere",           [KOKSMA__LIGHT_POINT] = "point",
         [KOKSMA__LIGHT_DIRECTIONAL] = "directional", [KOKSMA__LIGHT_ENVIRONMENT] = "environment"};
     const char *kind = "";
-    koksma__light *light = &scene->lights[scene->n_lights++];
-    const koksma_status status = koksma__parse_kind(f, "rectangle disk sphere point directional environment", &kind);
+    koksma__light *light = NULL;
+    koksma_status status = koksma__parse_kind(f, "rectangle disk sphere point directional environment", &kind);
+    if (!status && koksma__scene_add_light(scene, &light)) {
+        status = koksma__json_fail(f, "%s", koksma_error_text());
+    }
     if (status) {
         return status;
     }
     for (int k = 0; k <= KOKSMA__LIGHT_ENVIRONMENT; k++) {
-        light->kind = strcmp(kinds[k], kind) ? light->kind : (koksma__light_kind)k;
+        light->kind = !kinds[k] || strcmp(kinds[k], kind) ? light->kind : (koksma__light_kind)k;
     }
     switch (light->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
@@ -166,6 +170,8 @@ koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene
         return parse_flat(f, scene, light);
     case KOKSMA__LIGHT_SPHERE:
         return parse_ball(f, scene, light);
+    case KOKSMA__LIGHT_MESH: /* comes with its shape */
+        return KOKSMA_OK;
     case KOKSMA__LIGHT_POINT:
         return parse_point_light(f, light);
     case KOKSMA__LIGHT_DIRECTIONAL:

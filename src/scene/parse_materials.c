@@ -34,7 +34,35 @@ static koksma_status parse_diffuse(const field *f, koksma__material *m)
 static koksma_status parse_lambert(const field *f, koksma__material *m)
 {
     const koksma_status status = koksma__json_only(f, KEYS("name", "kind", "albedo"));
-    return status ? status : parse_diffuse(f, m);
+    return status || m->image ? status : parse_diffuse(f, m);
+}
+
+/* "albedo": {"image": FILE} of a Lambert surface; its mean colour stands where one number must do. */
+static koksma_status parse_texture(const char *name, const field *f, koksma__material *m)
+{
+    field albedo;
+    const char *path = "";
+    koksma_status status = koksma__json_member(f, "albedo", &albedo);
+    status = status ? status : koksma__json_only(&albedo, KEYS("image"));
+    status = status ? status : koksma__json_get_text(&albedo, "image", true, &path);
+    status = status ? status : koksma__parse_image(name, &albedo, path, &m->image);
+    if (!status) {
+        koksma__material_mean(m);
+    }
+    return status;
+}
+
+void koksma__material_mean(koksma__material *m)
+{
+    const size_t n = (size_t)m->image->width * (size_t)m->image->height, channels = (size_t)m->image->channels;
+    for (size_t k = 0; k < 3; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double value = (double)m->image->pixels[i * channels + k % channels];
+            sum += value > 0 ? fmin(value, 1) : 0;
+        }
+        m->albedo[0][k] = m->albedo[1][k] = sum / (double)n;
+    }
 }
 
 static koksma_status parse_checker(const field *f, koksma__material *m)
@@ -101,7 +129,7 @@ static const struct {
              {"phong", parse_phong},     {"ggx", parse_ggx},         {"dielectric", parse_dielectric},
              {"utah", parse_utah}};
 
-koksma_status koksma__parse_material(const field *f, koksma_scene *scene)
+koksma_status koksma__parse_material(const char *scene_name, const field *f, koksma_scene *scene)
 {
     const char *kind = "", *name = "";
     koksma__material *material = &scene->materials[scene->n_materials];
@@ -118,6 +146,12 @@ koksma_status koksma__parse_material(const field *f, koksma_scene *scene)
     }
     strcpy(material->name, name);
     scene->n_materials++;
+    if (!strcmp(kind, "lambert") && koksma__json_is_object_at(f, "albedo")) {
+        status = parse_texture(scene_name, f, material);
+    }
+    if (status) {
+        return status;
+    }
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (!strcmp(kinds[i].name, kind)) {
             return kinds[i].parse(f, material);

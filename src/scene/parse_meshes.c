@@ -81,6 +81,34 @@ static koksma_status parse_place(const field *f, const koksma__mesh *mesh, koksm
     return KOKSMA_OK;
 }
 
+static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma__placement *p)
+{
+    double radiance[3];
+    const koksma_status status = koksma__parse_colour(f, "emission", true, BRIGHT, radiance);
+    if (status) {
+        return status;
+    }
+    if (p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth) {
+        return koksma__json_fail(f, "a luminaire is neither smooth nor does it move");
+    }
+    return koksma__scene_add_glow(scene, p, radiance) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
+}
+
+koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, const double radiance[3])
+{
+    koksma__light *light = NULL;
+    const koksma_status status = koksma__scene_add_light(scene, &light);
+    if (!status) {
+        light->kind = KOKSMA__LIGHT_MESH;
+        light->placement = (int)(p - scene->placements);
+        light->visible = true;
+        memcpy(light->radiance, radiance, sizeof light->radiance);
+        p->light = (int)(light - scene->lights);
+        p->material = -1;
+    }
+    return status;
+}
+
 /* "material", or "emission": the radiance of a luminaire. */
 static koksma_status parse_surface(const field *f, koksma_scene *scene, const koksma__mesh *mesh,
                                    koksma__placement *p)
@@ -90,7 +118,7 @@ static koksma_status parse_surface(const field *f, koksma_scene *scene, const ko
         return koksma__json_fail(f, "it takes one of 'material' and 'emission'");
     }
     if (koksma__json_has(f, "emission")) {
-        return koksma__json_fail(f, "emission of meshes is not there yet");
+        return parse_emission(f, scene, p);
     }
     const koksma_status status = koksma__json_get_text(f, "material", true, &name);
     if (status) {
@@ -100,8 +128,8 @@ static koksma_status parse_surface(const field *f, koksma_scene *scene, const ko
     if (p->material < 0) {
         return koksma__json_fail(f, "no material '%s'", name);
     }
-    if (scene->materials[p->material].checker && !mesh->uvs) {
-        return koksma__json_fail(f, "a mesh without texture coordinates takes no checker");
+    if ((scene->materials[p->material].checker || scene->materials[p->material].image) && !mesh->uvs) {
+        return koksma__json_fail(f, "a mesh without texture coordinates takes no checker and no image");
     }
     return KOKSMA_OK;
 }

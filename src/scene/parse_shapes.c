@@ -155,6 +155,9 @@ koksma_status koksma__parse_shape(const char *scene_name, const field *f, koksma
     if (!status && material < 0) {
         return koksma__json_fail(f, "no material '%s'", name);
     }
+    if (!status && scene->materials[material].image && strcmp(kind, "rectangle") && strcmp(kind, "box")) {
+        return koksma__json_fail(f, "only rectangles, boxes and meshes take an image");
+    }
     for (size_t i = 0; !status && i < sizeof kinds / sizeof *kinds; i++) {
         if (!strcmp(kinds[i].name, kind)) {
             return kinds[i].parse(f, material, scene);

@@ -7,6 +7,7 @@
 #include "core/hash.h"
 #include "core/read_file.h"
 #include "core/status.h"
+#include "scene/model.h"
 #include "scene/scenes_embedded.h"
 
 #define MAX_FILE ((size_t)1 << 26)
@@ -34,10 +35,25 @@ static koksma_status open_text(const char *name, const char *text, size_t size, 
     return KOKSMA_OK;
 }
 
+static koksma_status open_model(const char *path, koksma_scene **out)
+{
+    koksma_scene *scene = calloc(1, sizeof *scene);
+    if (!scene) {
+        return koksma__fail_memory(sizeof *scene);
+    }
+    const koksma_status status = koksma__model_parse(path, scene);
+    if (status) {
+        koksma_scene_close(scene);
+        return status;
+    }
+    *out = scene;
+    return KOKSMA_OK;
+}
+
 static bool is_path(const char *text)
 {
     const char *dot = strrchr(text, '.');
-    return strchr(text, '/') || (dot && !strcmp(dot, ".json"));
+    return koksma__is_mesh_file(text) || strchr(text, '/') || (dot && !strcmp(dot, ".json"));
 }
 
 koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
@@ -52,6 +68,9 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
         return koksma__fail(KOKSMA_UNKNOWN,
                             "no scene '%s'; 'koksma list scenes' names them, and a file's name ends in .json",
                             name_or_path);
+    }
+    if (koksma__is_mesh_file(name_or_path)) {
+        return open_model(name_or_path, out);
     }
     unsigned char *bytes;
     size_t size;
@@ -74,6 +93,10 @@ void koksma__scene_fini(koksma_scene *scene)
     }
     free(scene->meshes);
     free(scene->placements);
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        koksma_image_fini(scene->materials[i].image);
+        free(scene->materials[i].image);
+    }
     free(scene->materials);
     free(scene->shapes);
     free(scene->lights);

@@ -47,12 +47,14 @@ typedef struct koksma__material {
     double reflectance[3]; /* of the mirror, lobe or metal; of glass, a tint */
     double period, phase[2], angle_rad;
     double exponent, roughness, ior;
+    koksma_image *image; /* the albedo over a surface's coordinates, in place of albedo; or NULL */
 } koksma__material;
 
 typedef enum koksma__light_kind {
     KOKSMA__LIGHT_RECTANGLE,
     KOKSMA__LIGHT_DISK,
     KOKSMA__LIGHT_SPHERE,
+    KOKSMA__LIGHT_MESH,        /* the surface of a placement */
     KOKSMA__LIGHT_POINT,       /* radiance is the intensity */
     KOKSMA__LIGHT_DIRECTIONAL, /* normal is where it goes; radiance is the irradiance of a surface that faces it */
     KOKSMA__LIGHT_ENVIRONMENT  /* from all directions that hit nothing; an image, or the same everywhere */
@@ -68,6 +70,7 @@ typedef struct koksma__light {
     double radiance[3];
     bool visible;        /* rays see it; the flat and round ones then have a shape */
     double angle_rad;    /* by which the environment's image is turned about y */
+    int placement;       /* of a mesh */
     koksma_image *image; /* the environment's, latitude and longitude, or NULL */
 } koksma__light;
 

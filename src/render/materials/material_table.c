@@ -18,6 +18,7 @@ const koksma__material_rules *koksma__material_rules_of(koksma__material_kind ki
 koksma__substance koksma__substance_of(const koksma__material *from)
 {
     koksma__substance s = {.kind = from->kind,
+                           .image = from->image,
                            .lobes = table[from->kind]->lobes,
                            .exponent = (float)from->exponent,
                            .roughness = (float)from->roughness,

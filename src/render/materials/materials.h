@@ -17,7 +17,8 @@ typedef struct koksma__substance {
     unsigned lobes; /* that it has */
     float albedo[2][3], reflectance[3];
     float exponent, roughness, ior;
-    float diffuse_share; /* of the choice between a diffuse and a glossy lobe */
+    const koksma_image *image; /* of the albedo, or NULL */
+    float diffuse_share;       /* of the choice between a diffuse and a glossy lobe */
 } koksma__substance;
 
 /* A place on it, seen from `out`. */

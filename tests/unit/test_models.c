@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Luminous meshes, image textures, and bare mesh files with what they bring and what they lack. Without Embree and
+   assimp the tests of meshes are skipped. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+static void need_meshes(void)
+{
+    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
+        skip();
+    }
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* The mean of a picture of one scene, given as a text or a path; its first channel. */
+static double mean(const char *scene_text, const char *path, const char *integrator, int side, int spp)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    if (scene_text) {
+        write_text("test_models.json", scene_text);
+    }
+    assert_ok(koksma_scene_open(scene_text ? "./test_models.json" : path, &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = side;
+    options.spp = spp;
+    options.integrator = koksma_integrator_find(integrator);
+    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &image));
+    double sum = 0;
+    for (int i = 0; i < side * side; i++) {
+        sum += (double)image.pixels[i * image.channels] / (side * side);
+    }
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+    unlink("test_models.json");
+    return sum;
+}
+
+/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
+   (Howell's catalogue, B-3). */
+static double corner_factor(double a, double b)
+{
+    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
+    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
+}
+
+#define LIT(light)                                                                                                   \
+    "{\"camera\": {\"eye\": [5, 1, 9], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                   \
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": [" light                \
+    "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}]}"
+
+static void luminous_meshes_have_their_form_factor(void **state)
+{
+    (void)state;
+    need_meshes();
+    /* a rectangle of 2 x 1 of three triangles that face down, of very different areas */
+    write_text("lamp.obj",
+               "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nv -0.9 0 0.5\nf 1 2 5\nf 2 3 5\nf 1 5 4\n");
+    const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
+#define LAMP "{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [0, 2, 0], \"emission\": 2},"
+    static const char *const integrators[] = {"distribution", "path"};
+    for (size_t i = 0; i < 2; i++) {
+        /* the path tracer also finds it by chance, weighed against choosing it */
+        assert_near(mean(LIT(LAMP), NULL, integrators[i], 1, 16384), full, 3e-3);
+    }
+    /* from behind it is dark */
+    assert_near(mean(LIT("{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [0, 2, 0], \"rotate_deg\": "
+                         "[180, 0, 0], \"emission\": 2},"),
+                     NULL, "path", 1, 64),
+                0, 0);
+    unlink("lamp.obj");
+}
+
+static void images_are_albedos(void **state)
+{
+    (void)state;
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, 2, 2, 1));
+    const float values[4] = {0.1f, 0.2f, 0.3f, 0.4f}; /* the upper row first */
+    memcpy(image.pixels, values, sizeof values);
+    assert_ok(koksma_image_write("texture.pfm", &image, NULL));
+    koksma_image_fini(&image);
+#define TEXTURED(target, shape)                                                                                      \
+    "{\"camera\": {\"eye\": [" target ", 5], \"target\": [" target ", 0], \"fov_deg\": 0.01}, \"ambient\": 1,"       \
+    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"image\": \"texture.pfm\"}}],"           \
+    "\"shapes\": [" shape ", \"material\": \"m\"}]}"
+#define WALL "{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1]"
+    assert_near(mean(TEXTURED("-0.5, 0.5", WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
+    assert_near(mean(TEXTURED("0.5, 0.5", WALL), NULL, "distribution", 1, 1), 0.2, 1e-3);
+    assert_near(mean(TEXTURED("-0.5, -0.5", WALL), NULL, "distribution", 1, 1), 0.3, 1e-3);
+    assert_near(mean(TEXTURED("0.5, -0.5", WALL), NULL, "distribution", 1, 1), 0.4, 1e-3);
+    assert_near(mean(TEXTURED("0, 0", WALL), NULL, "distribution", 1, 1), 0.25, 1e-3);
+    if (koksma_mesh_tracer() && koksma_mesh_reader()) {
+        write_text("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                               "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
+#define MESH_WALL "{\"kind\": \"mesh\", \"file\": \"wall.obj\""
+        assert_near(mean(TEXTURED("-0.5, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
+        assert_near(mean(TEXTURED("0.5, -0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.4, 1e-3);
+        unlink("wall.obj");
+    }
+    unlink("texture.pfm");
+}
+
+/* A square of 2 x 2 at z = 0 that faces +z, 0.5 grey; its camera at z = 3, its light of 9 candela at z = 3. */
+static const char *const gltf =
+    "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_lights_punctual\"],"
+    "\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"point\", \"intensity\": 9, \"name\": "
+    "\"lamp\"}]}}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 1, 2]}], \"nodes\": [{\"mesh\": 0}, {\"camera\": 0, "
+    "\"name\": \"eye\", \"translation\": [0, 0, 3]}, {\"name\": \"lamp\", \"translation\": [0, 0, 3], "
+    "\"extensions\": "
+    "{\"KHR_lights_punctual\": {\"light\": 0}}}],"
+    "\"cameras\": [{\"type\": \"perspective\", \"name\": \"eye\", \"perspective\": {\"yfov\": 0.01, \"aspectRatio\": "
+    "1, "
+    "\"znear\": 0.1}}], \"materials\": [{\"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.5, 0.5, 1], "
+    "\"metallicFactor\": 0}}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, "
+    "\"material\": 0}]}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": "
+    "\"VEC3\", "
+    "\"min\": [-1, -1, 0], \"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": "
+    "\"SCALAR\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, "
+    "\"byteLength\": 12}], \"buffers\": [{\"byteLength\": 60, \"uri\": \"square.bin\"}]}";
+
+static void bare_files_bring_or_get_cameras_and_lights(void **state)
+{
+    (void)state;
+    need_meshes();
+    const float corners[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+    const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
+    FILE *file = fopen("square.bin", "wb");
+    assert_non_null(file);
+    fwrite(corners, sizeof corners, 1, file);
+    fwrite(indices, sizeof indices, 1, file);
+    fclose(file);
+    write_text("square.gltf", gltf);
+    /* albedo / pi x intensity / distance^2 */
+    assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), 0.5 / M_PI * 9 / 9, 1e-3);
+    /* a square alone under a white sky that half of it sees: its albedo, and white beside it */
+    write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    const double value = mean(NULL, "square.obj", "distribution", 32, 16);
+    assert_true(value > 0.7 && value < 0.98);
+    unlink("square.gltf");
+    unlink("square.bin");
+    unlink("square.obj");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(luminous_meshes_have_their_form_factor),
+        cmocka_unit_test(images_are_albedos),
+        cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
