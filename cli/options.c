@@ -55,9 +55,12 @@ static void add_value(cli_arguments *arguments, int i, const char *value)
     arguments->values[i] = arguments->joined[i] = joined;
 }
 
-int cli_run(const cli_command *command, int argc, char **argv)
+enum { PARSED = -1 };
+
+/* PARSED, or the exit code when there is nothing to run. */
+static int parse(cli_arguments *arguments, int argc, char **argv)
 {
-    cli_arguments arguments = {.command = command};
+    const cli_command *command = arguments->command;
     struct option longs[CLI_MAX_OPTIONS + 2] = {{0}};
     char shorts[2 * CLI_MAX_OPTIONS + 4] = ":";
     int n = 0;
@@ -71,32 +74,41 @@ int cli_run(const cli_command *command, int argc, char **argv)
     }
     longs[n] = (struct option){"help", no_argument, NULL, HELP};
     opterr = 0;
-    optind = 1;
+    optind = 0; /* glibc: afresh, even when a parse before stopped in the middle of a word */
     for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         if (code == HELP) {
             print_help(command);
             return CLI_YES;
         }
         if (code == '?' || code == ':') {
-            return parse_failure(&arguments, code, argv);
+            return parse_failure(arguments, code, argv);
         }
         int i = code - LONG_BASE;
         if (code < LONG_BASE) {
             for (i = 0; command->options[i].letter != code; i++) {
             }
         }
-        if (arguments.values[i] && command->options[i].argument && !strstr(command->options[i].argument, "...")) {
-            return cli_usage_error(&arguments, "option --%s is given twice", command->options[i].name);
+        if (arguments->values[i] && command->options[i].argument && !strstr(command->options[i].argument, "...")) {
+            return cli_usage_error(arguments, "option --%s is given twice", command->options[i].name);
         }
-        add_value(&arguments, i, optarg ? optarg : "");
+        add_value(arguments, i, optarg ? optarg : "");
     }
-    arguments.n_operands = argc - optind;
-    arguments.operands = argv + optind;
-    n = command->run(&arguments);
+    arguments->n_operands = argc - optind;
+    arguments->operands = argv + optind;
+    return PARSED;
+}
+
+int cli_run(const cli_command *command, int argc, char **argv)
+{
+    cli_arguments arguments = {.command = command};
+    int code = parse(&arguments, argc, argv);
+    if (code == PARSED) {
+        code = command->run(&arguments);
+    }
     for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
         free(arguments.joined[i]);
     }
-    return n;
+    return code;
 }
 
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)

@@ -29,16 +29,39 @@ static void to_linear(const unsigned char *bytes, size_t count, float *out)
     }
 }
 
+/* libpng makes room for what a chunk claims to hold before it reads it, up to 2 GiB: so no chunk may claim more than
+   the file has. */
+static koksma_status check_chunks(const unsigned char *bytes, size_t size)
+{
+    for (size_t at = 8; size - at >= 12;) {
+        const size_t length = (size_t)bytes[at] << 24 | (size_t)bytes[at + 1] << 16 | (size_t)bytes[at + 2] << 8 |
+                              (size_t)bytes[at + 3];
+        if (length > size - at - 12) {
+            return koksma__fail(KOKSMA_MALFORMED, "as a PNG: cut short: a chunk claims %zu bytes, and %zu are left",
+                                length, size - at - 12);
+        }
+        if (!memcmp(bytes + at + 4, "IEND", 4)) {
+            break;
+        }
+        at += 12 + length;
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     png_image png = {.version = PNG_IMAGE_VERSION};
+    koksma_status status = check_chunks(bytes, size);
+    if (status) {
+        return status;
+    }
     if (!png_image_begin_read_from_memory(&png, bytes, size)) {
         return koksma__fail(KOKSMA_MALFORMED, "as a PNG: %s", png.message);
     }
     const bool wide = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0;
     const int channels = png.format & PNG_FORMAT_FLAG_COLOR ? 3 : 1;
     /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
-    koksma_status status = koksma__image_claim(png.width, png.height, channels, size, 8 * 1032, out);
+    status = koksma__image_claim(png.width, png.height, channels, size, 8 * 1032, out);
     const size_t count = (size_t)png.width * png.height * (size_t)channels;
     void *buffer = status ? NULL : calloc(count, wide ? 2 : 1);
     if (!status && !buffer) {

@@ -1,0 +1,31 @@
+#!/bin/sh
+# readme.sh PROGRAM: the commands that README.md shows are run, in their order and in one folder; studies of papers, which
+# take minutes, with their --help. Files that it speaks of are there before.
+set -u
+program=$(readlink -f "$1")
+readme=$(cd "$(dirname "$0")/../.." && pwd)/README.md
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/bin"
+ln -s "$program" "$work/bin/koksma"
+PATH="$work/bin:$PATH"
+cd "$work" || exit 1
+koksma generate n-rooks -n 16 -q -o points.txt &&
+  koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
+  koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null || exit 1
+count=0 failed=0
+sed -n 's/^    \(koksma .*\)/\1/p' "$readme" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
+while read -r command; do
+  case $command in
+    'koksma reproduce '* | 'koksma rank '*) command="$command --help" ;;
+    'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
+    'koksma render '*) command="$command --size 32x32 -q" ;;
+  esac
+  if ! timeout 60 sh -c "$command" >out 2>&1 </dev/null; then
+    echo "README.md: $command: $(tail -1 out)"
+    failed=$((failed + 1))
+  fi
+  count=$((count + 1))
+done <commands
+echo "$count commands, $failed failed"
+[ "$failed" -eq 0 ] && [ "$count" -ge 10 ]
