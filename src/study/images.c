@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/series.h>
+
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/statistics.h"
@@ -144,7 +146,7 @@ static void add_slope(koksma_images_row *rows, size_t n)
             x[used] = log((double)rows[i].spp);
             y[used] = log(rows[i].mean);
             const double half = rows[i].high - rows[i].mean;
-            sigma[used++] = rows[i].trials > 1 ? half / koksma__student_975(rows[i].trials - 1) / rows[i].mean : 0;
+            sigma[used++] = rows[i].trials > 1 ? half / koksma_student_975(rows[i].trials - 1) / rows[i].mean : 0;
         }
     }
     const koksma__line line = koksma__fit_line(x, y, sigma, used);
