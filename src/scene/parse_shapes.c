@@ -32,16 +32,27 @@ static koksma_status parse_flat_frame(const field *f, koksma__shape *shape)
     return status ? status : koksma__parse_axes(f, shape->normal, shape->axis_u, shape->axis_v);
 }
 
+/* A new shape from an object with no other fields than `keys`. */
+static koksma_status begin(const field *f, const char *const *keys, koksma__shape_kind kind, int material,
+                           koksma_scene *scene, koksma__shape **out)
+{
+    koksma_status status = koksma__json_only(f, keys);
+    status = status ? status : koksma__parse_room(f, scene, out);
+    if (!status) {
+        (*out)->kind = kind;
+        (*out)->material = material;
+    }
+    return status;
+}
+
 static koksma_status parse_plane(const field *f, int material, koksma_scene *scene)
 {
     koksma__shape *shape = NULL;
-    koksma_status status = koksma__json_only(f, KEYS("kind", "material", "centre", "normal", "up"));
-    status = status ? status : koksma__parse_room(f, scene, &shape);
+    const koksma_status status =
+        begin(f, KEYS("kind", "material", "centre", "normal", "up"), KOKSMA__SHAPE_PLANE, material, scene, &shape);
     if (status) {
         return status;
     }
-    shape->kind = KOKSMA__SHAPE_PLANE;
-    shape->material = material;
     shape->half[0] = shape->half[1] = INFINITY;
     return parse_flat_frame(f, shape);
 }
@@ -49,45 +60,30 @@ static koksma_status parse_plane(const field *f, int material, koksma_scene *sce
 static koksma_status parse_rectangle(const field *f, int material, koksma_scene *scene)
 {
     koksma__shape *shape = NULL;
-    koksma_status status = koksma__json_only(f, KEYS("kind", "material", "centre", "normal", "up", "half"));
-    status = status ? status : koksma__parse_room(f, scene, &shape);
-    if (status) {
-        return status;
-    }
-    shape->kind = KOKSMA__SHAPE_RECTANGLE;
-    shape->material = material;
-    status = koksma__parse_half(f, shape->half);
+    koksma_status status = begin(f, KEYS("kind", "material", "centre", "normal", "up", "half"),
+                                 KOKSMA__SHAPE_RECTANGLE, material, scene, &shape);
+    status = status ? status : koksma__parse_half(f, shape->half);
     return status ? status : parse_flat_frame(f, shape);
 }
 
 static koksma_status parse_disk(const field *f, int material, koksma_scene *scene)
 {
     koksma__shape *shape = NULL;
-    koksma_status status = koksma__json_only(f, KEYS("kind", "material", "centre", "normal", "up", "radius"));
-    status = status ? status : koksma__parse_room(f, scene, &shape);
-    if (status) {
-        return status;
-    }
-    shape->kind = KOKSMA__SHAPE_DISK;
-    shape->material = material;
-    status = koksma__parse_radius(f, shape->half);
+    koksma_status status = begin(f, KEYS("kind", "material", "centre", "normal", "up", "radius"), KOKSMA__SHAPE_DISK,
+                                 material, scene, &shape);
+    status = status ? status : koksma__parse_radius(f, shape->half);
     return status ? status : parse_flat_frame(f, shape);
 }
 
 static koksma_status parse_sphere(const field *f, int material, koksma_scene *scene)
 {
     koksma__shape *shape = NULL;
-    koksma_status status = koksma__json_only(f, KEYS("kind", "material", "centre", "radius", "motion"));
+    koksma_status status = begin(f, KEYS("kind", "material", "centre", "radius", "motion"), KOKSMA__SHAPE_SPHERE,
+                                 material, scene, &shape);
     if (!status && scene->materials[material].checker) {
         return koksma__json_fail(f, "a sphere takes no checker");
     }
-    status = status ? status : koksma__parse_room(f, scene, &shape);
-    if (status) {
-        return status;
-    }
-    shape->kind = KOKSMA__SHAPE_SPHERE;
-    shape->material = material;
-    status = koksma__parse_radius(f, shape->half);
+    status = status ? status : koksma__parse_radius(f, shape->half);
     status = status ? status : koksma__parse_point(f, "centre", shape->centre);
     return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", shape->motion) : status;
 }
