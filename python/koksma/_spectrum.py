@@ -2,7 +2,7 @@
 """The power spectrum of plane point sets."""
 from __future__ import annotations
 
-from ctypes import byref, c_double
+from ctypes import byref
 from dataclasses import dataclass
 from typing import Iterable
 
@@ -35,15 +35,15 @@ class Spectrum:
 
 def _result(raw: s.Spectrum) -> Spectrum:
     half, width = raw.half, 2 * raw.half + 1
-    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width)) / raw.sets  # ky >= 0; the rest is its mirror
+    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width))  # ky >= 0; the rest is its mirror
     power = np.concatenate([upper[:0:-1, ::-1], upper])
     rings = (s.Ring * half)()
-    core().koksma_spectrum_rings(byref(raw), rings)
+    check(core().koksma_spectrum_rings(byref(raw), rings))
     table = np.frombuffer(rings, dtype=np.float64).reshape(half, 4).copy()
-    nyquist, oscillation = c_double(), c_double()
-    core().koksma_spectrum_quality(byref(raw), byref(nyquist), byref(oscillation))
-    return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], nyquist.value, oscillation.value,
-                    raw.sets)
+    quality = s.SpectrumQuality()
+    core().koksma_spectrum_quality(byref(raw), byref(quality))
+    return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], quality.effective_nyquist,
+                    quality.oscillation, raw.sets)
 
 
 def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: int = 64, *, exact: bool = False,

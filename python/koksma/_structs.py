@@ -59,7 +59,11 @@ class Findings(Structure):
 
 class Spectrum(Structure):
     _fields_ = [("half", c_int), ("sets", c_size_t), ("points", c_double), ("power", POINTER(c_double)),
-                ("rings", POINTER(c_double))]
+                ("rings", c_void_p)]
+
+
+class SpectrumQuality(Structure):
+    _fields_ = [("effective_nyquist", c_double), ("relative_nyquist", c_double), ("oscillation", c_double)]
 
 
 class Ring(Structure):
@@ -83,6 +87,8 @@ LAYOUTS = [
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
     ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
-    ("spectrum.h", "koksma_spectrum", Spectrum), ("spectrum.h", "koksma_ring", Ring),
+    ("spectrum.h", "koksma_spectrum", Spectrum),
+    ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
+    ("spectrum.h", "koksma_ring", Ring),
     ("image.h", "koksma_image", Image), ("render.h", "koksma_render_options", RenderOptions),
 ]
