@@ -108,7 +108,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_spectrum_add", spectrum, points, c_int, run)
     _declare(library, c_double, "koksma_spectrum_power", spectrum, c_int, c_int)
     _declare(library, c_int, "koksma_spectrum_rings", spectrum, POINTER(s.Ring))
-    _declare(library, None, "koksma_spectrum_quality", spectrum, POINTER(s.Quality))
+    _declare(library, None, "koksma_spectrum_quality", spectrum, POINTER(s.SpectrumQuality))
     return library
 
 

@@ -42,7 +42,7 @@ def _result(raw: s.Spectrum) -> Spectrum:
     rings = (s.Ring * half)()
     check(core().koksma_spectrum_rings(byref(raw), rings))
     table = np.frombuffer(rings, dtype=np.float64).reshape(half, 4).copy()
-    quality = s.Quality()
+    quality = s.SpectrumQuality()
     core().koksma_spectrum_quality(byref(raw), byref(quality))
     return Spectrum(power, table[:, 0], table[:, 1], table[:, 2], table[:, 3], quality.effective_nyquist,
                     quality.relative_nyquist, quality.oscillation, raw.sets)

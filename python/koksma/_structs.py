@@ -29,8 +29,8 @@ class Pattern(Structure):
 
 
 class Measure(Structure):
-    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int),
-                ("min_dim", c_int), ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
+                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p)]
 
 
 class Spec(Structure):
@@ -59,16 +59,16 @@ class Findings(Structure):
 
 class Spectrum(Structure):
     _fields_ = [("half", c_int), ("sets", c_size_t), ("points", c_double), ("power", POINTER(c_double)),
-                ("rings", POINTER(c_double))]
+                ("rings", c_void_p)]
+
+
+class SpectrumQuality(Structure):
+    _fields_ = [("effective_nyquist", c_double), ("relative_nyquist", c_double), ("oscillation", c_double)]
 
 
 class Ring(Structure):
     _fields_ = [("frequency", c_double), ("power", c_double), ("standard_error", c_double),
                 ("anisotropy_db", c_double)]
-
-
-class Quality(Structure):
-    _fields_ = [("effective_nyquist", c_double), ("relative_nyquist", c_double), ("oscillation", c_double)]
 
 
 class Image(Structure):
@@ -87,7 +87,8 @@ LAYOUTS = [
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
     ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
-    ("spectrum.h", "koksma_spectrum", Spectrum), ("spectrum.h", "koksma_ring", Ring),
-    ("spectrum.h", "koksma_spectrum_quality_values", Quality),
+    ("spectrum.h", "koksma_spectrum", Spectrum),
+    ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
+    ("spectrum.h", "koksma_ring", Ring),
     ("image.h", "koksma_image", Image), ("render.h", "koksma_render_options", RenderOptions),
 ]
