@@ -8,7 +8,7 @@
 
 #include "test.h"
 
-enum { WIDTH = 16, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, SEEDS = 100 };
+enum { WIDTH = 16, HEIGHT = 12, PIXELS = WIDTH * HEIGHT, SEEDS = 80 };
 
 typedef struct moments {
     double mean[PIXELS], square_error[PIXELS]; /* of the mean */
