@@ -160,6 +160,24 @@ static void close_proc(struct aiFileIO *io, struct aiFile *file)
     }
 }
 
+/* What must be known of a file before assimp reads it. */
+static koksma_status look_first(const char *path)
+{
+    unsigned char *bytes;
+    size_t size;
+    koksma_status status = koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    if (!size) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
+    } else if (strstr(strrchr(path, '.'), ".gl")) {
+        status = koksma__gltf_check(path, bytes, size);
+    }
+    free(bytes);
+    return status;
+}
+
 /* What assimp makes of a file; the caller releases it. */
 static koksma_status import(const char *path, const struct aiScene **out)
 {
@@ -173,6 +191,10 @@ static koksma_status import(const char *path, const struct aiScene **out)
         const koksma_status status = koksma__read_file(path, 1, &bytes, &size);
         free(bytes);
         return status ? status : koksma__fail(KOKSMA_MALFORMED, "%s: no plain file", path);
+    }
+    const koksma_status status = look_first(path);
+    if (status) {
+        return status;
     }
     *out = aiImportFileEx(path, aiProcess_Triangulate, &io);
     if (!*out) {
