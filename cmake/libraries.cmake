@@ -5,16 +5,17 @@ find_package(PkgConfig REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 pkg_check_modules(CMOCKA IMPORTED_TARGET cmocka)
 
-# Of OpenEXR only its C library; pkg-config's list would link the C++ ones as well.
+# Of OpenEXR its C library, and for the compressions that this lacks the C++ one through its C face.
 pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-svg cairo-pdf)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(OPENEXR REQUIRED OpenEXR)
+find_library(OPENEXR_LIBRARY NAMES OpenEXR-3_1 OpenEXR REQUIRED)
 find_library(OPENEXR_CORE_LIBRARY NAMES OpenEXRCore-3_1 OpenEXRCore REQUIRED)
 add_library(openexr-core INTERFACE)
 target_include_directories(openexr-core SYSTEM INTERFACE ${OPENEXR_INCLUDE_DIRS})
-target_link_libraries(openexr-core INTERFACE ${OPENEXR_CORE_LIBRARY})
+target_link_libraries(openexr-core INTERFACE ${OPENEXR_CORE_LIBRARY} ${OPENEXR_LIBRARY})
 set(OPENEXR_CORE openexr-core)
 
 # Meshes: traced by Embree 3 or 4, read by assimp. AUTO takes what is there, ON insists, OFF leaves it out.
@@ -51,6 +52,9 @@ foreach(name ${PNG_LIBRARIES} ${JANSSON_LIBRARIES} ${CAIRO_LIBRARIES} ${SQLITE_L
   list(APPEND KOKSMA_LAB_LINKS -l${name})
 endforeach()
 get_filename_component(openexr_name ${OPENEXR_CORE_LIBRARY} NAME_WE)
+string(REGEX REPLACE "^lib" "-l" openexr_name ${openexr_name})
+list(APPEND KOKSMA_LAB_LINKS ${openexr_name})
+get_filename_component(openexr_name ${OPENEXR_LIBRARY} NAME_WE)
 string(REGEX REPLACE "^lib" "-l" openexr_name ${openexr_name})
 list(APPEND KOKSMA_LAB_LINKS ${openexr_name})
 if(EMBREE_VERSION)

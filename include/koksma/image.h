@@ -31,7 +31,7 @@ KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int h
 KOKSMA_API void koksma_image_fini(koksma_image *image);
 
 /* Reads EXR, PNG or PFM, known by their content. Transparency and further channels are dropped.
-   Errors: MISSING, MALFORMED, UNSUPPORTED (DWA-compressed and deep EXR), MEMORY. */
+   Errors: MISSING, MALFORMED, UNSUPPORTED (deep EXR), MEMORY. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
 /* Whether the path's ending says a format that can be written. Errors: ARGUMENT. */

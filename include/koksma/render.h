@@ -41,6 +41,15 @@ KOKSMA_API const char *koksma_mesh_reader(void);
 /* What it shows, in its own words; may be empty. */
 KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 
+/* What is odd in a scene that can be rendered all the same: warning i as a line of text; false past the end. */
+KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
+
+/* What it has: shapes, meshes, placements of meshes, triangles, luminaires. */
+typedef struct koksma_scene_counts {
+    size_t shapes, meshes, placements, triangles, materials, lights;
+} koksma_scene_counts;
+KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
+
 /* 64 bits of the scene's text: it changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * OpenEXR by the C library OpenEXRCore: reads the first part, scan lines or tiles, channels R G B or Y (or the only
- * one), half or float; writes floats, ZIP-compressed. OpenEXRCore 3.1 has no DWAA and DWAB.
+ * one), half or float; writes floats, ZIP-compressed. OpenEXRCore 3.1 has no DWAA and DWAB: exr_dwa.c reads those.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
  * reader takes a chunk of that length for uncompressed. So what is written is read back, and written again without
@@ -220,9 +220,12 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (r) {
         return fail(&s, r);
     }
-    const koksma_status status = read_part(file, &s, out);
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    exr_get_compression(file, 0, &compression);
+    const bool dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
+    const koksma_status status = dwa ? KOKSMA_OK : read_part(file, &s, out);
     exr_finish(&file);
-    return status;
+    return dwa ? koksma__exr_dwa_read(bytes, size, out) : status;
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */

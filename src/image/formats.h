@@ -31,6 +31,9 @@ typedef struct koksma__image_format {
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
+/* exr_dwa.c: EXR files of the compressions DWAA and DWAB. */
+koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koksma_image *out);
+
 /* An image file in memory, known by its content. Errors name no file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);
 

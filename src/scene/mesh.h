@@ -52,6 +52,9 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
+/* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size);
+
 /* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */

@@ -160,6 +160,24 @@ static void close_proc(struct aiFileIO *io, struct aiFile *file)
     }
 }
 
+/* What must be known of a file before assimp reads it. */
+static koksma_status look_first(const char *path)
+{
+    unsigned char *bytes;
+    size_t size;
+    koksma_status status = koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    if (!size) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
+    } else if (strstr(strrchr(path, '.'), ".gl")) {
+        status = koksma__gltf_check(path, bytes, size);
+    }
+    free(bytes);
+    return status;
+}
+
 /* What assimp makes of a file; the caller releases it. */
 static koksma_status import(const char *path, const struct aiScene **out)
 {
@@ -174,7 +192,11 @@ static koksma_status import(const char *path, const struct aiScene **out)
         free(bytes);
         return status ? status : koksma__fail(KOKSMA_MALFORMED, "%s: no plain file", path);
     }
-    *out = aiImportFileEx(path, aiProcess_Triangulate, &io);
+    const koksma_status status = look_first(path);
+    if (status) {
+        return status;
+    }
+    *out = aiImportFileEx(path, 0, &io);
     if (!*out) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, aiGetErrorString());
     }
@@ -201,11 +223,13 @@ static void node_matrix(const struct aiNode *node, const double parent[12], doub
     multiply(parent, own, out);
 }
 
+/* Polygons are fans around their first corner: right for convex ones. assimp would cut others well, too, but ends
+   the program when a mesh has nothing to cut. */
 static size_t count_triangles(const struct aiMesh *m)
 {
     size_t n = 0;
     for (unsigned i = 0; i < m->mNumFaces; i++) {
-        n += m->mFaces[i].mNumIndices == 3;
+        n += m->mFaces[i].mNumIndices >= 3 ? m->mFaces[i].mNumIndices - 2 : 0;
     }
     return n;
 }
@@ -290,10 +314,11 @@ static void append(void *context, const struct aiMesh *m, const double matrix[12
     }
     for (unsigned i = 0; i < m->mNumFaces; i++) {
         const struct aiFace *face = &m->mFaces[i];
-        if (face->mNumIndices == 3) {
-            for (size_t k = 0; k < 3; k++) {
-                const size_t index = face->mIndices[k]; /* beyond its mesh: beyond ours, too, which check() says */
-                out->indices[3 * g->triangles + k] = (uint32_t)(index < m->mNumVertices ? base + index : UINT32_MAX);
+        for (unsigned c = 2; c < face->mNumIndices; c++) {
+            const size_t corners[3] = {face->mIndices[0], face->mIndices[c - 1], face->mIndices[c]};
+            for (size_t k = 0; k < 3; k++) { /* beyond its mesh: beyond ours, too, which check() says */
+                out->indices[3 * g->triangles + k] =
+                    corners[k] < m->mNumVertices ? (uint32_t)(base + corners[k]) : UINT32_MAX;
             }
             g->triangles++;
         }

@@ -50,6 +50,9 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *pla
 /* One more luminaire, zeroed. Errors: MALFORMED (too many). */
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
 
+/* Who has a file that is missing, for the end of an error; "" where we don't know. */
+const char *koksma__package_hint(const char *path);
+
 /* The image of a file that the file `name` names, read; NULL on failure, which names f. */
 koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out);
 

@@ -13,6 +13,20 @@ bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MA
     return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
 }
 
+const char *koksma__package_hint(const char *path)
+{
+    static const struct {
+        const char *folder, *hint;
+    } hints[] = {{"/usr/share/glmark2/", "; Debian's package glmark2-data has it"},
+                 {"/usr/share/blender/", "; Debian's package blender-data has it"}};
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++) {
+        if (!strncmp(path, hints[i].folder, strlen(hints[i].folder))) {
+            return hints[i].hint;
+        }
+    }
+    return "";
+}
+
 koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out)
 {
     char full[KOKSMA__MAX_PATH];
@@ -23,7 +37,9 @@ koksma_status koksma__parse_image(const char *name, const field *f, const char *
     if (!*out) {
         return koksma__fail_memory(sizeof **out);
     }
-    return koksma_image_read(full, *out) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
+    return koksma_image_read(full, *out)
+               ? koksma__json_fail(f, "%s%s", koksma_error_text(), koksma__package_hint(full))
+               : KOKSMA_OK;
 }
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3])

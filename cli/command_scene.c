@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+#include <string.h>
+
+#include <koksma/render.h>
+
+#include "cli.h"
+
+static int run(const cli_arguments *arguments)
+{
+    koksma_scene *scene;
+    char text[256];
+    if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
+        return cli_usage_error(arguments, "it takes check FILE");
+    }
+    const koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    const koksma_scene_counts counts = koksma_scene_count(scene);
+    bool odd = false;
+    for (size_t i = 0; rows && koksma_scene_warning(scene, i, text, sizeof text); i++) {
+        odd = true;
+        fprintf(stderr, "koksma scene: %s: warning: %s\n", arguments->operands[1], text);
+    }
+    if (rows) {
+        cli_row_text(rows, "scene", arguments->operands[1]);
+        cli_row_whole(rows, "shapes", counts.shapes);
+        cli_row_whole(rows, "meshes", counts.meshes);
+        cli_row_whole(rows, "placements", counts.placements);
+        cli_row_whole(rows, "triangles", counts.triangles);
+        cli_row_whole(rows, "materials", counts.materials);
+        cli_row_whole(rows, "lights", counts.lights);
+        cli_row_end(rows);
+    }
+    koksma_scene_close(scene);
+    const int code = cli_rows_close(rows);
+    return code ? code : odd ? CLI_NO : CLI_YES;
+}
+
+static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
+
+const cli_command cli_command_scene = {
+    .name = "scene",
+    .summary = "check a scene file",
+    .synopsis = "check SCENE",
+    .details =
+        "SCENE is a name, a JSON file (docs/scenes.md) or a mesh file. What makes it no scene is an error that\n"
+        "names file, line, field and reason (exit code 3); what is odd but can be rendered is a warning (exit\n"
+        "code 1). stdout has what the scene is made of.",
+    .options = options,
+    .run = run,
+};

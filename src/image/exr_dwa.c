@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * EXR files compressed by DWAA and DWAB, which OpenEXRCore 3.1 can't decode, by the C face of OpenEXR's C++ library.
+ * It opens files by name only and gives half floats, so the bytes go through a temporary file. Its last error is a
+ * variable that threads share: the text may be another's, the status is not.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <OpenEXR/ImfCRgbaFile.h>
+
+#include "core/status.h"
+#include "image/formats.h"
+
+static koksma_status fail(void)
+{
+    return koksma__fail(KOKSMA_MALFORMED, "as a DWA-compressed EXR: %s", ImfErrorMessage());
+}
+
+static koksma_status read_pixels(ImfInputFile *file, size_t size, koksma_image *out)
+{
+    int low_x, low_y, high_x, high_y;
+    ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
+    const koksma_status status =
+        koksma__image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1, 3, size, 4096, out);
+    if (status) {
+        return status;
+    }
+    const size_t width = (size_t)out->width;
+    ImfRgba *row = malloc(width * sizeof *row);
+    if (!row) {
+        return koksma__fail_memory(width * sizeof *row);
+    }
+    bool whole = true;
+    for (int y = low_y; whole && y <= high_y; y++) {
+        /* the base is where pixel (0, 0) would be */
+        ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
+        whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
+        for (size_t x = 0; whole && x < width; x++) {
+            float *to = out->pixels + 3 * (width * (size_t)(y - low_y) + x);
+            to[0] = ImfHalfToFloat(row[x].r);
+            to[1] = ImfHalfToFloat(row[x].g);
+            to[2] = ImfHalfToFloat(row[x].b);
+        }
+    }
+    free(row);
+    return whole ? KOKSMA_OK : fail();
+}
+
+koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[4096];
+    if ((size_t)snprintf(path, sizeof path, "%s/koksma-XXXXXX", folder && *folder ? folder : "/tmp") >= sizeof path) {
+        return koksma__fail(KOKSMA_SYSTEM, "TMPDIR is too long");
+    }
+    const int descriptor = mkstemp(path);
+    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    if (!stream) {
+        return koksma__fail(KOKSMA_IO, "%s: no temporary file can be made", path);
+    }
+    const bool written = fwrite(bytes, 1, size, stream) == size;
+    if (fclose(stream) || !written) {
+        unlink(path);
+        return koksma__fail(KOKSMA_IO, "%s: can't be written", path);
+    }
+    ImfInputFile *file = ImfOpenInputFile(path);
+    const koksma_status status = file ? read_pixels(file, size, out) : fail();
+    if (file) {
+        ImfCloseInputFile(file);
+    }
+    unlink(path);
+    return status;
+}

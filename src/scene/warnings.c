@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is odd in a scene that can be rendered all the same. */
+#include <stdio.h>
+
+#include "scene/scene.h"
+
+/* The warning that is asked for: `left` are still to be passed by. */
+typedef struct asked {
+    size_t left;
+    char *text;
+    size_t size;
+} asked;
+
+/* Whether this is the one. */
+static bool here(asked *a)
+{
+    return !a->left--;
+}
+
+static bool is_used(const koksma_scene *scene, int material)
+{
+    for (size_t i = 0; i < scene->n_shapes; i++) {
+        if (scene->shapes[i].material == material) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        if (scene->placements[i].material == material) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_dark(const double rgb[3])
+{
+    return !(rgb[0] > 0) && !(rgb[1] > 0) && !(rgb[2] > 0);
+}
+
+static bool of_meshes(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_meshes; i++) {
+        const koksma__mesh *m = &scene->meshes[i];
+        if (m->n_degenerate && here(a)) {
+            snprintf(a->text, a->size, "mesh %zu%s%s: %zu of %zu triangles have no area", i, *m->name ? " " : "",
+                     m->name, m->n_degenerate, m->n_triangles);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool of_lights(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        if (is_dark(scene->lights[i].radiance) && here(a)) {
+            snprintf(a->text, a->size, "luminaire %zu gives no light", i);
+            return true;
+        }
+    }
+    if (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) && here(a)) {
+        snprintf(a->text, a->size, "no luminaire, no ambient light, no background: the picture will be black");
+        return true;
+    }
+    return false;
+}
+
+bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+{
+    asked a = {i, text, size};
+    for (size_t m = 0; m < scene->n_materials; m++) {
+        if (!is_used(scene, (int)m) && here(&a)) {
+            snprintf(text, size, "material '%s' is used by nothing", scene->materials[m].name);
+            return true;
+        }
+    }
+    if (!scene->n_shapes && !scene->n_placements && here(&a)) {
+        snprintf(text, size, "no shapes");
+        return true;
+    }
+    return of_meshes(scene, &a) || of_lights(scene, &a);
+}
+
+koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
+{
+    koksma_scene_counts counts = {.shapes = scene->n_shapes,
+                                  .meshes = scene->n_meshes,
+                                  .placements = scene->n_placements,
+                                  .materials = scene->n_materials,
+                                  .lights = scene->n_lights};
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        counts.triangles += scene->meshes[scene->placements[i].mesh].n_triangles;
+    }
+    return counts;
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Malformed scene, glTF, OBJ, PLY, OFF and EXR files: each gives an error of one line that names the file and the
+   reason, and none does harm (the sanitizers look on). */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+#define CAMERA "\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}"
+#define MATERIAL "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}]"
+#define SHAPE(text) "{" CAMERA "," MATERIAL ", \"shapes\": [" text "]}"
+#define LIGHT(text) "{" CAMERA "," MATERIAL ", \"shapes\": [], \"lights\": [" text "]}"
+#define MADE(text) "{" CAMERA ", \"materials\": [" text "], \"shapes\": []}"
+
+/* glTF: what comes before the accessors, and everything. */
+#define GLTF(text) "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], " text "}"
+#define BUFFER "\"buffers\": [{\"byteLength\": 36, \"uri\": \"data:application/octet-stream;base64,AAAA\"}]"
+#define VIEW "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}]"
+#define ACCESSOR "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}]"
+#define MESH "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}]"
+#define NODE "\"nodes\": [{\"mesh\": 0}]"
+
+#define PLY(vertices, faces, rest)                                                                                   \
+    "ply\nformat ascii 1.0\nelement vertex " vertices "\nproperty float x\nproperty float y\nproperty float z\n"     \
+    "element face " faces "\nproperty list uchar int vertex_indices\nend_header\n" rest
+
+static const struct {
+    const char *file, *text, *reason; /* reason: a part of the error; "" for what a library words */
+} cases[] = {
+    /* scenes */
+    {"a.json", "", "line 1"},
+    {"a.json", "{", "line 1"},
+    {"a.json", "[]", "object"},
+    {"a.json", "{\"camera\": 5}", "camera"},
+    {"a.json", "{" CAMERA "}", "materials"},
+    {"a.json", "{" CAMERA "," CAMERA "}", "line 1"},
+    {"a.json", SHAPE("{\"kind\": \"cone\", \"material\": \"m\"}"), "no kind 'cone'"},
+    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0], \"radius\": 1, \"material\": \"m\"}"), "3 numbers"},
+    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 0, \"material\": \"m\"}"),
+     "zero radius"},
+    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, 1e999], \"radius\": 1, \"material\": \"m\"}"), ""},
+    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, NaN], \"radius\": 1, \"material\": \"m\"}"),
+     "line 1"},
+    {"a.json", SHAPE("{\"kind\": \"mesh\", \"material\": \"m\"}"), "'file' is missing"},
+    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"none.obj\", \"material\": \"m\"}"), "none.obj"},
+    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"a.txt\", \"material\": \"m\"}"), "a.txt"},
+    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \".\", \"material\": \"m\"}"), ""},
+    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"/dev/zero\", \"material\": \"m\"}"), "/dev/zero"},
+    {"a.json", SHAPE("{\"kind\": \"instance\", \"of\": \"x\", \"material\": \"m\"}"), "no mesh named 'x'"},
+    {"a.json",
+     LIGHT("{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"half\": [0, 1], "
+           "\"radiance\": 1}"),
+     "zero area"},
+    {"a.json", LIGHT("{\"kind\": \"environment\", \"image\": \"none.exr\"}"), "none.exr"},
+    {"a.json",
+     LIGHT("{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 0], \"half\": [1, 1], "
+           "\"radiance\": 1}"),
+     "length 0"},
+    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"image\": \"none.png\"}}"), "none.png"},
+    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"imagine\": 1}}"), "unknown field"},
+    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1.5}"), "not in 0 to 1"},
+    /* glTF */
+    {"a.gltf", "", "empty"},
+    {"a.gltf", "{\"asset\"", "line 1"},
+    {"a.gltf", "{}", "asset"},
+    {"a.gltf", "{\"asset\": {\"version\": \"1.0\"}}", "only glTF 2"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH), "node"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," NODE), "mesh is 0 of 0"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," MESH "," NODE), "POSITION is 0 of 0"},
+    {"a.gltf", GLTF(BUFFER "," ACCESSOR "," MESH "," NODE), "bufferView is 0 of 0"},
+    {"a.gltf", GLTF(VIEW "," ACCESSOR "," MESH "," NODE), "buffer is 0 of 0"},
+    {"a.gltf", GLTF("\"buffers\": [{\"byteLength\": 12, \"uri\": \"x.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE),
+     "beyond a buffer"},
+    {"a.gltf",
+     GLTF("\"buffers\": [{\"byteLength\": 36, \"uri\": \"none.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE), ""},
+    {"a.gltf",
+     GLTF(BUFFER "," VIEW ", \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": "
+                 "1000000, \"type\": \"VEC3\"}]," MESH "," NODE),
+     "beyond a view"},
+    {"a.gltf",
+     GLTF(BUFFER "," VIEW ", \"accessors\": [{\"componentType\": 5126, \"count\": 99999999999, \"type\": "
+                 "\"VEC3\"}]," MESH "," NODE),
+     "count"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]"),
+     "has a parent"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [7]}]"), "not in 0 to 0"},
+    {"a.glb", "glTF\2", "cut short"},
+    {"a.glb", "glTF\2...\377\377\377\377\377\377\377\377JSON", ""},
+    /* OBJ */
+    {"a.obj", "", "empty"},
+    {"a.obj", "nothing of use\n", ""},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ""},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n", ""},
+    {"a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", ""},
+    {"a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", ""},
+    {"a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n", "1e6"},
+    {"a.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "area"},
+    /* PLY and OFF */
+    {"a.ply", "ply\n", ""},
+    {"a.ply", "not a ply\n", ""},
+    {"a.ply", PLY("3", "0", "0 0 0\n1 0 0\n0 1 0\n"), ""},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), ""},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n"), ""},
+    {"a.ply", PLY("3", "1", "0 0 0\ninf 0 0\n0 1 0\n3 0 1 2\n"), ""},
+    {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ""},
+    {"a.off", "OFF\nthree one\n", ""},
+};
+
+static void look_at_error(const char *name, koksma_status status, const char *reason)
+{
+    const char *text = koksma_error_text();
+    if (status == KOKSMA_OK || status == KOKSMA_MEMORY || koksma_status_exit_code(status) == 4) {
+        fail_msg("case %s: status %d, '%s'", name, (int)status, text);
+    }
+    if (!*text || strchr(text, '\n') || !strstr(text, reason)) {
+        fail_msg("case %s: '%s' does not say '%s' in one line", name, text, reason);
+    }
+}
+
+static void malformed_scenes_and_meshes(void **state)
+{
+    (void)state;
+    const bool all = koksma_mesh_tracer() && koksma_mesh_reader();
+    assert_true(sizeof cases / sizeof *cases >= 50);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char path[32], name[64];
+        koksma_scene *scene = NULL;
+        snprintf(path, sizeof path, "./bad_%s", cases[i].file);
+        snprintf(name, sizeof name, "%zu (%s)", i, cases[i].file);
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fputs(cases[i].text, file);
+        fclose(file);
+        const koksma_status status = koksma_scene_open(path, &scene);
+        const bool is_mesh = strcmp(strrchr(path, '.'), ".json") != 0 || strstr(cases[i].text, "\"mesh\"");
+        look_at_error(name, status, all || !is_mesh ? cases[i].reason : "");
+        unlink(path);
+    }
+}
+
+static void put_bytes(const char *path, const char *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite(bytes, 1, size, file);
+    fclose(file);
+}
+
+/* A good EXR, cut short, or with the numbers of its head changed. */
+static void malformed_exr_files(void **state)
+{
+    (void)state;
+    koksma_image image;
+    char bytes[65536];
+    assert_ok(koksma_image_init(&image, 40, 30, 3));
+    for (int i = 0; i < 40 * 30 * 3; i++) {
+        image.pixels[i] = (float)((i * 7919) % 1000);
+    }
+    assert_ok(koksma_image_write("bad.exr", &image, NULL));
+    koksma_image_fini(&image);
+    FILE *file = fopen("bad.exr", "rb");
+    assert_non_null(file);
+    const size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    for (size_t part = 0; part < 16; part++) {
+        put_bytes("bad.exr", bytes, size * part / 16);
+        const koksma_status status = koksma_image_read("bad.exr", &image);
+        look_at_error("EXR cut short", status, "bad.exr");
+    }
+    /* every byte of the head in turn: an error or a picture, never harm; DWAA and DWAB are among the changes */
+    for (size_t at = 0; at < 320 && at < size; at++) {
+        static const char changes[] = {0, 8, 9, 127, -1};
+        const char kept = bytes[at];
+        for (size_t c = 0; c < sizeof changes; c++) {
+            bytes[at] = changes[c];
+            put_bytes("bad.exr", bytes, size);
+            if (!koksma_image_read("bad.exr", &image)) {
+                koksma_image_fini(&image);
+            }
+        }
+        bytes[at] = kept;
+    }
+    unlink("bad.exr");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(malformed_scenes_and_meshes),
+        cmocka_unit_test(malformed_exr_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
