@@ -19,6 +19,51 @@ static void plane_equals_plain_search(void **state)
     }
 }
 
+/* The sweep and the mixture of both ways, on sets with ties, repeats, points on a line and on the sides, against the
+   plain search; what the witness holds is counted. */
+static void sweep_equals_plain_search(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 600; s++) {
+        koksma_points p = sets_points(1 + (size_t)s % 37, 2, s % SETS_KINDS, (uint64_t)s);
+        koksma_value plain = {.value = NAN}, swept = {.value = NAN}, either = {.value = NAN};
+        assert_ok(koksma__extreme_small(&p, NULL, &plain));
+        assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_SWEEP, &p, NULL, &swept));
+        assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_EITHER, &p, NULL, &either));
+        assert_near(swept.value, plain.value, 1e-15);
+        assert_near(either.value, plain.value, 1e-15);
+        assert_true(swept.exact && swept.lower == swept.value && swept.upper == swept.value);
+        size_t count = 0;
+        for (size_t i = 0; i < p.n; i++) {
+            bool in = true;
+            for (int k = 0; k < 2; k++) {
+                const double x = p.xs[2 * i + (size_t)k], lo = swept.witness.lo[k], hi = swept.witness.hi[k];
+                in = in && (swept.witness.closed ? x >= lo && x <= hi : x > lo && x < hi);
+            }
+            count += in;
+        }
+        assert_int_equal(count, swept.witness.count);
+        koksma_points_fini(&p);
+    }
+}
+
+/* Sets on which bounding is slowest, larger than the plain search can do. */
+static void sweep_equals_bounding(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"golden", "hammersley", "jittered", "regular", "random"};
+    for (int i = 0; i < 5; i++) {
+        koksma_points p = test_points(patterns[i], 256, 2, 5);
+        koksma_value bound, swept, cut;
+        assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_BOUND, &p, NULL, &bound));
+        assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_SWEEP, &p, NULL, &swept));
+        assert_near(swept.value, bound.value, 1e-15);
+        assert_ok(koksma__extreme_plane_by(KOKSMA__EXTREME_SWEEP, &p, &(koksma_run){.time_limit_s = 1e-6}, &cut));
+        assert_true(!cut.exact && cut.lower <= bound.value + 1e-15 && cut.upper >= bound.value);
+        koksma_points_fini(&p);
+    }
+}
+
 static void hammersley_has_its_value(void **state)
 {
     (void)state;
@@ -94,6 +139,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(hammersley_has_its_value),
+        cmocka_unit_test(sweep_equals_plain_search), cmocka_unit_test(sweep_equals_bounding),
         cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
         cmocka_unit_test(threads_change_no_bit),
     };

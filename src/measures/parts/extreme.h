@@ -8,7 +8,18 @@
    small: 1 to 3 dimensions, O(n^(2d-1)). */
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* plane: 2D, O(n^3) at worst in lanes of 16, most of it skipped by bounds. With a time limit out may hold bounds. */
+/* plane: 2D, by bounds, O(n^2 log^2 n) at worst. With a time limit out may hold bounds. */
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out);
+
+/* The ways to search the plane, which tests compare: branch and bound over strips, a sweep from each left side, or
+   the first where it is quick and the second for the rest. */
+typedef enum koksma__extreme_method {
+    KOKSMA__EXTREME_EITHER,
+    KOKSMA__EXTREME_BOUND,
+    KOKSMA__EXTREME_SWEEP
+} koksma__extreme_method;
+
+koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koksma_points *points,
+                                       const koksma_run *run, koksma_value *out);
 
 #endif

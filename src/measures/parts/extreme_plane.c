@@ -5,7 +5,8 @@
  * box. A tile is bounded by the same pass: an excess by the points of its widest strip with the width of its
  * narrowest, a deficit the other way round. Tiles that can't beat the best box are dropped, others are cut into 4 x
  * 4, down to single strips. Passes are done for 16 tiles at once. Blocks of left sides are separate work with a best
- * of their own, so that threads change no bit.
+ * of their own, so that threads change no bit. A block that has taken as long as a sweep from each of its left sides
+ * is swept instead: the count of its passes decides, not a clock.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,9 +17,12 @@
 #include "kernels/kernels.h"
 #include "measures/parts/clock.h"
 #include "measures/parts/extreme.h"
+#include "measures/parts/extreme_sweep.h"
 #include "measures/parts/order.h"
 
 enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48 };
+
+#define SWEEP_COST 20.0
 
 /* The side of a tile at each depth; each is cut into the next. */
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
@@ -40,6 +44,8 @@ typedef struct plane {
     best_strip *best; /* one a block of left sides */
     double *upper;    /* of tiles left when time was up */
     double deadline_s;
+    koksma__extreme_method method;
+    koksma__sweep_plane sweep;
 } plane;
 
 typedef struct searcher {
@@ -49,7 +55,7 @@ typedef struct searcher {
     tile waiting[DEPTH][LANES];
     int n_waiting[DEPTH];
     best_strip best;
-    double upper;
+    double upper, work, budget; /* points passed, of which so many are worth a sweep */
     bool late;
 } searcher;
 
@@ -94,6 +100,10 @@ static void flush(searcher *s, int depth)
         set_sides(s->p, tiles[l < count ? l : 0], tile_sides[depth], sides, l);
     }
     s->n_waiting[depth] = 0;
+    if (s->work > s->budget) {
+        return;
+    }
+    s->work += (double)s->count + 32;
     koksma__kernels()->extreme_strips(s->count, s->x, s->y, (const double(*)[LANES])sides, excess, deficit);
     s->late = s->late || koksma__now_s() > s->p->deadline_s;
     for (int l = 0; l < count; l++) {
@@ -142,13 +152,37 @@ static void gather(searcher *s, size_t from, size_t to)
 
 static bool open_searcher(const plane *p, searcher *s)
 {
-    *s = (searcher){.p = p, .x = malloc(2 * (p->n + 1) * sizeof(double)), .upper = -1};
+    *s = (searcher){.p = p, .x = malloc(2 * (p->n + 1) * sizeof(double)), .upper = -1, .budget = HUGE_VAL};
     if (!s->x) {
         koksma__fail_memory(2 * (p->n + 1) * sizeof(double));
         return false;
     }
     s->y = s->x + p->n + 1;
     return true;
+}
+
+/* The work of bounding that takes as long as sweeping the block: one for a point passed with 16 tiles, against
+   SWEEP_COST for a point on one of the log2 n nodes of its path. */
+static double budget_of(const plane *p, size_t a)
+{
+    const double left = fmin(COARSE, (double)(p->n_levels - a));
+    const double points = (double)p->n * (1 - (double)a / (double)p->n_levels);
+    return p->method == KOKSMA__EXTREME_BOUND   ? HUGE_VAL
+           : p->method == KOKSMA__EXTREME_SWEEP ? -1
+                                                : SWEEP_COST * left * points * log2((double)p->n + 2);
+}
+
+/* What is too hard to bound. Cut short, all that is known is that no box has a value above n. */
+static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
+{
+    koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};
+    const koksma_status status =
+        koksma__extreme_sweep(&p->sweep, a, last(p, a, COARSE) + 1, p->deadline_s, &best, &s->late);
+    s->best = (best_strip){best.value, {best.left, best.right}, best.closed};
+    if (s->late) {
+        s->upper = (double)p->n;
+    }
+    return status;
 }
 
 static koksma_status search_block(void *context, size_t block)
@@ -160,6 +194,7 @@ static koksma_status search_block(void *context, size_t block)
     }
     s.best = p->best[block];
     s.late = koksma__now_s() > p->deadline_s;
+    s.budget = budget_of(p, block * COARSE);
     const size_t a = block * COARSE, tiles = (p->n_levels - a + COARSE - 1) / COARSE;
     for (size_t group = 0; group < GROUPS; group++) {
         const size_t first = tiles * group / GROUPS, end = tiles * (group + 1) / GROUPS;
@@ -171,10 +206,14 @@ static koksma_status search_block(void *context, size_t block)
         }
         flush_all(&s);
     }
+    koksma_status status = KOKSMA_OK;
+    if (s.work > s.budget) {
+        status = sweep_block(p, a, &s);
+    }
     p->best[block] = s.best;
     p->upper[block] = s.upper;
     free(s.x);
-    return KOKSMA_OK;
+    return status;
 }
 
 /* Some strips, to begin with a good value: what is dropped does not depend on luck then. */
@@ -241,6 +280,22 @@ static void find_witness(const plane *p, const best_strip *best, koksma_value *o
     }
 }
 
+/* Places in order of y, in order of x, and where in these each level begins. */
+static koksma_status prepare_sweep(plane *p, uint32_t *by_x, uint32_t *first)
+{
+    const koksma_status status = koksma__order(p->n, p->x, 1, by_x);
+    size_t i = 0;
+    for (size_t level = 0; level < p->n_levels && !status; level++) {
+        first[level] = (uint32_t)i;
+        while (i < p->n && p->x[by_x[i]] <= p->levels[level]) {
+            i++;
+        }
+    }
+    first[p->n_levels] = (uint32_t)i;
+    p->sweep = (koksma__sweep_plane){p->n, p->n_levels, p->y, p->levels, by_x, first};
+    return status;
+}
+
 static koksma_status prepare(plane *p, const koksma_points *points, uint32_t *order)
 {
     koksma_status status = koksma__order(p->n, points->xs, 2, order);
@@ -264,14 +319,21 @@ static koksma_status prepare(plane *p, const koksma_points *points, uint32_t *or
         p->x[i] = points->xs[2 * (size_t)order[i]];
         p->y[i] = points->xs[2 * (size_t)order[i] + 1];
     }
-    return status;
+    return status ? status : prepare_sweep(p, order, order + p->n);
 }
 
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
+    return koksma__extreme_plane_by(KOKSMA__EXTREME_EITHER, points, run, out);
+}
+
+koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koksma_points *points,
+                                       const koksma_run *run, koksma_value *out)
+{
     const size_t n = points->n, max_blocks = (n + 2) / COARSE + 1;
-    const size_t bytes = max_blocks * (sizeof(best_strip) + sizeof(double)) + (3 * n + 4) * sizeof(double) + n * 4;
-    plane p = {.n = n, .best = malloc(bytes), .deadline_s = koksma__deadline_s(run, 0.9)};
+    const size_t bytes =
+        max_blocks * (sizeof(best_strip) + sizeof(double)) + (3 * n + 4) * sizeof(double) + (2 * n + 4) * 4;
+    plane p = {.n = n, .best = malloc(bytes), .deadline_s = koksma__deadline_s(run, 0.9), .method = method};
     if (!p.best) {
         return koksma__fail_memory(bytes);
     }
