@@ -2,7 +2,7 @@
 /*
  * Adaptive methods against the best pattern without them, at equal numbers of rays, on five scenes; and their bias.
  *
- *     bench-adaptive [TRIALS [SCENE]]
+ *     bench-adaptive [TRIALS [SCENE [METHOD,METHOD…]]]
  *
  * A row: samples a pixel, rays a pixel; mean |error| over pixels and trials with the half width of its 95 % interval;
  * the ratio to the error of the best pattern at as many rays, with its interval by the delta method; the
@@ -210,7 +210,8 @@ static void put_row(const char *spec, const pictures *p, const pictures *best, c
     fflush(stdout);
 }
 
-static void bench_scene(const scene *s, int trials)
+/* only: names of methods, NULL for all. */
+static void bench_scene(const scene *s, int trials, const char *only)
 {
     static reference ref;
     static pictures one, best;
@@ -241,6 +242,9 @@ static void bench_scene(const scene *s, int trials)
                      s->levels);
         }
         check(koksma_adaptive_parse(spec, &adaptive));
+        if (only && !strstr(only, adaptive.method->name)) {
+            continue;
+        }
         adaptive.budget = methods[i].budget ? s->budget : 0;
         options.spp = methods[i].parts ? s->first / methods[i].parts : s->first;
         render(opened, options, &adaptive, trials, 100 + i, &ref, &one);
@@ -260,7 +264,7 @@ int main(int argc, char **argv)
     }
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         if (argc < 3 || !strcmp(argv[2], scenes[i].name)) {
-            bench_scene(&scenes[i], trials);
+            bench_scene(&scenes[i], trials, argc > 3 ? argv[3] : NULL);
         }
     }
     return 0;
