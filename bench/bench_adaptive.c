@@ -245,6 +245,11 @@ static void bench_scene(const scene *s, int trials, const char *only)
         if (only && !strstr(only, adaptive.method->name)) {
             continue;
         }
+        /* a pilot of `first` samples and one set at least */
+        if (!strcmp(adaptive.method->name, "two-stage") && s->first + s->first / methods[i].parts > s->budget) {
+            printf("| `%s` | no room in this budget | | | | | |\n", spec);
+            continue;
+        }
         adaptive.budget = methods[i].budget ? s->budget : 0;
         options.spp = methods[i].parts ? s->first / methods[i].parts : s->first;
         render(opened, options, &adaptive, trials, 100 + i, &ref, &one);
