@@ -134,8 +134,7 @@ static void seen_lights_give_the_same(void **state)
     static const char *const lights[] = {
         "\"kind\": \"sphere\", \"centre\": [0, 2, -3], \"radius\": 0.8, \"radiance\": 3",
         "\"kind\": \"disk\", \"centre\": [0, 2, -3], \"facing\": [0, 0, 0], \"radius\": 0.9, \"radiance\": 3",
-        "\"kind\": \"rectangle\", \"centre\": [0, 2, -3], \"facing\": [0, 0, 0], \"half\": [1, 0.6], \"radiance\": "
-        "3"};
+        "\"kind\": \"rectangle\", \"centre\": [0, 2, -3], \"facing\": [0, 0, 0], \"half\": [1, 1], \"radiance\": 3"};
     for (size_t i = 0; i < 12; i++) {
         double means[2], errors[2];
         for (int seen = 0; seen < 2; seen++) {
