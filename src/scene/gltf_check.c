@@ -82,7 +82,7 @@ static koksma_status check_buffer(const lists *l, const field *f)
 
 static koksma_status check_view(const lists *l, const field *f)
 {
-    long long number = 0, offset, length, room, stride;
+    long long number = 0, offset = 0, length = 0, room = 0, stride = 0;
     field buffer;
     koksma_status status = names(f, "buffer", l->buffers);
     status = status ? status : koksma__json_get_whole(f, "buffer", true, 0, MAX_ITEMS, &number);
@@ -119,7 +119,7 @@ static long long element_size(const char *type, long long component)
 
 static koksma_status check_accessor(const lists *l, const field *f)
 {
-    long long number = 0, offset, count = 0, component = 0, room, stride;
+    long long number = 0, offset = 0, count = 0, component = 0, room = 0, stride = 0;
     const char *type = "";
     field view;
     koksma_status status = names(f, "bufferView", l->views);
