@@ -180,7 +180,8 @@ const cli_command cli_command_render = {
     .synopsis = "SCENE [-p [USE=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
                 "                     [--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
-        "SCENE is a name of 'koksma list scenes', or a JSON file (docs/scenes.md).\n"
+        "SCENE is a name of 'koksma list scenes', a JSON file (docs/scenes.md), or a mesh file (.obj .ply .off .gltf "
+        ".glb).\n"
         "Every use of a sample ('koksma list uses') has a pattern of its own in every pixel; 'shuffled' pairs them\n"
         "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. With\n"
         "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.\n"

@@ -29,8 +29,9 @@ typedef struct koksma_scene koksma_scene;
 /* The name of shipped scene i; NULL past the end. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
-/* Opens a shipped scene by its name, or a JSON file when the text has a '/' or ends in ".json".
-   Errors: UNKNOWN (no such name), MISSING, MALFORMED (with file, line, field and reason), MEMORY. */
+/* Opens a shipped scene by its name, or a file: JSON when the text has a '/' or ends in ".json", a mesh when it
+   ends in .obj, .ply, .off, .gltf or .glb. Errors: UNKNOWN (no such name), MISSING, MALFORMED (with file, line, field
+   and reason), UNSUPPORTED (this build has no assimp), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
 

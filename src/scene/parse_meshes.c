@@ -186,7 +186,7 @@ koksma_status koksma__parse_mesh(const char *scene_name, const field *f, koksma_
     strcpy(mesh->name, name);
     status = koksma__mesh_read(path, mesh);
     if (status) {
-        koksma__json_fail(f, "%s%s", koksma_error_text(), koksma__package_hint(path));
+        koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
         return status;
     }
     scene->hash ^= koksma__mesh_hash(mesh) + scene->n_meshes;

@@ -200,6 +200,28 @@ static void sizes_are_checked(void **state)
     koksma_image_fini(NULL);
 }
 
+/* A world map that Debian's blender-data installs: DWAB, which OpenEXRCore can't decode. */
+static void dwa_files_are_read(void **state)
+{
+    (void)state;
+    static const char *const path = "/usr/share/blender/datafiles/studiolights/world/forest.exr";
+    koksma_image image;
+    if (access(path, R_OK)) {
+        skip();
+    }
+    assert_ok(koksma_image_read(path, &image));
+    assert_int_equal(image.width, 1024);
+    assert_int_equal(image.height, 512);
+    assert_int_equal(image.channels, 3);
+    double upper = 0, lower = 0;
+    for (int i = 0; i < 1024 * 512 * 3; i++) {
+        assert_true(isfinite(image.pixels[i]));
+        *(i < 1024 * 256 * 3 ? &upper : &lower) += (double)image.pixels[i];
+    }
+    assert_true(upper > lower && lower > 0); /* the sky is above */
+    koksma_image_fini(&image);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +231,7 @@ int main(void)
         cmocka_unit_test(errors_by_hand),
         cmocka_unit_test(readers_survive),
         cmocka_unit_test(sizes_are_checked),
+        cmocka_unit_test(dwa_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
