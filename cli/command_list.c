@@ -93,12 +93,16 @@ static void list_measures(cli_rows *rows)
 
 static void list_scenes(cli_rows *rows)
 {
-    koksma_scene *scene;
-    for (size_t i = 0; koksma_scene_name_at(i) && !koksma_scene_open(koksma_scene_name_at(i), &scene); i++) {
+    for (size_t i = 0; koksma_scene_name_at(i); i++) {
+        koksma_scene *scene;
         cli_row_text(rows, "scene", koksma_scene_name_at(i));
-        cli_row_text(rows, "what", koksma_scene_title(scene));
+        if (koksma_scene_open(koksma_scene_name_at(i), &scene)) {
+            cli_row_text(rows, "what", koksma_error_text()); /* files of a package that is not installed */
+        } else {
+            cli_row_text(rows, "what", koksma_scene_title(scene));
+            koksma_scene_close(scene);
+        }
         cli_row_end(rows);
-        koksma_scene_close(scene);
     }
 }
 

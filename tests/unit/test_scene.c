@@ -74,13 +74,19 @@ static void shipped_scenes_open(void **state)
     size_t n = 0;
     uint64_t hashes = 0;
     for (; koksma_scene_name_at(n); n++) {
-        assert_ok(koksma_scene_open(koksma_scene_name_at(n), &scene));
+        const koksma_status status = koksma_scene_open(koksma_scene_name_at(n), &scene);
+        if (status && !strcmp(koksma_scene_name_at(n), "bunny")) { /* its files come with other packages, if at all */
+            assert_true(status == KOKSMA_MISSING || status == KOKSMA_MALFORMED || status == KOKSMA_UNSUPPORTED);
+            assert_non_null(strstr(koksma_error_text(), "bunny"));
+            continue;
+        }
+        assert_ok(status);
         assert_true(*koksma_scene_title(scene));
         assert_true(koksma_scene_hash(scene) != hashes);
         hashes = koksma_scene_hash(scene);
         koksma_scene_close(scene);
     }
-    assert_true(n >= 3);
+    assert_true(n >= 10);
     assert_ok(koksma_scene_open("ball", &scene));
     assert_int_equal(koksma_scene_rays_per_sample(scene), 3);
     assert_int_equal(scene->width, 128);
