@@ -217,23 +217,6 @@ static koksma_status parse_table(const koksma__json_node *node, const koksma__pl
                                       &t->n_notes);
 }
 
-static koksma_status parse_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "id", "title", "pattern", "scene", "n", "cells", NULL};
-    (void)trials;
-    koksma__figure *f = item;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", true, &f->id);
-    status = status ? status : koksma__plan_text(node, "title", true, &f->title);
-    status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
-    if (!status && f->scene) {
-        status = check_scene(node, f->scene);
-    }
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
-    status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_SPP, &f->n);
-    return status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
-}
-
 /* ---- The whole ------------------------------------------------------------------------------------------- */
 
 static bool has_text(const koksma__texts *texts, const char *text)
@@ -317,7 +300,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
                     : koksma__plan_list(root, "tables", false, sizeof *p->tables, parse_table, trials,
                                         (void **)&p->tables, &p->n_tables);
     status = status ? status
-                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, parse_figure, trials,
+                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, koksma__plan_figure, trials,
                                         (void **)&p->figures, &p->n_figures);
     status = status ? status
                     : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,

@@ -72,8 +72,13 @@ typedef struct koksma__table {
 /* A figure: the points of a pattern, or a rendered scene. */
 typedef struct koksma__figure {
     char *id, *title, *pattern, *scene;
-    long long n; /* points, or samples per pixel */
-    bool cells;  /* draw the cells or rows and columns in */
+    char *variant;       /* of a scene: variants.h */
+    char *adaptive;      /* a method of adaptive sampling, or NULL */
+    char *warp;          /* of points: the map that they are shown through, or NULL */
+    long long n;         /* points, or samples per pixel */
+    long long detail[4]; /* x, y, width and height of what is shown; width 0: all */
+    long long strata[2]; /* the pixel whose strata are shown; -1: none */
+    bool cells;          /* draw the cells or rows and columns in */
 } koksma__figure;
 
 /* Something that the report answers from blocks of the plan. */

@@ -121,6 +121,9 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->figures[i].title);
         free(p->figures[i].pattern);
         free(p->figures[i].scene);
+        free(p->figures[i].variant);
+        free(p->figures[i].adaptive);
+        free(p->figures[i].warp);
     }
     for (size_t i = 0; i < p->n_questions; i++) {
         free(p->questions[i].id);

@@ -2,12 +2,29 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include <koksma/adaptive.h>
 #include <koksma/plot.h>
+#include <koksma/warp.h>
 
+#include "core/status.h"
 #include "study/report.h"
+#include "study/variants.h"
 
-enum { POINTS_WIDTH = 280, SCENE_SCALE = 3 };
+enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 96 };
+
+/* Points mapped to the disk, which fills the square. */
+static void through_warp(const char *name, koksma_points *points)
+{
+    const koksma_warp *warp = koksma_warp_find(name);
+    for (size_t i = 0; i < points->n; i++) {
+        double x[3];
+        warp->map(points->xs + 2 * i, x);
+        points->xs[2 * i] = 0.5 + 0.5 * x[0];
+        points->xs[2 * i + 1] = 0.5 + 0.5 * x[1];
+    }
+}
 
 static koksma_status add_points(koksma__html *h, const koksma__figure *f)
 {
@@ -28,6 +45,9 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
     }
+    if (!status && f->warp) {
+        through_warp(f->warp, &points);
+    }
     if (!status) {
         status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
     }
@@ -39,20 +59,97 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
     return status;
 }
 
+static koksma_status add_strata(koksma__html *h, const koksma__figure *f, koksma_strata *strata)
+{
+    unsigned char *svg;
+    size_t size;
+    char caption[64];
+    snprintf(caption, sizeof caption, "%zu strata of %s", strata->n, strata->use ? strata->use : "the pixel");
+    const koksma_status status =
+        koksma_plot_strata(strata->list, strata->n, POINTS_WIDTH, caption, KOKSMA_PLOT_SVG, &svg, &size);
+    if (!status) {
+        koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
+        free(svg);
+    }
+    free(strata->list);
+    return status;
+}
+
+/* The part of an image that the figure shows, the larger the smaller it is. */
+static koksma_status add_part(koksma__html *h, const koksma__figure *f, const koksma_image *image)
+{
+    koksma_image part;
+    const int x = (int)f->detail[0], y = (int)f->detail[1], width = (int)f->detail[2], height = (int)f->detail[3];
+    if (!width) {
+        return koksma__html_image(h, image, SCENE_SCALE, f->title);
+    }
+    if (x + width > image->width || y + height > image->height) {
+        return koksma__fail(KOKSMA_ARGUMENT, "figure %s: its detail lies beyond the image", f->id);
+    }
+    koksma_status status = koksma_image_init(&part, width, height, image->channels);
+    if (status) {
+        return status;
+    }
+    const size_t channels = (size_t)image->channels;
+    for (int row = 0; row < height; row++) {
+        memcpy(part.pixels + (size_t)row * (size_t)width * channels,
+               image->pixels + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * channels,
+               (size_t)width * channels * sizeof *part.pixels);
+    }
+    status = koksma__html_image(h, &part, SCENE_SCALE * image->width / width, f->title);
+    koksma_image_fini(&part);
+    return status;
+}
+
+static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
+                                  uint64_t seed, const koksma_run *run, char note[NOTE])
+{
+    koksma_render_options options;
+    koksma_adaptive_options adaptive;
+    koksma_adaptive_report report;
+    koksma_layers layers;
+    koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
+    koksma_render_options_init(&options, scene->scene);
+    koksma_status status = koksma_pattern_spec(f->pattern, &options.pattern);
+    status = status ? status : koksma__variant_apply(f->variant, false, &options);
+    status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);
+    options.spp = (int)f->n;
+    options.seed = seed;
+    options.width = scene->width;
+    options.height = scene->height;
+    adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
+    if (status || (status = koksma_render_adaptive(scene->scene, &options, &adaptive, run, &layers, &report))) {
+        return status;
+    }
+    if (adaptive.strata) {
+        status = add_strata(h, f, &strata);
+    } else {
+        const double pixels = (double)scene->width * (double)scene->height;
+        status = add_part(h, f, &layers.image);
+        snprintf(note, NOTE, " (%lld samples a pixel at first, %.1f more in the mean)", f->n,
+                 (double)(report.samples - report.first) / pixels);
+    }
+    koksma_layers_fini(&layers);
+    return status;
+}
+
 static koksma_status add_scene(const koksma_study *study, koksma__html *h, const koksma__figure *f,
-                               const koksma_run *run)
+                               const koksma_run *run, char note[NOTE])
 {
     koksma_image image;
     const koksma__study_scene *scene = koksma__study_scene_of(study, f->scene);
     const koksma__picture picture = {.pattern = f->pattern,
-                                     .variant = "",
+                                     .variant = f->variant,
                                      .spp = f->n,
                                      .width = scene->width,
                                      .height = scene->height,
                                      .seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n)};
+    if (f->adaptive) {
+        return add_adaptive(scene, h, f, picture.seed, run, note);
+    }
     koksma_status status = koksma__study_render(scene, &picture, run, &image);
     if (!status) {
-        status = koksma__html_image(h, &image, SCENE_SCALE, f->title);
+        status = add_part(h, f, &image);
         koksma_image_fini(&image);
     }
     return status;
@@ -67,10 +164,12 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
     koksma__html_add(html, "<h2>Figures</h2>\n<div class=\"figures\">\n");
     for (size_t i = 0; !status && i < study->plan.n_figures; i++) {
         const koksma__figure *f = &study->plan.figures[i];
+        char note[NOTE] = "";
         koksma__html_add(html, "<figure id=\"figure-%s\">", f->id);
-        status = f->scene ? add_scene(study, html, f, run) : add_points(html, f);
+        status = f->scene ? add_scene(study, html, f, run, note) : add_points(html, f);
         koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
         koksma__html_text(html, f->title);
+        koksma__html_text(html, note);
         koksma__html_add(html, "</figcaption></figure>\n");
     }
     koksma__html_add(html, "</div>\n");

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The figures of a plan: points, or a scene, or how a pixel of it was subdivided. */
+#include <string.h>
+
+#include <koksma/adaptive.h>
+#include <koksma/warp.h>
+
+#include "core/status.h"
+#include "study/plan_parts.h"
+#include "study/variants.h"
+
+enum { MAX_N = 1 << 20 };
+
+static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long *out)
+{
+    koksma__json_node list;
+    size_t length;
+    koksma_status status = koksma__json_member(node, key, &list);
+    status = status ? status : koksma__json_length(&list, n, &length);
+    if (!status && length != n) {
+        return koksma__json_fail(&list, "it takes %zu numbers", n);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
+    }
+    return status;
+}
+
+static koksma_status check_words(const koksma__json_node *node, const koksma__figure *f)
+{
+    koksma_adaptive_options adaptive;
+    koksma_scene *scene;
+    if (f->scene && koksma_scene_open(f->scene, &scene)) {
+        return koksma__json_fail(node, "%s", koksma_error_text());
+    }
+    if (f->scene) {
+        koksma_scene_close(scene);
+    }
+    if (f->adaptive && koksma_adaptive_parse(f->adaptive, &adaptive)) {
+        return koksma__json_fail(node, "%s", koksma_error_text());
+    }
+    if (f->warp && (!koksma_warp_find(f->warp) || koksma_warp_find(f->warp)->domain != KOKSMA_DOMAIN_DISK)) {
+        return koksma__json_fail(node, "no warp '%s' to the disk", f->warp);
+    }
+    if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
+        return koksma__json_fail(node, "options, adaptive and detail go with a scene");
+    }
+    if (f->strata[0] >= 0 && !f->adaptive) {
+        return koksma__json_fail(node, "strata go with an adaptive method");
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment",  "id",     "title",  "pattern", "scene",   "n", "cells",
+                                       "adaptive", "strata", "detail", "warp",    "options", NULL};
+    koksma__figure *f = item;
+    koksma__texts variants = {0};
+    (void)trials;
+    f->strata[0] = f->strata[1] = -1;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "id", true, &f->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &f->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
+    status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
+    status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
+    status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
+    if (!status && koksma__json_has(node, "strata")) {
+        status = get_wholes(node, "strata", 2, f->strata);
+    }
+    if (!status && koksma__json_has(node, "detail")) {
+        status = get_wholes(node, "detail", 4, f->detail);
+    }
+    status = status ? status : koksma__variants_parse(node, &variants);
+    if (!status && variants.n != 1) {
+        status = koksma__json_fail(node, "a figure has one word an option");
+    }
+    if (!status) {
+        f->variant = variants.at[0];
+        variants.at[0] = NULL;
+    }
+    koksma__texts_fini(&variants);
+    return status ? status : check_words(node, f);
+}
