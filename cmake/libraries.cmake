@@ -65,7 +65,11 @@ if(ASSIMP_FOUND)
 endif()
 list(REMOVE_DUPLICATES KOKSMA_LAB_LINKS)
 
-# Optional: studies on many machines. The sanitizers and MPI's own libraries don't go together.
-if(KOKSMA_MPI AND NOT KOKSMA_SANITIZE)
+# Studies on many machines. The sanitizers and MPI's own libraries don't go together.
+set(KOKSMA_MPI AUTO CACHE STRING "Studies under mpirun: AUTO, ON or OFF")
+if(NOT KOKSMA_MPI STREQUAL OFF AND NOT KOKSMA_SANITIZE AND NOT KOKSMA_THREAD_SANITIZER)
   find_package(MPI COMPONENTS C QUIET)
+  if(KOKSMA_MPI STREQUAL ON AND NOT MPI_C_FOUND)
+    message(FATAL_ERROR "KOKSMA_MPI=ON, and CMake finds no MPI")
+  endif()
 endif()

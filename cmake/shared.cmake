@@ -12,7 +12,7 @@ function(koksma_shared library)
   target_include_directories(${library}-shared INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>
                                                          $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_options(${library}-shared PRIVATE -Wl,--version-script=${CMAKE_BINARY_DIR}/exports.map)
-  if(NOT KOKSMA_SANITIZE) # clang's sanitizers leave their own symbols to the program
+  if(NOT KOKSMA_SANITIZE AND NOT KOKSMA_THREAD_SANITIZER) # clang's sanitizers leave their own symbols to the program
     target_link_options(${library}-shared PRIVATE -Wl,--no-undefined)
   endif()
 endfunction()

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Who does the jobs: the threads of this process (run.c), or the ranks of an MPI run (pool_mpi.c). Of several ranks
+ * Who does the jobs: the threads of this process (run.c), or the ranks of an MPI run (pool_ranks.c). Of several ranks
  * the first holds the store, deals jobs out and does some itself; the others open the plan without a folder, ask for
  * work and send results back.
  */

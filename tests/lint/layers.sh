@@ -46,7 +46,7 @@ only 'sqlite3\.h' src/study/store.c
 only 'jansson\.h' src/scene/json.c
 only 'embree' src/render/accel_embree.c
 only 'assimp' src/scene/mesh_assimp.c
-only 'mpi\.h' src/study/pool_mpi.c
+only 'mpi\.h' src/study/transport_mpi.c
 only 'kiss' src/measures/parts/fft.c
 only 'Random123' src/core/random.h
 

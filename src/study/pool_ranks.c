@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The ranks of an MPI run. Rank 0 holds the store: it deals jobs out in batches, a request at a time, and does jobs
- * itself on a second thread; only its first thread calls MPI. The other ranks have the plan and so the same list of
- * jobs; a job is its number. They get reference images from rank 0 when they first need them, so that only the plan's
- * own files must be readable everywhere.
+ * The ranks of an MPI run (the messages go by transport.h). Rank 0 holds the store: it deals jobs out in batches, a
+ * request at a time, and does jobs itself on a second thread; only its first thread sends and receives. The other
+ * ranks have the plan and so the same list of jobs; a job is its number. They get reference images from rank 0 when
+ * they first need them, so that only the plan's own files must be readable everywhere.
  *
- * Long because both sides of every message stand together here, in the one file that sees MPI.
+ * Long because both sides of every message stand together here.
  *
  * A batch stays on a rank's lease until its results are in. When no other jobs are left, leases that are still out
  * are done again here: a rank that was lost costs its batch, where MPI lets the others live on (MPICH's
  * -disable-auto-cleanup); else the run ends, and the same command goes on from the store.
  */
-#include <mpi.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +20,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/pool.h"
+#include "study/transport.h"
 
 /* Messages. To rank 0: ASK (phase, seconds a job took), RESULT (job, results), NEED (reference). From it: JOBS (their
    numbers; none: wait; PHASE_END, RUN_END), PIXELS. A rank's error text ends all. */
@@ -31,7 +31,9 @@ enum { N_PHASES = 2, MAX_BATCH = 256, TEXT = 480 };
 static const double BATCH_S = 0.02, IDLE_S = 2e-4;
 
 static int size = 0, rank = 0;
-static bool released; /* the other ranks know that there is no more to do */
+static const koksma__transport *mpi; /* NULL: this process is alone */
+static const char *problem;          /* why it is, when mpirun started more than one */
+static bool released;                /* the other ranks know that there is no more to do */
 
 static double now_s(void)
 {
@@ -42,31 +44,33 @@ static double now_s(void)
 
 static void finish(void)
 {
-    int finalized;
-    MPI_Finalized(&finalized);
-    if (!finalized && rank == 0 && size > 1 && !released) {
-        MPI_Abort(MPI_COMM_WORLD, koksma_status_exit_code(KOKSMA_IO)); /* the others wait for what won't come */
-    }
-    if (!finalized) {
-        MPI_Finalize();
-    }
+    const bool others_wait = rank == 0 && size > 1 && !released; /* for what won't come */
+    mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
+}
+
+/* Ranks that were started together, as the launcher's environment has it; 0: no launcher. */
+static int launched(void)
+{
+    const char *ompi = getenv("OMPI_COMM_WORLD_SIZE"), *pmi = getenv("PMI_SIZE"), *slurm = getenv("SLURM_NTASKS");
+    return ompi ? atoi(ompi) : pmi ? atoi(pmi) : getenv("PMIX_RANK") ? (slurm ? atoi(slurm) : 1) : 0;
 }
 
 /* A process that no mpirun started must not pay for MPI, nor depend on it. */
-static bool was_launched(void)
-{
-    return getenv("OMPI_COMM_WORLD_SIZE") || getenv("PMI_SIZE") || getenv("PMIX_RANK");
-}
-
 static void start(void)
 {
-    int provided;
+    const int expected = launched();
     size = 1;
-    if (was_launched() && MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) == MPI_SUCCESS) {
-        MPI_Comm_size(MPI_COMM_WORLD, &size);
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-        MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    if (expected) {
+        mpi = koksma__transport_load(&problem);
+        if (mpi && !mpi->start(&size, &rank)) {
+            mpi = NULL;
+            problem = "MPI can't be started";
+        }
+    }
+    if (mpi) {
         atexit(finish);
+    } else if (expected <= 1) {
+        problem = NULL;
     }
 }
 
@@ -86,7 +90,8 @@ int koksma_study_rank(void)
 
 koksma_status koksma__pool_check(void)
 {
-    return KOKSMA_OK;
+    koksma__pool_size();
+    return problem ? koksma__fail(KOKSMA_UNSUPPORTED, "%s", problem) : KOKSMA_OK;
 }
 
 static void rest(void)
@@ -203,27 +208,29 @@ static void *work_here(void *context)
     }
 }
 
-static koksma_status send_pixels(server *s, int to)
+static void send_pixels(server *s, int to)
 {
     unsigned long long index;
-    MPI_Recv(&index, 1, MPI_UNSIGNED_LONG_LONG, to, TAG_NEED, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (!mpi->receive(to, TAG_NEED, &index, sizeof index, NULL) || index >= s->pool->tasks->study->n_references) {
+        return;
+    }
     const koksma_image *image = &s->pool->tasks->study->references[index].image;
     const int shape[3] = {image->width, image->height, image->channels};
-    MPI_Send(shape, 3, MPI_INT, to, TAG_PIXELS, MPI_COMM_WORLD);
-    MPI_Send(image->pixels, shape[0] * shape[1] * shape[2], MPI_FLOAT, to, TAG_PIXELS, MPI_COMM_WORLD);
-    return KOKSMA_OK;
+    const size_t pixels = (size_t)shape[0] * (size_t)shape[1] * (size_t)shape[2];
+    mpi->send(to, TAG_PIXELS, shape, sizeof shape);
+    mpi->send(to, TAG_PIXELS, image->pixels, pixels * sizeof *image->pixels);
 }
 
-static void receive_result(server *s, int from, int bytes)
+static void receive_result(server *s, int from, size_t bytes)
 {
-    unsigned char *message = malloc((size_t)bytes);
+    unsigned char *message = malloc(bytes);
     if (!message) {
         stop(s, KOKSMA_MEMORY, "out of memory for a message");
         return;
     }
     unsigned long long job;
     long long trial;
-    MPI_Recv(message, bytes, MPI_BYTE, from, TAG_RESULT, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    mpi->receive(from, TAG_RESULT, message, bytes, NULL);
     memcpy(&job, message, sizeof job);
     const koksma__task *task = koksma__tasks_job(s->pool->tasks, job, &trial);
     koksma__result *results = calloc(task->n_series, sizeof *results);
@@ -244,7 +251,7 @@ static void deal(server *s, int to)
     double ask[2];
     unsigned long long jobs[MAX_BATCH];
     int n = 0;
-    MPI_Recv(ask, 2, MPI_DOUBLE, to, TAG_ASK, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    mpi->receive(to, TAG_ASK, ask, sizeof ask, NULL);
     const bool now = (int)ask[0] == s->phase;
     const double fit = ask[1] > 0 ? BATCH_S / ask[1] : 1;
     const size_t share = (s->pool->tasks->n_jobs - s->next) / (size_t)(4 * size) + 1;
@@ -261,31 +268,30 @@ static void deal(server *s, int to)
         jobs[n++] = s->status ? RUN_END : PHASE_END;
         s->ended[to] = s->ended[to] || now || s->status;
     }
-    MPI_Send(jobs, n, MPI_UNSIGNED_LONG_LONG, to, TAG_JOBS, MPI_COMM_WORLD);
+    mpi->send(to, TAG_JOBS, jobs, (size_t)n * sizeof *jobs);
 }
 
 /* One message, if there is one. */
 static bool serve_one(server *s)
 {
-    int there = 0, bytes = 0;
-    MPI_Status status;
-    if (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS || !there) {
+    int from, tag;
+    size_t bytes;
+    if (!mpi->probe(&from, &tag, &bytes)) {
         return false;
     }
     char text[TEXT] = "";
-    switch (status.MPI_TAG) {
+    switch (tag) {
     case TAG_ASK:
-        deal(s, status.MPI_SOURCE);
+        deal(s, from);
         break;
     case TAG_NEED:
-        send_pixels(s, status.MPI_SOURCE);
+        send_pixels(s, from);
         break;
     case TAG_RESULT:
-        MPI_Get_count(&status, MPI_BYTE, &bytes);
-        receive_result(s, status.MPI_SOURCE, bytes);
+        receive_result(s, from, bytes);
         break;
     case TAG_ERROR:
-        MPI_Recv(text, TEXT, MPI_CHAR, status.MPI_SOURCE, TAG_ERROR, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        mpi->receive(from, TAG_ERROR, text, TEXT, NULL);
         stop(s, (koksma_status)text[0], text + 1);
         break;
     default:
@@ -376,12 +382,13 @@ static koksma_status get_reference(koksma_study *study, size_t index)
     if (r->image.pixels) {
         return KOKSMA_OK;
     }
-    MPI_Send(&number, 1, MPI_UNSIGNED_LONG_LONG, 0, TAG_NEED, MPI_COMM_WORLD);
-    MPI_Recv(shape, 3, MPI_INT, 0, TAG_PIXELS, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (!mpi->send(0, TAG_NEED, &number, sizeof number) || !mpi->receive(0, TAG_PIXELS, shape, sizeof shape, NULL)) {
+        return koksma__fail(KOKSMA_IO, "rank %d has lost rank 0", rank);
+    }
     const koksma_status status = koksma_image_init(&r->image, shape[0], shape[1], shape[2]);
     if (!status) {
-        MPI_Recv(r->image.pixels, shape[0] * shape[1] * shape[2], MPI_FLOAT, 0, TAG_PIXELS, MPI_COMM_WORLD,
-                 MPI_STATUS_IGNORE);
+        const size_t pixels = (size_t)shape[0] * (size_t)shape[1] * (size_t)shape[2];
+        mpi->receive(0, TAG_PIXELS, r->image.pixels, pixels * sizeof *r->image.pixels, NULL);
     }
     return status;
 }
@@ -401,7 +408,7 @@ static koksma_status answer(koksma_study *study, const koksma__tasks *tasks, uns
     if (!status) {
         memcpy(message, &job, sizeof job);
         memcpy(message + sizeof job, results, bytes - sizeof job);
-        MPI_Send(message, (int)bytes, MPI_BYTE, 0, TAG_RESULT, MPI_COMM_WORLD);
+        mpi->send(0, TAG_RESULT, message, bytes);
     }
     free(message);
     free(results);
@@ -416,14 +423,12 @@ static koksma_status work_phase(koksma_study *study, int phase, bool *run_over)
     double ask[2] = {phase, 0};
     for (bool over = status != KOKSMA_OK || tasks.n_jobs == 0; !over && !status;) {
         unsigned long long jobs[MAX_BATCH];
-        int n;
-        MPI_Status got;
-        if (MPI_Send(ask, 2, MPI_DOUBLE, 0, TAG_ASK, MPI_COMM_WORLD) != MPI_SUCCESS ||
-            MPI_Recv(jobs, MAX_BATCH, MPI_UNSIGNED_LONG_LONG, 0, TAG_JOBS, MPI_COMM_WORLD, &got) != MPI_SUCCESS) {
+        size_t got;
+        if (!mpi->send(0, TAG_ASK, ask, sizeof ask) || !mpi->receive(0, TAG_JOBS, jobs, sizeof jobs, &got)) {
             status = koksma__fail(KOKSMA_IO, "rank %d has lost rank 0", rank);
             break;
         }
-        MPI_Get_count(&got, MPI_UNSIGNED_LONG_LONG, &n);
+        const int n = (int)(got / sizeof *jobs);
         const double start_s = now_s();
         for (int i = 0; i < n && !status && !over; i++) {
             over = jobs[i] == PHASE_END || jobs[i] == RUN_END;
@@ -453,7 +458,7 @@ koksma_status koksma__pool_work(koksma_study *study)
         char text[TEXT];
         text[0] = (char)status;
         snprintf(text + 1, TEXT - 1, "%s", koksma_error_text());
-        MPI_Send(text, TEXT, MPI_CHAR, 0, TAG_ERROR, MPI_COMM_WORLD);
+        mpi->send(0, TAG_ERROR, text, TEXT);
     }
     return status;
 }
