@@ -7,7 +7,9 @@
  *
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
- * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/dart_cover.h tells how.
+ * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/dart_cover.h tells how. For
+ * a small f, where most darts fit, the darts are thrown one by one at a grid of n cells: the cover's, which are
+ * smaller than d, would be many for each point.
  */
 #include <math.h>
 #include <string.h>
@@ -17,14 +19,39 @@
 #include "core/status.h"
 #include "patterns/parts/dart_cover.h"
 #include "patterns/parts/packing.h"
+#include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
 enum { RESTARTS = 200 };
+
+#define SPARSE 0.4 /* of f; the disks then cover less than 3.63 f^2 = 0.58 of the torus */
+
+static koksma_status throw_one_by_one(uint64_t seed, double d, const koksma_run *run, koksma_points *out)
+{
+    koksma__torus_grid grid;
+    koksma_status status = koksma__torus_grid_init(&grid, out->n, out->xs);
+    size_t placed = 0;
+    for (uint64_t dart = 0; placed < out->n && !status; dart++) {
+        double *point = out->xs + 2 * placed;
+        koksma__random_pair(seed, KOKSMA__PURPOSE_DART, dart, 0, point);
+        if (!koksma__torus_grid_near(&grid, point[0], point[1], d, true)) {
+            koksma__torus_grid_add(&grid, (uint32_t)placed++);
+        }
+        if (dart % 65536 == 65535 && !koksma__keep_going(run, (double)placed / (double)out->n)) {
+            status = koksma__fail_interrupted();
+        }
+    }
+    koksma__torus_grid_fini(&grid);
+    return status;
+}
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const double f = args->params[0], densest = koksma__packing_distance(out->n, 2, true);
     const double d = out->n == 1 ? 0.5 : f * densest;
+    if (out->n > 1 && f < SPARSE) {
+        return throw_one_by_one(seed, d, args->run, out);
+    }
     size_t most = 0;
     for (uint32_t restart = 0; restart < RESTARTS; restart++) {
         koksma__disks disks;

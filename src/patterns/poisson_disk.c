@@ -6,7 +6,8 @@
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
  * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
  * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points
- * can keep. Dart throwing itself jams at about 0.77 of that on the torus.
+ * can keep. Dart throwing itself jams at about 0.77 of that on the torus. In the plane, a grid of cells finds the
+ * points near a dart once there are more than a few; the points are the same.
  */
 #include <math.h>
 
@@ -14,9 +15,10 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/parts/packing.h"
+#include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
-enum { REJECTIONS = 3000, RESTARTS = 200 };
+enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256 };
 
 static bool fits(const koksma_points *out, size_t placed, const double *dart, double d2, bool torus)
 {
@@ -34,8 +36,9 @@ static bool fits(const koksma_points *out, size_t placed, const double *dart, do
     return true;
 }
 
-/* The number of points placed before the darts ran out. */
-static size_t throw_darts(uint64_t seed, double d, bool torus, const koksma_run *run, koksma_points *out)
+/* The number of points placed before the darts ran out. The grid, if any, is empty at first. */
+static size_t throw_darts(uint64_t seed, double d, bool torus, koksma__torus_grid *grid, const koksma_run *run,
+                          koksma_points *out)
 {
     size_t placed = 0, dart_number = 0;
     for (int rejections = 0; placed < out->n && rejections < REJECTIONS; dart_number++) {
@@ -46,7 +49,8 @@ static size_t throw_darts(uint64_t seed, double d, bool torus, const koksma_run 
         if (dart_number % 65536 == 65535 && !koksma__keep_going(run, (double)placed / (double)out->n)) {
             return placed;
         }
-        if (!fits(out, placed, dart, d * d, torus)) {
+        if (grid ? koksma__torus_grid_near(grid, dart[0], dart[1], d, torus)
+                 : !fits(out, placed, dart, d * d, torus)) {
             rejections++;
             continue;
         }
@@ -54,26 +58,27 @@ static size_t throw_darts(uint64_t seed, double d, bool torus, const koksma_run 
         for (int k = 0; k < out->dim; k++) {
             out->xs[placed * (size_t)out->dim + (size_t)k] = dart[k];
         }
+        if (grid) {
+            koksma__torus_grid_add(grid, (uint32_t)placed);
+        }
         placed++;
     }
     return placed;
 }
 
-static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+/* Begins anew until all points have a place. */
+static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma__torus_grid *grid, koksma_points *out)
 {
     const double d = args->params[0];
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
-    if (d > limit) {
-        return koksma__fail(KOKSMA_IMPOSSIBLE,
-                            "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
-                            "%.4f, and dart throwing gets to about %.3g",
-                            out->n, out->dim, d, limit, 0.7 * limit);
-    }
     size_t most = 0;
     for (uint32_t restart = 0; restart < RESTARTS; restart++) {
-        const size_t placed = throw_darts(restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed,
-                                          d, torus, args->run, out);
+        const uint64_t own = restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed;
+        if (grid) {
+            koksma__torus_grid_clear(grid);
+        }
+        const size_t placed = throw_darts(own, d, torus, grid, args->run, out);
         if (placed == out->n) {
             return KOKSMA_OK;
         }
@@ -90,6 +95,27 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; the largest possible d is "
         "%.4f, and dart throwing gets to about %.3g",
         most, out->n, d, limit, 0.7 * limit);
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const double d = args->params[0];
+    const bool torus = args->params[1] != 0;
+    const double limit = koksma__packing_distance(out->n, out->dim, torus);
+    if (d > limit) {
+        return koksma__fail(KOKSMA_IMPOSSIBLE,
+                            "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
+                            "%.4f, and dart throwing gets to about %.3g",
+                            out->n, out->dim, d, limit, 0.7 * limit);
+    }
+    koksma__torus_grid grid = {0};
+    const bool gridded = out->dim == 2 && out->n > FEW;
+    koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;
+    if (!status) {
+        status = throw_until(seed, args, gridded ? &grid : NULL, out);
+    }
+    koksma__torus_grid_fini(&grid);
+    return status;
 }
 
 static const koksma_param params[] = {

@@ -57,6 +57,40 @@ static void by_distance(void **state)
     assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
 }
 
+/* More points than 256 are thrown by another method; the first 256 are the same darts. */
+static void grids_change_no_points(void **state)
+{
+    (void)state;
+    static const char *const specs[] = {"poisson-disk:d=0.045", "poisson-disk:d=0.044,torus=1", "poisson-disk:d=0"};
+    for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
+        for (uint64_t seed = 0; seed < 4; seed++) {
+            koksma_points few = test_points(specs[i], 256, 2, seed), more = test_points(specs[i], 270, 2, seed);
+            assert_memory_equal(few.xs, more.xs, 2 * 256 * sizeof *few.xs);
+            koksma_points_fini(&few);
+            koksma_points_fini(&more);
+        }
+    }
+}
+
+static void fractions_of_the_densest(void **state)
+{
+    (void)state;
+    static const double fractions[] = {0.01, 0.1, 0.39, 0.4, 0.7};
+    static const size_t counts[] = {1, 2, 3, 10, 1000, 20000};
+    for (size_t i = 0; i < sizeof fractions / sizeof *fractions; i++) {
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+            char text[64];
+            double d;
+            snprintf(text, sizeof text, "dart-throwing:f=%g", fractions[i]);
+            koksma_points p = test_points(text, counts[c], 2, 5);
+            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+            assert_true(counts[c] == 1 ||
+                        d >= fractions[i] * koksma__packing_distance(counts[c], 2, true) * (1 - 1e-12));
+            koksma_points_fini(&p);
+        }
+    }
+}
+
 static void files_are_patterns(void **state)
 {
     (void)state;
@@ -109,8 +143,8 @@ static void files_are_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exactly_n_points),
-        cmocka_unit_test(by_distance),
+        cmocka_unit_test(exactly_n_points),       cmocka_unit_test(by_distance),
+        cmocka_unit_test(grids_change_no_points), cmocka_unit_test(fractions_of_the_densest),
         cmocka_unit_test(files_are_patterns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

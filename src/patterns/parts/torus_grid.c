@@ -95,6 +95,26 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     return best;
 }
 
+bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, double d, bool torus)
+{
+    const long cells = (long)g->cells, half = cells / 2 + 1, wide = (long)(fmin(d, 1) * g->cells * (1 + 1e-9)) + 1;
+    const long reach = wide < half ? wide : half, count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells;
+    const long first_x = (long)cell_of(g, x) - reach + 2 * cells, first_y = (long)cell_of(g, y) - reach + 2 * cells;
+    for (long v = 0; v < count; v++) {
+        for (long u = 0; u < count; u++) {
+            const long cell = (first_y + v) % cells * cells + (first_x + u) % cells;
+            for (uint32_t i = g->head[cell]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+                const double px = g->xs[2 * (size_t)i], py = g->xs[2 * (size_t)i + 1];
+                const double a = torus ? koksma__way(x, px) : px - x, b = torus ? koksma__way(y, py) : py - y;
+                if (a * a + b * b < d * d) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
 void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, double radius,
                              void (*f)(void *context, uint32_t point, double dx, double dy), void *context)
 {

@@ -26,6 +26,9 @@ void koksma__torus_grid_remove(koksma__torus_grid *grid, uint32_t point);
    most `enough` when that is certain. 1 with no point. */
 double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, uint32_t self, double enough);
 
+/* Whether a point in the grid is closer than d to (x, y): on the torus, or in the square alone. */
+bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
+
 /* f(context, point, dx, dy) for the points within `radius` of (x, y), dx and dy being the shortest way from there.
    Points are visited once; radius is at most 1/2. */
 void koksma__torus_grid_each(const koksma__torus_grid *grid, double x, double y, double radius,
