@@ -36,7 +36,7 @@ static bool find(char *path, size_t room)
 
 const koksma__transport *koksma__transport_load(const char **problem)
 {
-    static char text[512];
+    static char text[4200];
     char path[4096];
     *problem = "this build has no MPI: its ranks would all do the same work";
     if (!find(path, sizeof path)) {
