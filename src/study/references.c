@@ -40,40 +40,20 @@ void koksma__block_size(const koksma__image_block *block, const koksma__study_sc
     *height = block->height ? block->height : scene->height;
 }
 
-/* At the same mean number of samples: a quarter at first, the rest where the method wants them. */
-static koksma_status render_adaptively(const koksma__study_scene *scene, koksma__how *how, const koksma_run *run,
-                                       koksma_image *out)
-{
-    koksma_layers layers;
-    how->adaptive.budget = how->options.spp;
-    how->options.spp = how->options.spp < 4 ? 1 : how->options.spp / 4;
-    const koksma_status status =
-        koksma_render_adaptive(scene->scene, &how->options, &how->adaptive, run, &layers, NULL);
-    if (!status) {
-        *out = layers.image;
-        layers.image = (koksma_image){0};
-    }
-    koksma_layers_fini(&layers);
-    return status;
-}
-
 koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
                                    const koksma_run *run, koksma_image *out)
 {
-    koksma__how how = {.adaptive = {.method = NULL}};
-    koksma_render_options_init(&how.options, scene->scene);
-    koksma_status status = koksma_pattern_spec(picture->pattern, &how.options.pattern);
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene->scene);
+    koksma_status status = koksma_pattern_spec(picture->pattern, &options.pattern);
     if (!status) {
-        status = koksma__variant_apply(picture->variant, picture->of_reference, &how);
+        status = koksma__variant_apply(picture->variant, picture->of_reference, &options);
     }
-    how.options.spp = (int)picture->spp;
-    how.options.seed = picture->seed;
-    how.options.width = picture->width;
-    how.options.height = picture->height;
-    if (!status && how.adaptive.method) {
-        return render_adaptively(scene, &how, run, out);
-    }
-    return status ? status : koksma_render(scene->scene, &how.options, run, out);
+    options.spp = (int)picture->spp;
+    options.seed = picture->seed;
+    options.width = picture->width;
+    options.height = picture->height;
+    return status ? status : koksma_render(scene->scene, &options, run, out);
 }
 
 koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,

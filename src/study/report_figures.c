@@ -104,24 +104,24 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
 static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
                                   uint64_t seed, const koksma_run *run, char note[NOTE])
 {
-    koksma__how how = {.adaptive = {.method = NULL}};
+    koksma_render_options options;
+    koksma_adaptive_options adaptive;
     koksma_adaptive_report report;
     koksma_layers layers;
     koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
-    koksma_render_options_init(&how.options, scene->scene);
-    koksma_status status = koksma_pattern_spec(f->pattern, &how.options.pattern);
-    status = status ? status : koksma__variant_apply(f->variant, false, &how);
-    status = status ? status : koksma_adaptive_parse(f->adaptive, &how.adaptive);
-    how.options.spp = (int)f->n;
-    how.options.seed = seed;
-    how.options.width = scene->width;
-    how.options.height = scene->height;
-    how.adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
-    if (status ||
-        (status = koksma_render_adaptive(scene->scene, &how.options, &how.adaptive, run, &layers, &report))) {
+    koksma_render_options_init(&options, scene->scene);
+    koksma_status status = koksma_pattern_spec(f->pattern, &options.pattern);
+    status = status ? status : koksma__variant_apply(f->variant, false, &options);
+    status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);
+    options.spp = (int)f->n;
+    options.seed = seed;
+    options.width = scene->width;
+    options.height = scene->height;
+    adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
+    if (status || (status = koksma_render_adaptive(scene->scene, &options, &adaptive, run, &layers, &report))) {
         return status;
     }
-    if (how.adaptive.strata) {
+    if (adaptive.strata) {
         status = add_strata(h, f, &strata);
     } else {
         const double pixels = (double)scene->width * (double)scene->height;

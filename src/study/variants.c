@@ -14,7 +14,7 @@ enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = 256 };
 typedef struct option {
     const char *name, *fallback;
     bool changes_image;
-    koksma_status (*set)(koksma__how *how, const char *word);
+    koksma_status (*set)(koksma_render_options *options, const char *word);
 } option;
 
 /* The index of a word among names, which end at NULL. */
@@ -45,12 +45,12 @@ NAMES(flag_at, i == 0 ? "no" : i == 1 ? "yes" : NULL)
 #undef NAMES
 
 #define SETTER(name, field, value)                                                                                   \
-    static koksma_status set_##name(koksma__how *how, const char *word)                                              \
+    static koksma_status set_##name(koksma_render_options *options, const char *word)                                \
     {                                                                                                                \
         int i;                                                                                                       \
         const koksma_status status = find(#name, name##_at, word, &i);                                               \
         if (!status) {                                                                                               \
-            how->options.field = value;                                                                              \
+            options->field = value;                                                                                  \
         }                                                                                                            \
         return status;                                                                                               \
     }
@@ -63,18 +63,11 @@ SETTER(integrator, integrator, koksma_integrator_at((size_t)i))
 SETTER(splat, splat, i == 1)
 #undef SETTER
 
-static koksma_status set_adaptive(koksma__how *how, const char *word)
-{
-    how->adaptive = (koksma_adaptive_options){.method = NULL};
-    return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &how->adaptive) : KOKSMA_OK;
-}
-
 /* One line an option that studies may vary. */
 static const option known[] = {
     {"pairing", "shuffled", false, set_pairing}, {"scope", "pixel", false, set_scope},
     {"lights", "all", false, set_lights},        {"filter", "box", true, set_filter},
     {"splat", "no", false, set_splat},           {"integrator", "distribution", true, set_integrator},
-    {"adaptive", "none", false, set_adaptive},
 };
 
 enum { N_KNOWN = sizeof known / sizeof *known };
@@ -102,14 +95,14 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
-koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__how *how)
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_render_options *options)
 {
     koksma_status status = KOKSMA_OK;
     for (int i = 0; !status && i < N_KNOWN; i++) {
         char word[MAX_WORD];
         word_of(text, &known[i], word);
         if (known[i].changes_image || !of_reference) {
-            status = known[i].set(how, word);
+            status = known[i].set(options, word);
         }
     }
     return status;
@@ -139,7 +132,7 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
     koksma_status status = koksma__plan_texts(node, o->name, words);
     status = status ? status : koksma__json_member(node, o->name, &list);
     for (size_t i = 0; !status && i < words->n; i++) {
-        koksma__how scratch;
+        koksma_render_options scratch;
         memset(&scratch, 0, sizeof scratch);
         const koksma__json_node item = koksma__json_item(&list, i);
         if (o->set(&scratch, words->at[i])) {

@@ -7,25 +7,19 @@
 #ifndef KOKSMA_STUDY_VARIANTS_H
 #define KOKSMA_STUDY_VARIANTS_H
 
-#include <koksma/adaptive.h>
+#include <koksma/render.h>
 
 #include "scene/json.h"
 #include "study/plan.h"
 
 enum { KOKSMA__VARIANT_TEXT = 1024 };
 
-/* How to render: adaptive.method is NULL for the same number of samples in every pixel. */
-typedef struct koksma__how {
-    koksma_render_options options;
-    koksma_adaptive_options adaptive;
-} koksma__how;
-
 /* Reads {"option": ["word", ...], ...} into the texts of all combinations, the last option changing fastest. */
 koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__texts *out);
 
 /* Sets what a canonical text says. With of_reference only options that change the exact image: a reference doesn't
    depend on how its samples were paired. Errors: ARGUMENT. */
-koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__how *how);
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_render_options *options);
 
 /* The canonical text of the options that change the exact image. */
 void koksma__variant_of_reference(const char *text, char *out);
