@@ -46,6 +46,9 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
         return koksma__json_fail(node, "options, adaptive and detail go with a scene");
     }
+    if (strstr(f->variant, "adaptive=")) {
+        return koksma__json_fail(node, "a figure's method is its own field 'adaptive', not one of its options");
+    }
     if (f->strata[0] >= 0 && !f->adaptive) {
         return koksma__json_fail(node, "strata go with an adaptive method");
     }

@@ -43,17 +43,18 @@ void koksma__block_size(const koksma__image_block *block, const koksma__study_sc
 koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
                                    const koksma_run *run, koksma_image *out)
 {
-    koksma_render_options options;
-    koksma_render_options_init(&options, scene->scene);
-    koksma_status status = koksma_pattern_spec(picture->pattern, &options.pattern);
+    koksma__variant variant;
+    koksma_render_options *options = &variant.render;
+    koksma_render_options_init(options, scene->scene);
+    koksma_status status = koksma_pattern_spec(picture->pattern, &options->pattern);
     if (!status) {
-        status = koksma__variant_apply(picture->variant, picture->of_reference, &options);
+        status = koksma__variant_apply(picture->variant, picture->of_reference, &variant);
     }
-    options.spp = (int)picture->spp;
-    options.seed = picture->seed;
-    options.width = picture->width;
-    options.height = picture->height;
-    return status ? status : koksma_render(scene->scene, &options, run, out);
+    options->spp = (int)picture->spp;
+    options->seed = picture->seed;
+    options->width = picture->width;
+    options->height = picture->height;
+    return status ? status : koksma__variant_render(scene->scene, &variant, run, out);
 }
 
 koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,

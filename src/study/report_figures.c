@@ -104,21 +104,22 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
 static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
                                   uint64_t seed, const koksma_run *run, char note[NOTE])
 {
-    koksma_render_options options;
+    koksma__variant variant;
+    koksma_render_options *options = &variant.render;
     koksma_adaptive_options adaptive;
     koksma_adaptive_report report;
     koksma_layers layers;
     koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
-    koksma_render_options_init(&options, scene->scene);
-    koksma_status status = koksma_pattern_spec(f->pattern, &options.pattern);
-    status = status ? status : koksma__variant_apply(f->variant, false, &options);
+    koksma_render_options_init(options, scene->scene);
+    koksma_status status = koksma_pattern_spec(f->pattern, &options->pattern);
+    status = status ? status : koksma__variant_apply(f->variant, false, &variant);
     status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);
-    options.spp = (int)f->n;
-    options.seed = seed;
-    options.width = scene->width;
-    options.height = scene->height;
+    options->spp = (int)f->n;
+    options->seed = seed;
+    options->width = scene->width;
+    options->height = scene->height;
     adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
-    if (status || (status = koksma_render_adaptive(scene->scene, &options, &adaptive, run, &layers, &report))) {
+    if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
         return status;
     }
     if (adaptive.strata) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/variants.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,13 +9,13 @@
 #include "core/status.h"
 #include "study/plan_parts.h"
 
-enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = 256 };
+enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 
-/* An option of koksma_render_options; set checks a word. */
+/* Something that a variant sets; set checks a word. */
 typedef struct option {
     const char *name, *fallback;
     bool changes_image;
-    koksma_status (*set)(koksma_render_options *options, const char *word);
+    koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
 /* The index of a word among names, which end at NULL. */
@@ -45,12 +46,12 @@ NAMES(flag_at, i == 0 ? "no" : i == 1 ? "yes" : NULL)
 #undef NAMES
 
 #define SETTER(name, field, value)                                                                                   \
-    static koksma_status set_##name(koksma_render_options *options, const char *word)                                \
+    static koksma_status set_##name(koksma__variant *variant, const char *word)                                      \
     {                                                                                                                \
         int i;                                                                                                       \
         const koksma_status status = find(#name, name##_at, word, &i);                                               \
         if (!status) {                                                                                               \
-            options->field = value;                                                                                  \
+            variant->render.field = value;                                                                           \
         }                                                                                                            \
         return status;                                                                                               \
     }
@@ -63,11 +64,18 @@ SETTER(integrator, integrator, koksma_integrator_at((size_t)i))
 SETTER(splat, splat, i == 1)
 #undef SETTER
 
+static koksma_status set_adaptive(koksma__variant *variant, const char *word)
+{
+    variant->adaptive.method = NULL;
+    return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
+}
+
 /* One line an option that studies may vary. */
 static const option known[] = {
     {"pairing", "shuffled", false, set_pairing}, {"scope", "pixel", false, set_scope},
     {"lights", "all", false, set_lights},        {"filter", "box", true, set_filter},
     {"splat", "no", false, set_splat},           {"integrator", "distribution", true, set_integrator},
+    {"adaptive", "none", false, set_adaptive},
 };
 
 enum { N_KNOWN = sizeof known / sizeof *known };
@@ -95,14 +103,15 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
-koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_render_options *options)
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant)
 {
     koksma_status status = KOKSMA_OK;
+    variant->adaptive.method = NULL;
     for (int i = 0; !status && i < N_KNOWN; i++) {
         char word[MAX_WORD];
         word_of(text, &known[i], word);
         if (known[i].changes_image || !of_reference) {
-            status = known[i].set(options, word);
+            status = known[i].set(variant, word);
         }
     }
     return status;
@@ -120,6 +129,39 @@ void koksma__variant_of_reference(const char *text, char *out)
     }
 }
 
+/* ---- Rendering ----------------------------------------------------------------------------------------- */
+
+/* Samples of the first round: a method that begins with several sets takes a set for each. */
+static int first_spp(const koksma_adaptive_options *adaptive, int budget)
+{
+    const koksma_param *params = adaptive->method->params;
+    double sets = 1;
+    for (size_t i = 0; params[i].name; i++) {
+        sets = strcmp(params[i].name, "first") == 0 ? adaptive->params[i] : sets;
+    }
+    return (int)fmax(budget / (4 * sets), 1);
+}
+
+koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
+                                     koksma_image *out)
+{
+    if (!variant->adaptive.method) {
+        return koksma_render(scene, &variant->render, run, out);
+    }
+    koksma_render_options options = variant->render;
+    koksma_adaptive_options adaptive = variant->adaptive;
+    koksma_layers layers;
+    adaptive.budget = options.spp;
+    options.spp = first_spp(&adaptive, options.spp);
+    const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, run, &layers, NULL);
+    if (!status) {
+        *out = layers.image;
+        layers.image = (koksma_image){0};
+        koksma_layers_fini(&layers);
+    }
+    return status;
+}
+
 /* ---- Parsing ------------------------------------------------------------------------------------------- */
 
 /* The words of one option; none when the plan doesn't name it. */
@@ -132,14 +174,35 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
     koksma_status status = koksma__plan_texts(node, o->name, words);
     status = status ? status : koksma__json_member(node, o->name, &list);
     for (size_t i = 0; !status && i < words->n; i++) {
-        koksma_render_options scratch;
+        koksma__variant scratch;
         memset(&scratch, 0, sizeof scratch);
         const koksma__json_node item = koksma__json_item(&list, i);
         if (o->set(&scratch, words->at[i])) {
             return koksma__json_fail(&item, "%s", koksma_error_text());
         }
+        if (scratch.adaptive.method) { /* two texts of one method are one variant */
+            char text[KOKSMA_MAX_SPEC];
+            koksma_adaptive_text(&scratch.adaptive, text);
+            free(words->at[i]);
+            words->at[i] = strdup(text);
+            status = words->at[i] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+            for (size_t k = 0; !status && k < i; k++) {
+                status = strcmp(words->at[k], text) ? KOKSMA_OK : koksma__json_fail(&item, "'%s' stands twice", text);
+            }
+        }
     }
     return status;
+}
+
+/* Adaptive sampling has neither splatting nor patterns over the whole image. */
+static koksma_status check_together(const char *text)
+{
+    koksma__variant v;
+    memset(&v, 0, sizeof v);
+    const koksma_status status = koksma__variant_apply(text, false, &v);
+    return !status && v.adaptive.method && (v.render.splat || v.render.scope != KOKSMA_SCOPE_PIXEL)
+               ? koksma__fail(KOKSMA_ARGUMENT, "'%s': adaptive goes with neither splat nor scope image", text)
+               : status;
 }
 
 static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *out)
@@ -168,6 +231,11 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
         out->at[out->n] = strdup(text);
         if (!out->at[out->n]) {
             return koksma__fail_memory(strlen(text));
+        }
+        const koksma_status status = check_together(text);
+        if (status) {
+            out->n++; /* the text that was made must be freed */
+            return status;
         }
     }
     return KOKSMA_OK;

@@ -7,6 +7,7 @@
 #ifndef KOKSMA_STUDY_VARIANTS_H
 #define KOKSMA_STUDY_VARIANTS_H
 
+#include <koksma/adaptive.h>
 #include <koksma/render.h>
 
 #include "scene/json.h"
@@ -14,12 +15,23 @@
 
 enum { KOKSMA__VARIANT_TEXT = 1024 };
 
+/* What a variant sets. */
+typedef struct koksma__variant {
+    koksma_render_options render;
+    koksma_adaptive_options adaptive; /* method NULL: every pixel has equally many samples */
+} koksma__variant;
+
 /* Reads {"option": ["word", ...], ...} into the texts of all combinations, the last option changing fastest. */
 koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__texts *out);
 
 /* Sets what a canonical text says. With of_reference only options that change the exact image: a reference doesn't
    depend on how its samples were paired. Errors: ARGUMENT. */
-koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_render_options *options);
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant);
+
+/* Renders. With an adaptive method spp is the budget: a quarter of it is for the first round, so that variants are
+   compared at equal samples. Allocates out. */
+koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
+                                     koksma_image *out);
 
 /* The canonical text of the options that change the exact image. */
 void koksma__variant_of_reference(const char *text, char *out);
