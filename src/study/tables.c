@@ -163,3 +163,15 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     *found = true;
     return KOKSMA_OK;
 }
+
+koksma_status koksma__table_sets(koksma_study *study, const koksma__table *table, size_t *sets)
+{
+    koksma_status status = KOKSMA_OK;
+    *sets = 0;
+    for (size_t r = 0; !status && r < table->n_rows; r++) {
+        koksma__cell cell;
+        status = koksma__table_discrepancy(study, table, table->measure, table->rows[r].pattern, &cell);
+        *sets = !status && cell.mean.n > *sets ? cell.mean.n : *sets;
+    }
+    return status;
+}
