@@ -2,10 +2,15 @@
 include(CMakePackageConfigHelpers)
 
 set_target_properties(koksma-shared PROPERTIES EXPORT_NAME koksma)
-set_target_properties(koksma-lab-shared PROPERTIES EXPORT_NAME lab)
 set_target_properties(koksma PROPERTIES EXPORT_NAME koksma-static)
-install(TARGETS koksma-program koksma-lab)
-install(TARGETS koksma-shared koksma-lab-shared koksma EXPORT koksma-targets)
+install(TARGETS koksma-shared koksma EXPORT koksma-targets)
+set(packages koksma)
+if(KOKSMA_LAB)
+  set_target_properties(koksma-lab-shared PROPERTIES EXPORT_NAME lab)
+  install(TARGETS koksma-program koksma-lab)
+  install(TARGETS koksma-lab-shared EXPORT koksma-targets)
+  list(APPEND packages koksma-lab)
+endif()
 install(DIRECTORY include/koksma DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" PATTERN "*.def")
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
@@ -23,10 +28,14 @@ set(KOKSMA_PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH KOKSMA_PC_PREFIX /${KOKSMA_PC_DIR} /)
 string(REGEX REPLACE "/$" "" KOKSMA_PC_PREFIX "${KOKSMA_PC_PREFIX}")
 list(JOIN KOKSMA_LAB_LINKS " " KOKSMA_LAB_LINKS)
-foreach(package koksma koksma-lab)
+foreach(package ${packages})
   configure_file(cmake/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
   install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
 endforeach()
+
+if(NOT KOKSMA_LAB) # what follows belongs to the program, or loads both libraries
+  return()
+endif()
 
 # The Python package, plain files, where the system's python3 looks below this prefix.
 find_program(KOKSMA_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)

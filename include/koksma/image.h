@@ -34,7 +34,11 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
    Errors: MISSING, MALFORMED, UNSUPPORTED (deep EXR), MEMORY. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
-/* Whether the path's ending says a format that can be written. Errors: ARGUMENT. */
+/* The i-th image format's name, NULL past the end; *left_out is the library that it needs and this build does
+   without, or NULL. */
+KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
+
+/* Whether the path's ending says a format that can be written. Errors: ARGUMENT, UNSUPPORTED (left out). */
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
 /* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be

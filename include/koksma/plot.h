@@ -21,6 +21,9 @@ typedef struct koksma_scatter_options {
 } koksma_scatter_options;
 
 /* The format that a path's ending names. Errors: ARGUMENT. */
+/* What draws in this build: "cairo 1.16.0"; NULL: nothing does, and plots are UNSUPPORTED. */
+KOKSMA_API const char *koksma_plot_library(void);
+
 KOKSMA_API koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format);
 
 /* Draws coordinates 0 and 1 of points in the unit square, y up, into memory that the caller frees. The bytes are the

@@ -27,6 +27,9 @@ typedef struct koksma_study koksma_study;
 /* The name of shipped plan i, NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* The path of the module that speaks MPI; NULL: there is none. */
+KOKSMA_API const char *koksma_study_mpi(void);
+
 /* This process's rank among those that mpirun started; 0 without it. Ranks but 0 open a study with folder NULL; its
    koksma_study_run does jobs for rank 0 until all are done. */
 KOKSMA_API int koksma_study_rank(void);

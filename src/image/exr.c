@@ -7,6 +7,7 @@
  * reader takes a chunk of that length for uncompressed. So what is written is read back, and written again without
  * compression if a bit differs.
  */
+#ifdef KOKSMA_EXR
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -364,4 +365,19 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
 }
 
-const koksma__image_format koksma__format_exr = {"exr", recognises, read, write};
+const koksma__image_format koksma__format_exr = {"exr", recognises, read, write, NULL};
+#else
+
+#include <string.h>
+
+#include "image/formats.h"
+
+static bool recognises(const unsigned char *bytes, size_t size)
+{
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    return size >= 4 && !memcmp(bytes, magic, 4);
+}
+
+const koksma__image_format koksma__format_exr = {"exr", recognises, NULL, NULL, "OpenEXR"};
+
+#endif

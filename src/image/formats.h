@@ -22,6 +22,7 @@ typedef struct koksma__image_format {
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* Of n layers those that it has a place for: the first at least. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
+    const char *left_out; /* the library that this build does without: there is no read, no write; else NULL */
 } koksma__image_format;
 
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;

@@ -4,6 +4,7 @@
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * 16-bit files come as linear numbers from libpng. Transparency is put over black. Written are 8 bits sRGB.
  */
+#ifdef KOKSMA_PNG
 #include <math.h>
 #include <png.h>
 #include <stdlib.h>
@@ -184,4 +185,19 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return status;
 }
 
-const koksma__image_format koksma__format_png = {"png", recognises, read, write};
+const koksma__image_format koksma__format_png = {"png", recognises, read, write, NULL};
+#else
+
+#include <string.h>
+
+#include "image/formats.h"
+
+static bool recognises(const unsigned char *bytes, size_t size)
+{
+    static const unsigned char magic[4] = {0x89, 'P', 'N', 'G'};
+    return size >= 4 && !memcmp(bytes, magic, 4);
+}
+
+const koksma__image_format koksma__format_png = {"png", recognises, NULL, NULL, "libpng"};
+
+#endif

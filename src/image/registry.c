@@ -87,6 +87,19 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
+const char *koksma_image_format(size_t i, const char **left_out)
+{
+    const koksma__image_format *format = koksma__image_format_at(i);
+    *left_out = format ? format->left_out : NULL;
+    return format ? format->name : NULL;
+}
+
+static koksma_status no_library(const koksma__image_format *format)
+{
+    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no %s: it can't read or write .%s", format->left_out,
+                        format->name);
+}
+
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     const koksma__image_format *format = NULL;
@@ -94,9 +107,12 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     for (size_t i = 0; formats[i] && !format; i++) {
         format = formats[i]->recognises(bytes, size) ? formats[i] : NULL;
     }
-    const koksma_status status = format
-                                     ? format->read(bytes, size, out)
-                                     : koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+    koksma_status status = KOKSMA_OK;
+    if (!format) {
+        status = koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+    } else {
+        status = format->left_out ? no_library(format) : format->read(bytes, size, out);
+    }
     if (status) {
         koksma_image_fini(out);
     }
@@ -130,9 +146,11 @@ static const koksma__image_format *format_of_name(const char *path)
 
 koksma_status koksma_image_check_path(const char *path)
 {
-    return format_of_name(path)
-               ? KOKSMA_OK
-               : koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
+    const koksma__image_format *format = format_of_name(path);
+    if (!format) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
+    }
+    return format->left_out ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;
 }
 
 koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
@@ -172,7 +190,8 @@ koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **
 {
     koksma__bytes out = {0};
     const koksma_layer only = {"", image};
-    const koksma_status status = koksma__format_png.write(&only, 1, "", &out);
+    const koksma_status status =
+        koksma__format_png.left_out ? no_library(&koksma__format_png) : koksma__format_png.write(&only, 1, "", &out);
     if (status) {
         free(out.data);
         out = (koksma__bytes){0};

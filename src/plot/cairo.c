@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#ifdef KOKSMA_CAIRO
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,11 +39,11 @@ static cairo_status_t append(void *context, const unsigned char *data, unsigned 
     return CAIRO_STATUS_SUCCESS;
 }
 
-koksma__canvas *koksma__canvas_open(koksma_plot_format format, double width, double height)
+koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out)
 {
-    koksma__canvas *canvas = calloc(1, sizeof *canvas);
+    koksma__canvas *canvas = *out = calloc(1, sizeof *canvas);
     if (!canvas) {
-        return NULL;
+        return koksma__fail_memory(sizeof *canvas);
     }
     canvas->format = format;
     if (format == KOKSMA_PLOT_SVG) {
@@ -56,7 +58,7 @@ koksma__canvas *koksma__canvas_open(koksma_plot_format format, double width, dou
     canvas->cairo = cairo_create(canvas->surface);
     cairo_set_source_rgb(canvas->cairo, 1, 1, 1);
     cairo_paint(canvas->cairo);
-    return canvas;
+    return KOKSMA_OK;
 }
 
 static void stroke_or_fill(koksma__canvas *canvas, double thickness, koksma__colour colour)
@@ -164,3 +166,77 @@ koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes
     free(canvas);
     return failed ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
 }
+
+const char *koksma_plot_library(void)
+{
+    static _Thread_local char text[32];
+    snprintf(text, sizeof text, "cairo %s", cairo_version_string());
+    return text;
+}
+
+#else
+
+#include "core/status.h"
+#include "plot/canvas.h"
+
+const char *koksma_plot_library(void)
+{
+    return NULL;
+}
+
+koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out)
+{
+    (void)format, (void)width, (void)height;
+    *out = NULL;
+    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no cairo: it can't plot");
+}
+
+/* Without a canvas none of these is reached. */
+void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height)
+{
+    (void)canvas, (void)x, (void)y, (void)width, (void)height;
+}
+
+void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
+                         koksma__colour colour)
+{
+    (void)canvas, (void)x0, (void)y0, (void)x1, (void)y1, (void)thickness, (void)colour;
+}
+
+void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
+                        koksma__colour colour)
+{
+    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)thickness, (void)colour;
+}
+
+void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
+                           koksma__colour colour)
+{
+    (void)canvas, (void)x, (void)y, (void)radius, (void)thickness, (void)colour;
+}
+
+void koksma__canvas_dash(koksma__canvas *canvas, bool on)
+{
+    (void)canvas, (void)on;
+}
+
+bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                         int rows, const unsigned char *grey)
+{
+    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)columns, (void)rows, (void)grey;
+    return false;
+}
+
+void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                         koksma__colour colour)
+{
+    (void)canvas, (void)x, (void)y, (void)height, (void)anchor, (void)text, (void)colour;
+}
+
+koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
+{
+    (void)canvas, (void)bytes, (void)size;
+    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no cairo: it can't plot");
+}
+
+#endif

@@ -11,8 +11,8 @@ typedef struct koksma__colour {
     double r, g, b, a;
 } koksma__colour;
 
-/* Units are points from the upper left corner. NULL when memory runs out. */
-koksma__canvas *koksma__canvas_open(koksma_plot_format format, double width, double height);
+/* Units are points from the upper left corner. Errors: MEMORY, UNSUPPORTED (a build without cairo). */
+koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out);
 
 void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height);
 void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,

@@ -180,10 +180,11 @@ koksma_status koksma_plot_chart(const koksma_chart *c, koksma_plot_format format
         return koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn", c->y_label);
     }
     const size_t lines = legend_lines(c);
-    koksma__canvas *canvas =
-        koksma__canvas_open(format, fmax(width, LEFT + 40 + RIGHT), height + (double)lines * LINE + (lines ? 8 : 0));
-    if (!canvas) {
-        return koksma__fail_memory(sizeof *c);
+    koksma__canvas *canvas;
+    const koksma_status opened = koksma__canvas_open(format, fmax(width, LEFT + 40 + RIGHT),
+                                                     height + (double)lines * LINE + (lines ? 8 : 0), &canvas);
+    if (opened) {
+        return opened;
     }
     draw_axes(canvas, c, &x, &y);
     koksma__canvas_clip(canvas, x.from, y.to, x.to - x.from, y.from - y.to);

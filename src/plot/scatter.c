@@ -147,10 +147,11 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
     if (n == 0 || side * (double)n > MAX_WIDTH) {
         return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side, MAX_WIDTH);
     }
-    koksma__canvas *canvas =
-        koksma__canvas_open(format, side * (double)n, side + LINE * ((captions ? 1 : 0) + (scales ? 1 : 0)));
-    if (!canvas) {
-        return koksma__fail_memory(sizeof(plot));
+    koksma__canvas *canvas;
+    const koksma_status opened =
+        koksma__canvas_open(format, side * (double)n, side + LINE * ((captions ? 1 : 0) + (scales ? 1 : 0)), &canvas);
+    if (opened) {
+        return opened;
     }
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < n && !status; i++) {

@@ -11,9 +11,10 @@ koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double 
                                  koksma_plot_format format, unsigned char **bytes, size_t *n_bytes)
 {
     const double whole = size > 0 ? size : 320, side = whole - 2 * MARGIN;
-    koksma__canvas *canvas = koksma__canvas_open(format, whole, whole + (caption ? CAPTION : 0));
-    if (!canvas) {
-        return koksma__fail_memory(sizeof *strata);
+    koksma__canvas *canvas;
+    const koksma_status opened = koksma__canvas_open(format, whole, whole + (caption ? CAPTION : 0), &canvas);
+    if (opened) {
+        return opened;
     }
     for (size_t i = 0; i < n; i++) {
         const koksma_stratum *s = &strata[i];

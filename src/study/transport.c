@@ -6,6 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <koksma/study.h>
+
 #include "study/transport.h"
 
 #define MODULE "koksma-mpi.so"
@@ -32,6 +34,12 @@ static bool find(char *path, size_t room)
         }
     }
     return (size_t)snprintf(path, room, "%s", KOKSMA_MODULE_DIR "/" MODULE) < room && !access(path, R_OK);
+}
+
+const char *koksma_study_mpi(void)
+{
+    static _Thread_local char path[4096];
+    return find(path, sizeof path) ? path : NULL;
 }
 
 const koksma__transport *koksma__transport_load(const char **problem)
