@@ -10,7 +10,6 @@ typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least);
 bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double x, double y, double d2);
-bool KERNEL_NAME(near_rows)(const double *xs, const double *ys, size_t stride, double x, double y, double d2);
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2);
 
@@ -42,19 +41,6 @@ bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double 
     for (size_t i = 0; i < count; i += LANES64) {
         const lanes64_d a = load(xs + i) - at_x, b = load(ys + i) - at_y;
         found |= (lanes64_i)(a * a + b * b < limit);
-    }
-    return any(found);
-}
-
-bool KERNEL_NAME(near_rows)(const double *xs, const double *ys, size_t stride, double x, double y, double d2)
-{
-    const lanes64_d at_x = splat(x), at_y = splat(y), limit = splat(d2);
-    lanes64_i found = {0};
-    for (int r = 0; r < 5; r++, xs += stride, ys += stride) {
-        for (int c = 0; c < 8; c += LANES64) {
-            const lanes64_d a = load(xs + c) - at_x, b = load(ys + c) - at_y;
-            found |= (lanes64_i)(a * a + b * b < limit);
-        }
     }
     return any(found);
 }

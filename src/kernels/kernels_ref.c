@@ -234,16 +234,6 @@ bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double 
     return false;
 }
 
-bool KERNEL_NAME(near_rows)(const double *xs, const double *ys, size_t stride, double x, double y, double d2)
-{
-    for (size_t r = 0; r < 5; r++) {
-        if (KERNEL_NAME(near)(8, xs + r * stride, ys + r * stride, x, y, d2)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2)
 {

@@ -100,9 +100,8 @@ static void near(const koksma__kernel_table *t, size_t count, void *out)
     unsigned *found = out;
     for (size_t i = 0; i < count; i++) {
         const double d2 = 0.1 * units[i] * units[i];
-        found[3 * i + 2] = t->near_rows(units + i, units + 200 - i % 8, 11, units[i + 1], units[i + 9], 0.1 * d2);
-        found[3 * i] = t->near(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], d2);
-        found[3 * i + 1] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
+        found[2 * i] = t->near(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], d2);
+        found[2 * i + 1] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
     }
 }
 

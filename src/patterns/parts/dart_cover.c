@@ -9,7 +9,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 
-enum { BEFORE = 2, AFTER = 5, WORDS = 256, MOST = 16, SMALL = 96 };
+enum { BEFORE = 2, AFTER = 2, WORDS = 256, MOST = 16 };
 
 #define NONE UINT32_MAX
 
@@ -184,19 +184,6 @@ static koksma_status throw_at(thrower *t, koksma__square square, const around *p
     return KOKSMA_OK;
 }
 
-static koksma_status more_points(koksma__disks *s, size_t room)
-{
-    if (room > s->room) {
-        double *xs = realloc(s->xs, 4 * room * sizeof *xs);
-        if (!xs) {
-            return koksma__fail_memory(4 * room * sizeof *xs);
-        }
-        s->xs = xs;
-        s->room = 2 * room;
-    }
-    return KOKSMA_OK;
-}
-
 /* Decides the round: its kept darts become points; of those only the first when there would be more than n. */
 static koksma_status keep_darts(koksma__disks *s, size_t n)
 {
@@ -206,44 +193,22 @@ static koksma_status keep_darts(koksma__disks *s, size_t n)
         koksma__darts_sort(s, kept);
         kept = n - s->n;
     }
-    const koksma_status status = more_points(s, s->n + kept);
-    for (size_t i = 0; i < kept && !status; i++, s->n++) {
+    if (s->n + kept > s->room) {
+        const size_t room = 2 * (s->n + kept);
+        double *xs = realloc(s->xs, 2 * room * sizeof *xs);
+        if (!xs) {
+            return koksma__fail_memory(2 * room * sizeof *xs);
+        }
+        s->xs = xs;
+        s->room = room;
+    }
+    for (size_t i = 0; i < kept; i++, s->n++) {
         const koksma__dart *d = &s->darts[i];
         s->xs[2 * s->n] = d->x;
         s->xs[2 * s->n + 1] = d->y;
         put_into_grid(s, d->cell_x, d->cell_y, d->x, d->y);
     }
-    return status;
-}
-
-/* A round where the grid is in the cache: darts at random squares, one after the other, decided at once. The square
-   of a kept dart is taken out of the list. */
-static koksma_status throw_anywhere(koksma__disks *s, size_t n)
-{
-    const koksma__kernel_table *kernels = koksma__kernels();
-    const double size = 1 / ((double)s->cells * (double)((size_t)1 << s->level)), d2 = s->d * s->d;
-    const size_t darts = s->n_squares < 11 ? 8 : s->n_squares - s->n_squares / 4;
-    uint32_t words[4 * WORDS];
-    koksma_status status = more_points(s, s->n + darts);
-    for (size_t i = 0; i < darts && s->n_squares && s->n < n && !status; i++, s->dart++) {
-        if (i % WORDS == 0) {
-            const size_t left = darts - i;
-            kernels->words(s->seed, KOKSMA__PURPOSE_DART, s->dart, 0, left < WORDS ? left : WORDS, words);
-        }
-        const uint32_t *w = words + 4 * (i % WORDS), at = koksma__below(w[0], (uint32_t)s->n_squares);
-        const koksma__square square = s->squares[at];
-        const double x = (square.x + w[1] * 0x1p-32) * size, y = (square.y + w[2] * 0x1p-32) * size;
-        const uint32_t cell_x = square.x >> s->level, cell_y = square.y >> s->level;
-        const size_t corner = place_of(s, cell_x, cell_y) - 2 * s->stride - 2;
-        if (x < 1 && y < 1 && !kernels->near_rows(s->gx + corner, s->gy + corner, s->stride, x, y, d2)) {
-            s->squares[at] = s->squares[--s->n_squares];
-            s->xs[2 * s->n] = x;
-            s->xs[2 * s->n + 1] = y;
-            s->n++;
-            put_into_grid(s, cell_x, cell_y, x, y);
-        }
-    }
-    return status;
+    return KOKSMA_OK;
 }
 
 static bool more_squares(koksma__square **squares, size_t *room)
@@ -257,9 +222,9 @@ static bool more_squares(koksma__square **squares, size_t *room)
     return more != NULL;
 }
 
-/* Cuts the squares in four and keeps those with room; with `throwing`, throws darts at them at once. Squares of a
-   cell stay neighbours in the list. */
-static koksma_status refine(koksma__disks *s, bool throwing, double mean)
+/* The next round: cuts the squares in four, keeps those with room and throws darts at them. Squares of a cell stay
+   neighbours in the list. */
+static koksma_status refine(koksma__disks *s, double mean)
 {
     const double half = 0.5 / ((double)s->cells * (double)((size_t)2 << s->level));
     const int level = s->level++;
@@ -289,8 +254,7 @@ static koksma_status refine(koksma__disks *s, bool throwing, double mean)
         for (uint32_t q = 0; q < 4 && !status; q++) {
             if (!(covered >> q & 1)) {
                 squares[kept] = (koksma__square){2 * square.x + (q & 1), 2 * square.y + (q >> 1)};
-                status = throwing ? throw_at(&t, squares[kept], &points) : KOKSMA_OK;
-                kept++;
+                status = throw_at(&t, squares[kept++], &points);
             }
         }
     }
@@ -324,12 +288,9 @@ koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *r
          first = false) {
         const double enough = n == SIZE_MAX ? 1 : 1.5 * (double)(n - s->n) / (double)s->n_squares + 0.01;
         const double mean = fmin(enough, 0.5);
-        if (s->cells <= SMALL) {
-            status = first ? KOKSMA_OK : refine(s, false, 0);
-            status = status ? status : throw_anywhere(s, n);
-        } else {
-            status = first ? throw_first(s, mean) : refine(s, true, mean);
-            status = status ? status : keep_darts(s, n);
+        status = first ? throw_first(s, mean) : refine(s, mean);
+        if (!status) {
+            status = keep_darts(s, n);
         }
         if (!status && !koksma__keep_going(run, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n)) {
             status = koksma__fail_interrupted();

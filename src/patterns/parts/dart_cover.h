@@ -6,8 +6,7 @@
  * Mitchell, Patney, Davidson & Owens (2012): after each round of darts its squares are cut in four, and those without
  * room left out. In a round every square gets a Poisson number of darts, each at a random time: a Poisson process
  * over the cover. What became of a dart depends on the earlier ones near it only, so it can be asked for in any
- * order, and the order of the memory is the fastest. A grid that fits into a cache has no use for that: its darts are
- * thrown at random squares and decided at once, which is the same law.
+ * order, and the order of the memory is the fastest.
  */
 #ifndef KOKSMA_PATTERNS_PARTS_DART_COVER_H
 #define KOKSMA_PATTERNS_PARTS_DART_COVER_H
@@ -31,7 +30,7 @@ typedef struct koksma__disks {
     size_t n, room; /* points, and places for them */
     double *xs;     /* pairs */
     uint32_t cells; /* a side; none holds two points */
-    size_t stride;  /* of the rows of gx and gy, which have a border of copies: 5 after, else 2 */
+    size_t stride;  /* of the rows of gx and gy, which have a border of copies, 2 wide */
     size_t places;
     double *gx, *gy;
     int level; /* squares are cells / 2^level wide */
