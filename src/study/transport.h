@@ -2,7 +2,7 @@
 /*
  * Messages between the ranks of a run. transport_mpi.c is a module of its own, the only object that links MPI; it
  * takes nothing from this library, and this library loads it when mpirun has started the process
- * (docs/decisions/0007-mpi-as-a-module.md).
+ * (docs/decisions/0008-mpi-as-a-module.md).
  */
 #ifndef KOKSMA_STUDY_TRANSPORT_H
 #define KOKSMA_STUDY_TRANSPORT_H
