@@ -12,7 +12,7 @@
 #include "study/report.h"
 #include "study/variants.h"
 
-enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 96 };
+enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
 /* Points mapped to the disk, which fills the square. */
 static void through_warp(const char *name, koksma_points *points)
@@ -101,6 +101,20 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
     return status;
 }
 
+/* What the method did to the whole image, for the caption: the first paper's numbers, and its argument as one. */
+static void describe_adaptive(const koksma__figure *f, double pixels, const koksma_adaptive_report *report,
+                              char note[NOTE])
+{
+    const int length = snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more in the mean", f->n,
+                                (double)(report->samples - report->first) / pixels);
+    if (report->splits) {
+        snprintf(note + length, (size_t)(NOTE - length), "; %.0f %% of %llu splits needless)",
+                 100 * (double)report->needless / (double)report->splits, (unsigned long long)report->splits);
+    } else {
+        snprintf(note + length, (size_t)(NOTE - length), ")");
+    }
+}
+
 static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
                                   uint64_t seed, const koksma_run *run, char note[NOTE])
 {
@@ -119,17 +133,12 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html
     options->width = scene->width;
     options->height = scene->height;
     adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
+    adaptive.probes = PROBES; /* methods that split no strata leave them alone */
     if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
         return status;
     }
-    if (adaptive.strata) {
-        status = add_strata(h, f, &strata);
-    } else {
-        const double pixels = (double)scene->width * (double)scene->height;
-        status = add_part(h, f, &layers.image);
-        snprintf(note, NOTE, " (%lld samples a pixel at first, %.1f more in the mean)", f->n,
-                 (double)(report.samples - report.first) / pixels);
-    }
+    status = adaptive.strata ? add_strata(h, f, &strata) : add_part(h, f, &layers.image);
+    describe_adaptive(f, (double)scene->width * (double)scene->height, &report, note);
     koksma_layers_fini(&layers);
     return status;
 }
