@@ -4,10 +4,8 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    koksma_scene *scene = calloc(1, sizeof *scene);
-    if (scene) {
-        fuzz_check_status(koksma__scene_parse("fuzz", (const char *)bytes, size, scene));
-        koksma_scene_close(scene);
-    }
+    koksma_scene *scene;
+    fuzz_check_status(koksma__scene_open_text("fuzz", (const char *)bytes, size, &scene));
+    koksma_scene_close(scene);
     return 0;
 }

@@ -14,9 +14,8 @@
 
 static inline koksma_scene *scene_of(const char *text)
 {
-    koksma_scene *scene = calloc(1, sizeof *scene);
-    assert_non_null(scene);
-    if (koksma__scene_parse("test.json", text, strlen(text), scene)) {
+    koksma_scene *scene;
+    if (koksma__scene_open_text("test.json", text, strlen(text), &scene)) {
         fail_msg("%s", koksma_error_text());
     }
     return scene;

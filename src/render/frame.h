@@ -22,7 +22,7 @@ typedef struct koksma__frame {
     int depth;                  /* bounces at most */
     int channels;
     const koksma__batch_table *batch;
-    koksma__geometry geometry;
+    koksma__geometry geometry; /* the scene's own */
     koksma__use_list uses;
     koksma__sampler sampler;
     koksma__batch_camera camera;
@@ -48,6 +48,10 @@ typedef struct koksma__values {
     float *albedo, *normal, *depth;
     uint64_t rays;
 } koksma__values;
+
+/* all_layers: albedo, normal and depth too. fini also after a failure. Errors: MEMORY. */
+koksma_status koksma__values_init(koksma__values *values, size_t capacity, int channels, bool all_layers);
+void koksma__values_fini(koksma__values *values);
 
 typedef struct koksma__pipeline {
     /* A task's room. Errors: MEMORY. */

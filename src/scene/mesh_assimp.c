@@ -60,6 +60,7 @@ koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include "core/hash.h"
 #include "core/read_file.h"
 #include "image/formats.h"
 #include "scene/parse.h"
@@ -129,9 +130,9 @@ static bool is_plain(const char *path)
     return !stat(path, &about) && S_ISREG(about.st_mode);
 }
 
+/* io->UserData: a sum of the hashes of all that is read, materials' files too. */
 static struct aiFile *open_proc(struct aiFileIO *io, const char *path, const char *mode)
 {
-    (void)io;
     open_file *f = strchr(mode, 'r') && is_plain(path) ? calloc(1, sizeof *f) : NULL;
     if (f && koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &f->bytes, &f->size)) {
         free(f);
@@ -140,6 +141,7 @@ static struct aiFile *open_proc(struct aiFileIO *io, const char *path, const cha
     if (!f) {
         return NULL;
     }
+    *(uint64_t *)(void *)io->UserData += koksma__hash(f->bytes, f->size);
     f->file = (struct aiFile){.ReadProc = file_read,
                               .WriteProc = file_write,
                               .TellProc = file_tell,
@@ -178,10 +180,11 @@ static koksma_status look_first(const char *path)
     return status;
 }
 
-/* What assimp makes of a file; the caller releases it. */
-static koksma_status import(const char *path, const struct aiScene **out)
+/* What assimp makes of a file, which the caller releases, and the hash of all bytes that it took. */
+static koksma_status import(const char *path, const struct aiScene **out, uint64_t *hash)
 {
-    struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc};
+    struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)hash};
+    *hash = 0;
     if (!koksma__is_mesh_file(path)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
     }
@@ -346,7 +349,8 @@ static koksma_status gather(const struct aiScene *scene, koksma__mesh *out)
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 {
     const struct aiScene *scene = NULL;
-    koksma_status status = import(path, &scene);
+    uint64_t hash;
+    koksma_status status = import(path, &scene, &hash);
     if (!status) {
         status = gather(scene, out);
         aiReleaseImport(scene);
@@ -465,7 +469,6 @@ static void place_mesh(void *context, const struct aiMesh *mesh, const double ma
             g.out = to;
             append(&g, mesh, identity);
             b->status = koksma__mesh_check(to);
-            b->scene->hash ^= koksma__mesh_hash(to) + b->scene->n_meshes;
         }
         b->meshes[which] = (int)b->scene->n_meshes - 1;
     }
@@ -605,7 +608,7 @@ static koksma_status build(builder *b, bool *has_camera)
 koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
 {
     builder b = {.scene = scene, .path = path};
-    koksma_status status = import(path, &b.from);
+    koksma_status status = import(path, &b.from, &scene->hash);
     if (!status) {
         status = build(&b, has_camera);
         free(b.meshes);

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/hash.h"
+
 int koksma__find_material(const koksma_scene *scene, const char *name)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
@@ -85,6 +87,23 @@ static bool is_grey(const double rgb[3])
     return rgb[0] == rgb[1] && rgb[1] == rgb[2];
 }
 
+static uint64_t image_hash(const koksma_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    return koksma__hash(image->pixels, n * sizeof *image->pixels);
+}
+
+/* Images are files of their own, as meshes are: another picture is another scene. */
+static void add_pixels(koksma_scene *scene)
+{
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        scene->hash ^= scene->materials[i].image ? image_hash(scene->materials[i].image) + i : 0;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        scene->hash ^= scene->lights[i].image ? image_hash(scene->lights[i].image) + scene->n_materials + i : 0;
+    }
+}
+
 /* What follows from the rest. */
 void koksma__scene_finish(koksma_scene *scene)
 {
@@ -98,6 +117,7 @@ void koksma__scene_finish(koksma_scene *scene)
         const koksma__light *l = &scene->lights[i];
         scene->grey &= is_grey(l->radiance) && !(l->image && l->image->channels == 3);
     }
+    add_pixels(scene);
     const double *m = scene->camera.motion;
     scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
     for (size_t i = 0; i < scene->n_shapes; i++) {

@@ -19,35 +19,44 @@ const char *koksma_scene_name_at(size_t i)
     return i < N_SHIPPED ? embedded_texts[i].name : NULL;
 }
 
-static koksma_status open_text(const char *name, const char *text, size_t size, koksma_scene **out)
+/* An empty scene, with what goes with one that can be rendered. */
+static koksma_status new_scene(koksma_scene **out)
 {
-    koksma_scene *scene = calloc(1, sizeof *scene);
-    if (!scene) {
-        return koksma__fail_memory(sizeof *scene);
+    koksma_scene *scene = *out = calloc(1, sizeof *scene);
+    koksma__kept *kept = calloc(1, sizeof *kept);
+    if (!scene || !kept || pthread_mutex_init(&kept->lock, NULL)) {
+        free(scene);
+        free(kept);
+        *out = NULL;
+        return koksma__fail_memory(sizeof *scene + sizeof *kept);
     }
-    scene->hash = koksma__hash(text, size);
-    const koksma_status status = koksma__scene_parse(name, text, size, scene);
+    scene->kept = kept;
+    return KOKSMA_OK;
+}
+
+static koksma_status close_failed(koksma_status status, koksma_scene **out)
+{
     if (status) {
-        koksma_scene_close(scene);
+        koksma_scene_close(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+koksma_status koksma__scene_open_text(const char *name, const char *text, size_t size, koksma_scene **out)
+{
+    const koksma_status status = new_scene(out);
+    if (status) {
         return status;
     }
-    *out = scene;
-    return KOKSMA_OK;
+    (*out)->hash = koksma__hash(text, size);
+    return close_failed(koksma__scene_parse(name, text, size, *out), out);
 }
 
 static koksma_status open_model(const char *path, koksma_scene **out)
 {
-    koksma_scene *scene = calloc(1, sizeof *scene);
-    if (!scene) {
-        return koksma__fail_memory(sizeof *scene);
-    }
-    const koksma_status status = koksma__model_parse(path, scene);
-    if (status) {
-        koksma_scene_close(scene);
-        return status;
-    }
-    *out = scene;
-    return KOKSMA_OK;
+    const koksma_status status = new_scene(out);
+    return status ? status : close_failed(koksma__model_parse(path, *out), out);
 }
 
 static bool is_path(const char *text)
@@ -61,7 +70,7 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
     *out = NULL;
     for (size_t i = 0; i < N_SHIPPED; i++) {
         if (!strcmp(embedded_texts[i].name, name_or_path)) {
-            return open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);
+            return koksma__scene_open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);
         }
     }
     if (!is_path(name_or_path)) {
@@ -76,7 +85,7 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
     size_t size;
     koksma_status status = koksma__read_file(name_or_path, MAX_FILE, &bytes, &size);
     if (!status) {
-        status = open_text(name_or_path, (const char *)bytes, size, out);
+        status = koksma__scene_open_text(name_or_path, (const char *)bytes, size, out);
         free(bytes);
     }
     return status;
@@ -105,6 +114,11 @@ void koksma__scene_fini(koksma_scene *scene)
 void koksma_scene_close(koksma_scene *scene)
 {
     if (scene) {
+        if (scene->kept->made) {
+            scene->kept->release(scene->kept->made);
+        }
+        pthread_mutex_destroy(&scene->kept->lock);
+        free(scene->kept);
         koksma__scene_fini(scene);
         free(scene);
     }

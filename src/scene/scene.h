@@ -5,6 +5,7 @@
 
 #include <koksma/render.h>
 #include <koksma/warp.h>
+#include <pthread.h>
 
 #include "scene/mesh.h"
 
@@ -84,6 +85,14 @@ typedef struct koksma__camera {
     double motion[3];                             /* at time t the eye is at eye + t motion */
 } koksma__camera;
 
+/* What the renderer makes of a scene that is the same for all pictures of it: made under the lock by the first that
+   needs it, released with the scene. */
+typedef struct koksma__kept {
+    pthread_mutex_t lock;
+    void *made; /* or NULL */
+    void (*release)(void *made);
+} koksma__kept;
+
 struct koksma_scene {
     uint64_t hash;
     char title[128];
@@ -100,6 +109,7 @@ struct koksma_scene {
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements, shape_room;
     bool grey;  /* no colour in it: images have one channel */
     bool moves; /* something depends on time */
+    koksma__kept *kept;
 };
 
 /* The number of a material; -1 if there is none of that name. */
@@ -107,6 +117,9 @@ int koksma__find_material(const koksma_scene *scene, const char *name);
 
 /* The map of the square to a lens: "concentric" or "polar"; NULL for another name. */
 const koksma_warp *koksma__lens_map(const char *name);
+
+/* A scene of a text; name is for errors. Errors: MALFORMED, MISSING, ARGUMENT, MEMORY. */
+koksma_status koksma__scene_open_text(const char *name, const char *text, size_t size, koksma_scene **out);
 
 /* Fills scene from a text; name is for errors. Whatever comes of it, the caller calls fini. */
 koksma_status koksma__scene_parse(const char *name, const char *text, size_t size, koksma_scene *scene);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree and assimp the
    tests are skipped. */
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -293,6 +294,43 @@ static void threads_and_modes_leave_no_trace(void **state)
     unlink("ball.obj");
 }
 
+typedef struct picture {
+    const koksma_scene *scene;
+    koksma_image image;
+} picture;
+
+static void *draw_picture(void *to)
+{
+    picture *p = to;
+    p->image = render_by(p->scene, "distribution", 4, SIDE, 1);
+    return NULL;
+}
+
+/* A scene makes its tree once, for whoever comes first. */
+static void pictures_of_a_scene_share_its_tree(void **state)
+{
+    (void)state;
+    need_meshes();
+    enum { N = 4 };
+    write_ball(3);
+    koksma_scene *scene = scene_of(BALL(", \"smooth\": true"));
+    picture pictures[N];
+    pthread_t threads[N];
+    for (int i = 0; i < N; i++) {
+        pictures[i].scene = scene;
+        assert_int_equal(pthread_create(&threads[i], NULL, draw_picture, &pictures[i]), 0);
+    }
+    for (int i = 0; i < N; i++) {
+        pthread_join(threads[i], NULL);
+        assert_memory_equal(pictures[0].image.pixels, pictures[i].image.pixels, SIDE * SIDE * sizeof(float));
+    }
+    for (int i = 0; i < N; i++) {
+        koksma_image_fini(&pictures[i].image);
+    }
+    koksma_scene_close(scene);
+    unlink("ball.obj");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -303,6 +341,7 @@ int main(void)
         cmocka_unit_test(light_on_meshes_is_its_form_factor),
         cmocka_unit_test(motion_covers_its_share_of_time),
         cmocka_unit_test(threads_and_modes_leave_no_trace),
+        cmocka_unit_test(pictures_of_a_scene_share_its_tree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

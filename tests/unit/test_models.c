@@ -156,12 +156,49 @@ static void bare_files_bring_or_get_cameras_and_lights(void **state)
     unlink("square.obj");
 }
 
+static uint64_t hash_of(const char *path)
+{
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open(path, &scene));
+    const uint64_t hash = koksma_scene_hash(scene);
+    koksma_scene_close(scene);
+    return hash;
+}
+
+/* Rows of studies go by the scene's hash: another mesh, material or texture behind the same text is another scene. */
+static void hashes_cover_the_files_that_a_scene_names(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_text("part.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
+    write_text("part.obj", "mtllib part.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    const uint64_t once = hash_of("part.obj");
+    assert_true(once == hash_of("part.obj"));
+    write_text("part.mtl", "newmtl a\nKd 0.5 0.5 0.25\n");
+    assert_true(once != hash_of("part.obj"));
+    write_text("textured.json",
+               "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 40}, "
+               "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", "
+               "\"albedo\": {\"image\": \"one.pfm\"}}], \"shapes\": [{\"kind\": \"rectangle\", "
+               "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": \"m\"}]}");
+    write_text("one.pfm", "Pf\n1 1\n-1\n\1\1\1\076");
+    const uint64_t dark = hash_of("./textured.json");
+    assert_true(dark == hash_of("./textured.json"));
+    write_text("one.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
+    assert_true(dark != hash_of("./textured.json"));
+    unlink("part.mtl");
+    unlink("part.obj");
+    unlink("textured.json");
+    unlink("one.pfm");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(luminous_meshes_have_their_form_factor),
         cmocka_unit_test(images_are_albedos),
         cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
+        cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

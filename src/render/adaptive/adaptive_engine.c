@@ -55,32 +55,18 @@ static void room_fini(const job *j, room *r)
         j->pipeline->close(r->pipeline);
     }
     free(r->scratch);
-    free(r->values.film);
-    free(r->values.weights);
-    free(r->values.rgb);
-    free(r->values.albedo);
-    free(r->values.normal);
-    free(r->values.depth);
+    koksma__values_fini(&r->values);
 }
 
 static koksma_status room_init(const job *j, room *r)
 {
-    const size_t n = j->capacity;
-    koksma__values *v = &r->values;
-    *r = (room){.scratch = malloc(j->run->scratch + 1),
-                .values = {.film = malloc(2 * n * sizeof(float)),
-                           .weights = malloc(n * sizeof(float)),
-                           .rgb = malloc(n * (size_t)j->frame.channels * sizeof(float))}};
-    bool all = r->scratch && v->film && v->weights && v->rgb;
-    if (j->first) {
-        v->albedo = malloc(3 * n * sizeof(float));
-        v->normal = malloc(3 * n * sizeof(float));
-        v->depth = malloc(n * sizeof(float));
-        all &= v->albedo && v->normal && v->depth;
+    *r = (room){.scratch = malloc(j->run->scratch + 1)};
+    koksma_status status = koksma__values_init(&r->values, j->capacity, j->frame.channels, j->first);
+    if (!status && !r->scratch) {
+        status = koksma__fail_memory(j->run->scratch + 1);
     }
-    koksma_status status = all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
     status = status ? status : koksma__sample_room_init(&r->draw, &j->frame.sampler);
-    return status ? status : j->pipeline->open(&j->frame, n, &r->pipeline);
+    return status ? status : j->pipeline->open(&j->frame, j->capacity, &r->pipeline);
 }
 
 static void keep_layers(const job *j, const koksma__values *v, size_t pixel, size_t first, size_t end)

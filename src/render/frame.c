@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is the same for all pixels of a picture, made once; and the room for the values of a group. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/frame.h"
+
+/* ---- The scene in floats ------------------------------------------------------------------------------ */
+
+static koksma__batch_camera make_camera(const koksma__camera *from, int width, int height)
+{
+    koksma__batch_camera c;
+    const double step = 2 * tan(from->fov_rad / 2) / height;
+    for (int k = 0; k < 3; k++) {
+        const double right = step * from->right[k], down = step * from->down[k];
+        c.eye[k] = (float)from->eye[k];
+        c.base[k] = (float)(from->forward[k] - 0.5 * width * right - 0.5 * height * down);
+        c.step_x[k] = (float)right;
+        c.step_y[k] = (float)down;
+    }
+    return c;
+}
+
+static koksma__batch_material make_material(const koksma__material *from)
+{
+    koksma__batch_material m = {.checker = from->checker,
+                                .albedo = {(float)from->albedo[0][0], (float)from->albedo[1][0]}};
+    if (from->checker) {
+        const double c = cos(from->angle_rad) / from->period, s = sin(from->angle_rad) / from->period;
+        m.su = (float)c;
+        m.sv = (float)s;
+        m.tu = (float)-s;
+        m.tv = (float)c;
+        m.s0 = (float)from->phase[0];
+        m.t0 = (float)from->phase[1];
+    }
+    return m;
+}
+
+static koksma_status make_materials(koksma__frame *f)
+{
+    const size_t n = f->scene->n_materials;
+    f->materials = calloc(n + 1, sizeof *f->materials);
+    f->substances = calloc(n + 1, sizeof *f->substances);
+    if (!f->substances || !f->materials) {
+        return koksma__fail_memory((n + 1) * sizeof *f->substances);
+    }
+    for (size_t i = 0; i < n; i++) {
+        f->materials[i] = make_material(&f->scene->materials[i]);
+        f->substances[i] = koksma__substance_of(&f->scene->materials[i]);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- The frame ------------------------------------------------------------------------------------------- */
+
+/* What samples will be spent on. */
+static koksma__use_list list_uses(const koksma__frame *f)
+{
+    unsigned lobes = 0;
+    for (size_t i = 0; i < f->scene->n_materials; i++) {
+        lobes |= f->substances[i].lobes;
+    }
+    const bool one = f->options->lights != KOKSMA_LIGHTS_ALL && f->lights.n > 0;
+    const int lights = one ? 1 : (int)f->lights.n;
+    return (koksma__use_list){.lens = f->scene->camera.lens_radius > 0,
+                              .time = f->scene->moves,
+                              .lights = f->rules->areas ? lights : 0,
+                              .light_choice = one,
+                              .vertices = lobes & f->rules->followed ? f->depth + 1 : 1};
+}
+
+static void release_geometry(void *made)
+{
+    koksma__geometry *geometry = made;
+    geometry->release(geometry);
+    free(geometry);
+}
+
+/* The scene's geometry, which all its pictures share: a study renders a mesh a thousand times. */
+static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *out)
+{
+    koksma__kept *kept = scene->kept;
+    koksma_status status = KOKSMA_OK;
+    pthread_mutex_lock(&kept->lock);
+    if (!kept->made) {
+        koksma__geometry *geometry = malloc(sizeof *geometry);
+        status = !geometry             ? koksma__fail_memory(sizeof *geometry)
+                 : scene->n_placements ? koksma__accel_embree(scene, geometry)
+                                       : koksma__accel_shapes(scene, geometry);
+        if (status) {
+            free(geometry);
+        } else {
+            kept->made = geometry;
+            kept->release = release_geometry;
+        }
+    }
+    if (!status) {
+        *out = *(koksma__geometry *)kept->made;
+    }
+    pthread_mutex_unlock(&kept->lock);
+    return status;
+}
+
+static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
+{
+    const koksma_render_options *options = f->options;
+    koksma_status status = make_materials(f);
+    status = status ? status : koksma__lights_init(f->scene, &f->lights);
+    if (status) {
+        return status;
+    }
+    f->camera = make_camera(&f->scene->camera, options->width, options->height);
+    f->uses = list_uses(f);
+    status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
+                                                  : koksma__pixel_samples(options, &f->uses, &f->sampler);
+    status = status ? status : find_geometry(f->scene, &f->geometry);
+    if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
+        status = koksma__filter_open(options->filter, &f->filter);
+    }
+    return !status && f->rules->open ? f->rules->open(f, run) : status;
+}
+
+void koksma__frame_close(koksma__frame *f)
+{
+    if (f->rules && f->rules->close) {
+        f->rules->close(f);
+    }
+    if (f->sampler.release) {
+        f->sampler.release(&f->sampler);
+    }
+    koksma__filter_close(f->filter);
+    koksma__lights_fini(&f->lights);
+    free(f->materials);
+    free(f->substances);
+}
+
+static koksma_status check(const koksma_render_options *o)
+{
+    if (o->width < 1 || o->height < 1 || o->width > KOKSMA_MAX_IMAGE_SIDE || o->height > KOKSMA_MAX_IMAGE_SIDE ||
+        (size_t)o->width * (size_t)o->height > KOKSMA_MAX_PIXELS) {
+        koksma_image none;
+        return koksma_image_init(&none, o->width, o->height, 1); /* says what is wrong with them */
+    }
+    if (o->spp < 1 || o->spp > KOKSMA_MAX_SPP) {
+        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", o->spp, KOKSMA_MAX_SPP);
+    }
+    if (!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) || !koksma_light_selection_name(o->lights) ||
+        !o->integrator || !o->filter) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "the options lack a pairing, scope, light selection, integrator or filter");
+    }
+    if (o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH) {
+        return koksma__fail(KOKSMA_ARGUMENT, "depth = %d: bounces are 0 to %d", o->depth, KOKSMA_MAX_DEPTH);
+    }
+    if (o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0) {
+        return koksma__fail(
+            KOKSMA_ARGUMENT,
+            "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
+            o->filter->name);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,
+                                 const koksma_run *run, koksma__frame *out)
+{
+    *out = (koksma__frame){.scene = scene, .options = options};
+    const koksma_status status = check(options);
+    if (status) {
+        return status;
+    }
+    out->rules = options->integrator->rules;
+    out->depth = options->depth < 0 ? options->integrator->depth : options->depth;
+    out->channels = scene->grey ? 1 : 3;
+    out->batch = koksma__batch();
+    return make_frame(out, run);
+}
+
+/* ---- Values ----------------------------------------------------------------------------------------------- */
+
+koksma_status koksma__values_init(koksma__values *v, size_t capacity, int channels, bool all_layers)
+{
+    const size_t n = capacity;
+    *v = (koksma__values){.film = malloc(2 * n * sizeof(float)),
+                          .weights = malloc(n * sizeof(float)),
+                          .rgb = malloc(n * (size_t)channels * sizeof(float))};
+    bool all = v->film && v->weights && v->rgb;
+    if (all_layers) {
+        v->albedo = malloc(3 * n * sizeof(float));
+        v->normal = malloc(3 * n * sizeof(float));
+        v->depth = malloc(n * sizeof(float));
+        all &= v->albedo && v->normal && v->depth;
+    }
+    return all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
+}
+
+void koksma__values_fini(koksma__values *v)
+{
+    free(v->film);
+    free(v->weights);
+    free(v->rgb);
+    free(v->albedo);
+    free(v->normal);
+    free(v->depth);
+}
