@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The core library for a page in a browser: functions of numbers and texts that JavaScript can call (module.js does).
+ * One set of points is the one that is looked at. Texts go in through explorer_text_in(), results come out as JSON or
+ * as arrays; a NULL or a status other than 0 means that koksma_error_text() has the reason.
+ */
+#include <koksma/koksma.h>
+#include <koksma/series.h>
+#include <koksma/spectrum.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPLORER_API __attribute__((used, visibility("default")))
+
+EXPLORER_API char *explorer_text_in(void);
+EXPLORER_API const char *explorer_error(void);
+EXPLORER_API const char *explorer_tables(void);
+EXPLORER_API const char *explorer_generate(uint32_t n, int dim, uint32_t seed_low, uint32_t seed_high);
+EXPLORER_API double *explorer_room(uint32_t n, int dim);
+EXPLORER_API double *explorer_points(void);
+EXPLORER_API const char *explorer_measure(void);
+EXPLORER_API const char *explorer_line(uint32_t n, int dim);
+EXPLORER_API double *explorer_spectrum(int half, int x, int y);
+EXPLORER_API const char *explorer_rings(void);
+
+static koksma_points points;
+static koksma_spectrum spectrum;
+static char text_in[KOKSMA_MAX_SPEC];
+
+/* ---- JSON --------------------------------------------------------------------------------------------- */
+
+static struct {
+    char *text;
+    size_t used, room;
+    bool failed;
+} out;
+
+__attribute__((__format__(__printf__, 1, 2))) static void put(const char *format, ...)
+{
+    va_list arguments;
+    for (;;) {
+        va_start(arguments, format);
+        const int wanted = vsnprintf(out.text ? out.text + out.used : NULL, out.room - out.used, format, arguments);
+        va_end(arguments);
+        if (wanted < 0 || out.failed) {
+            out.failed = true;
+            return;
+        }
+        if (out.used + (size_t)wanted < out.room) {
+            out.used += (size_t)wanted;
+            return;
+        }
+        const size_t room = 2 * out.room + (size_t)wanted + 4096;
+        char *text = realloc(out.text, room);
+        out.failed = !text;
+        out.text = text ? text : out.text;
+        out.room = text ? room : out.room;
+    }
+}
+
+static void put_text(const char *text)
+{
+    put("\"");
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\') {
+            put("\\%c", *text);
+        } else {
+            put((unsigned char)*text < 0x20 ? "\\u%04x" : "%c", (unsigned char)*text);
+        }
+    }
+    put("\"");
+}
+
+static void put_number(double x)
+{
+    put(isfinite(x) ? "%.17g" : "null", x);
+}
+
+/* The number, and what `koksma measure` prints for it. */
+static void put_value(const char *key, double x)
+{
+    put("\"%s\":", key);
+    put_number(x);
+    put(",\"%s_text\":\"", key);
+    put(isfinite(x) ? "%.9g" : "-", x);
+    put("\"");
+}
+
+static const char *finish(void)
+{
+    out.used = 0;
+    if (out.failed) {
+        out.failed = false;
+        return NULL;
+    }
+    return out.text;
+}
+
+/* ---- The tables ---------------------------------------------------------------------------------------- */
+
+static void put_params(const koksma_param *params)
+{
+    put("\"params\":[");
+    for (const koksma_param *p = params; p && p->name; p++) {
+        put("%s{\"name\":\"%s\",\"help\":", p == params ? "" : ",", p->name);
+        put_text(p->help);
+        put(",\"fallback\":%.17g,\"min\":%.17g,\"max\":%.17g,\"whole\":%s,\"choices\":", p->fallback, p->min, p->max,
+            p->whole ? "true" : "false");
+        put(p->choices ? "[" : "null");
+        for (size_t i = 0; p->choices && p->choices[i]; i++) {
+            put("%s\"%s\"", i ? "," : "", p->choices[i]);
+        }
+        put(p->choices ? "]}" : "}");
+    }
+    put("]");
+}
+
+static void put_head(const char *name, const char *title, const char *cite, int min_dim, int max_dim)
+{
+    put("{\"name\":\"%s\",\"title\":", name);
+    put_text(title);
+    put(",\"cite\":\"%s\",\"min_dim\":%d,\"max_dim\":%d,", cite, min_dim, max_dim);
+}
+
+const char *explorer_tables(void)
+{
+    put("{\"version\":\"%s\",\"max_spec\":%d,\"patterns\":[", koksma_version(), KOKSMA_MAX_SPEC);
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        put(i ? "," : "");
+        put_head(p->name, p->title, p->cite, p->min_dim, p->max_dim);
+        put("\"claims\":%u,\"takes_path\":%s,\"alias_of\":\"%s\",", p->claims, p->takes_path ? "true" : "false",
+            p->alias_of ? p->alias_of : "");
+        put_params(p->params);
+        put("}");
+    }
+    put("],\"measures\":[");
+    const koksma_measure *m;
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        put(i ? "," : "");
+        put_head(m->name, m->title, m->cite, m->min_dim, m->max_dim);
+        put("\"family\":%d,\"cost\":", (int)m->family);
+        put_text(m->cost);
+        put(",");
+        put_params(m->params);
+        put("}");
+    }
+    put("]}");
+    return finish();
+}
+
+/* ---- Points and measures ------------------------------------------------------------------------------- */
+
+char *explorer_text_in(void)
+{
+    return text_in;
+}
+
+const char *explorer_error(void)
+{
+    return koksma_error_text();
+}
+
+double *explorer_room(uint32_t n, int dim)
+{
+    koksma_points_fini(&points);
+    points = (koksma_points){0};
+    return koksma_points_init(&points, n, dim) ? NULL : points.xs;
+}
+
+double *explorer_points(void)
+{
+    return points.xs;
+}
+
+/* One thread: a page has others in other workers. */
+static const koksma_run one_thread = {.threads = 1};
+
+/* Makes the set of the pattern whose spec is the text in; gives its canonical spec. */
+const char *explorer_generate(uint32_t n, int dim, uint32_t seed_low, uint32_t seed_high)
+{
+    koksma_spec spec;
+    char canonical[KOKSMA_MAX_SPEC];
+    if (koksma_pattern_spec(text_in, &spec) || !explorer_room(n, dim) ||
+        koksma_generate(&spec, (uint64_t)seed_high << 32 | seed_low, &one_thread, &points)) {
+        return NULL;
+    }
+    koksma_spec_text(&spec, canonical);
+    put("{\"spec\":");
+    put_text(canonical);
+    put("}");
+    return finish();
+}
+
+static void put_corner(const char *key, const double *xs, int dim)
+{
+    put(",\"%s\":[", key);
+    for (int k = 0; k < dim; k++) {
+        put("%s%.17g", k ? "," : "", xs[k]);
+    }
+    put("]");
+}
+
+static void put_witness(const koksma_witness *w)
+{
+    static const char *const kinds[] = {"none", "box", "half-plane", "disk"};
+    put(",\"witness\":");
+    if (w->kind == KOKSMA_WITNESS_NONE) {
+        put("null");
+        return;
+    }
+    const bool box = w->kind == KOKSMA_WITNESS_BOX;
+    put("{\"kind\":\"%s\",\"closed\":%s,\"count\":%lu,\"volume\":%.17g", kinds[w->kind], w->closed ? "true" : "false",
+        (unsigned long)w->count, w->volume);
+    put_corner("lo", w->lo, box ? w->dim : 2);
+    put_corner("hi", w->hi, box ? w->dim : 1);
+    put("}");
+}
+
+/* The measure whose spec is the text in, of the points. */
+const char *explorer_measure(void)
+{
+    koksma_spec spec;
+    koksma_value value;
+    char canonical[KOKSMA_MAX_SPEC];
+    if (koksma_measure_spec(text_in, &spec) || koksma_evaluate(&spec, &points, &one_thread, &value)) {
+        return NULL;
+    }
+    koksma_spec_text(&spec, canonical);
+    put("{\"measure\":");
+    put_text(canonical);
+    put(",");
+    put_value("value", value.value);
+    put(",");
+    put_value("standard_error", value.standard_error);
+    put(",\"exact\":%s", value.exact ? "true" : "false");
+    put_witness(&value.witness);
+    put("}");
+    return finish();
+}
+
+/* The slope of log value over log n, n pairs in the room as (number of points, value), and the exponents of theory:
+   the text in is the measure's spec, a newline and the pattern's. */
+const char *explorer_line(uint32_t n, int dim)
+{
+    koksma_spec measure, pattern;
+    koksma_line line;
+    char *border = strchr(text_in, '\n');
+    double *columns = n <= points.n ? malloc(2 * sizeof *columns * n) : NULL;
+    if (!border || !columns) {
+        free(columns);
+        return NULL;
+    }
+    *border = '\0';
+    for (size_t i = 0; i < n; i++) {
+        columns[i] = points.xs[2 * i];
+        columns[n + i] = points.xs[2 * i + 1];
+    }
+    const bool fits = koksma_log_line(n, columns, columns + n, &line);
+    free(columns);
+    if (koksma_measure_spec(text_in, &measure) || koksma_pattern_spec(border + 1, &pattern)) {
+        return NULL;
+    }
+    put("{");
+    put_value("slope", fits ? line.slope : (double)NAN);
+    put(",");
+    put_value("slope_error", fits ? line.slope_error : (double)NAN);
+    put(",");
+    put_value("intercept", fits ? line.intercept : (double)NAN);
+    put(",");
+    put_value("theory", -koksma_rate(pattern.pattern, measure.measure, dim));
+    put(",");
+    put_value("best", -koksma_best_rate(measure.measure, dim));
+    put("}");
+    return finish();
+}
+
+/* ---- The power spectrum -------------------------------------------------------------------------------- */
+
+/* Of coordinates x and y of the points, both the same for a set on a line; (half + 1) x (2 half + 1) powers. */
+double *explorer_spectrum(int half, int x, int y)
+{
+    koksma_points plane;
+    koksma_spectrum_fini(&spectrum);
+    spectrum = (koksma_spectrum){0};
+    if (koksma_points_init(&plane, points.n, 2)) {
+        return NULL;
+    }
+    for (size_t i = 0; i < points.n; i++) {
+        plane.xs[2 * i] = points.xs[i * (size_t)points.dim + (size_t)x];
+        plane.xs[2 * i + 1] = points.xs[i * (size_t)points.dim + (size_t)y];
+    }
+    const koksma_status status = koksma_spectrum_init(&spectrum, half);
+    const bool good = !status && !koksma_spectrum_add(&spectrum, &plane, KOKSMA_SPECTRUM_FAST, &one_thread);
+    koksma_points_fini(&plane);
+    return good ? spectrum.power : NULL;
+}
+
+/* Of the spectrum that was made last: the rings, and the numbers that sum it up. */
+const char *explorer_rings(void)
+{
+    koksma_ring *rings = malloc((size_t)spectrum.half * sizeof *rings);
+    koksma_spectrum_quality_values quality;
+    if (!rings || koksma_spectrum_rings(&spectrum, rings)) {
+        free(rings);
+        return NULL;
+    }
+    put("{\"rings\":[");
+    for (int i = 0; i < spectrum.half; i++) {
+        put("%s{\"frequency\":%.17g,", i ? "," : "", rings[i].frequency);
+        put_value("power", rings[i].power);
+        put(",");
+        put_value("anisotropy_db", rings[i].anisotropy_db);
+        put("}");
+    }
+    free(rings);
+    koksma_spectrum_quality(&spectrum, &quality);
+    put("],");
+    put_value("effective_nyquist", quality.effective_nyquist);
+    put(",");
+    put_value("relative_nyquist", quality.relative_nyquist);
+    put(",");
+    put_value("oscillation", quality.oscillation);
+    put("}");
+    return finish();
+}

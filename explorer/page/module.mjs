@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The core library as WebAssembly: explorer.c's functions, with JavaScript's texts, arrays and errors.
+
+// What the library reports: its own line of text.
+export class KoksmaError extends Error {}
+
+// The system that the library sees: a clock, no files, no environment. 8 and 44 are WASI's and musl's "no such thing".
+function system(memory) {
+  const no_file = () => 8, no_entry = () => -44;
+  const zeros = (...pointers) => {
+    for (const pointer of pointers) new DataView(memory().buffer).setUint32(pointer, 0, true);
+    return 0;
+  };
+  return {
+    wasi_snapshot_preview1: {
+      clock_time_get: (id, precision_low, precision_high, out) => {
+        new DataView(memory().buffer).setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true);
+        return 0;
+      },
+      environ_sizes_get: zeros, environ_get: () => 0,
+      fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file,
+    },
+    env: {
+      emscripten_notify_memory_growth: () => {},
+      __syscall_fstat64: no_entry, __syscall_stat64: no_entry, __syscall_fstatat64: no_entry,
+    },
+  };
+}
+
+// Starts an instance of a WebAssembly.Module.
+export async function openKoksma(module) {
+  const instance = await WebAssembly.instantiate(module, system(() => instance.exports.memory));
+  const c = instance.exports;
+  c._initialize();
+  const maxText = 512;
+
+  const textAt = pointer => {
+    const bytes = new Uint8Array(c.memory.buffer);
+    return new TextDecoder().decode(bytes.slice(pointer, bytes.indexOf(0, pointer)));
+  };
+  const fail = () => { throw new KoksmaError(textAt(c.explorer_error()) || "out of memory"); };
+  const json = pointer => pointer ? JSON.parse(textAt(pointer)) : fail();
+  const numbersAt = (pointer, count) => pointer ? new Float64Array(c.memory.buffer, pointer, count).slice() : fail();
+  const say = text => {
+    const bytes = new TextEncoder().encode(text);
+    if (bytes.length >= maxText) throw new KoksmaError(`a text of ${bytes.length} characters; ${maxText - 1} is the most`);
+    const room = new Uint8Array(c.memory.buffer, c.explorer_text_in(), maxText);
+    room.set(bytes);
+    room[bytes.length] = 0;
+  };
+  const put = ({ xs, n, dim }) => {
+    const pointer = c.explorer_room(n, dim) || fail();
+    new Float64Array(c.memory.buffer, pointer, n * dim).set(xs);
+  };
+
+  return {
+    tables: () => json(c.explorer_tables()),
+
+    // { spec: the canonical text, points: { xs, n, dim } }; seed: a BigInt
+    generate({ spec, n, dim, seed }) {
+      say(spec);
+      const made = json(c.explorer_generate(n, dim, Number(seed & 0xffffffffn), Number(seed >> 32n)));
+      return { ...made, points: { xs: numbersAt(c.explorer_points(), n * dim), n, dim } };
+    },
+
+    // { value, value_text, witness, .. } of points
+    measure({ points, measure }) {
+      put(points);
+      say(measure);
+      return json(c.explorer_measure());
+    },
+
+    // Power at |kx|, |ky| <= half of the coordinates in axes, rows from ky = 0, and its rings and quality.
+    spectrum({ points, half, axes }) {
+      put(points);
+      const power = numbersAt(c.explorer_spectrum(half, ...axes), (half + 1) * (2 * half + 1));
+      return { half, power, ...json(c.explorer_rings()) };
+    },
+
+    // The slope of log value over log n, and theory's; pairs: [[n, value], ..]
+    line({ pairs, measure, pattern, dim }) {
+      put({ xs: pairs.flat(), n: pairs.length, dim: 2 });
+      say(measure + "\n" + pattern);
+      return json(c.explorer_line(pairs.length, dim));
+    },
+  };
+}
