@@ -22,6 +22,7 @@ EXPLORER_API const char *explorer_tables(void);
 EXPLORER_API const char *explorer_generate(uint32_t n, int dim, uint32_t seed_low, uint32_t seed_high);
 EXPLORER_API double *explorer_room(uint32_t n, int dim);
 EXPLORER_API double *explorer_points(void);
+EXPLORER_API const char *explorer_csv(void);
 EXPLORER_API const char *explorer_measure(void);
 EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
@@ -193,6 +194,19 @@ const char *explorer_generate(uint32_t n, int dim, uint32_t seed_low, uint32_t s
     put("{\"spec\":");
     put_text(canonical);
     put("}");
+    return finish();
+}
+
+/* The points as koksma_points_write puts them into a .csv file. */
+const char *explorer_csv(void)
+{
+    for (int k = 0; k < points.dim; k++) {
+        put("%sx%d", k ? "," : "", k);
+    }
+    for (size_t i = 0; i < points.n * (size_t)points.dim; i++) {
+        put("%s%.17g", i % (size_t)points.dim ? "," : "\n", points.xs[i]);
+    }
+    put("\n");
     return finish();
 }
 

@@ -63,6 +63,12 @@ export async function openKoksma(module) {
       return { ...made, points: { xs: numbersAt(c.explorer_points(), n * dim), n, dim } };
     },
 
+    // The points as a .csv file of the program's.
+    csv({ points }) {
+      put(points);
+      return { csv: textAt(c.explorer_csv() || fail()) };
+    },
+
     // { value, value_text, witness, .. } of points
     measure({ points, measure }) {
       put(points);

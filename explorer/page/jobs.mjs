@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests to the library, answered by a few workers. A request has a key, as there is one place on the page that shows its
+// answer; a newer one of the same key takes its place. Smaller ranks go first.
+import { openService } from "./service.mjs";
+
+const patience_ms = 150; // a request that is no longer wanted may run on for so long, as starting a worker costs, too
+
+export class Jobs {
+  // limit_s: how long an answer may take.
+  constructor(module, workerScript, limit_s) {
+    Object.assign(this, { module, limit_s, waiting: new Map(), places: [], shown: new Map(), serial: 0, inPage: false });
+    try {
+      this.url = URL.createObjectURL(new Blob([workerScript], { type: "text/javascript" }));
+      const count = Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4);
+      for (let i = 0; i < count; i++) this.places.push(this.open({}));
+    } catch {
+      this.inPage = true; // the page says so
+      this.places = [{ service: openService(module) }];
+    }
+  }
+
+  open(place) {
+    place.worker = new Worker(this.url);
+    place.worker.postMessage(this.module);
+    place.worker.onmessage = ({ data }) => this.answer(place, data);
+    place.worker.onerror = event => this.answer(place, { error: event.message || "the worker failed" });
+    place.job = null;
+    return place;
+  }
+
+  // done(answer) is called once, unless the request is replaced or dropped before.
+  ask(key, rank, request, done) {
+    for (const place of this.places) {
+      if (place.job?.key === key) place.job.stale = true;
+    }
+    this.waiting.set(key, { key, rank, request, done: this.inOrder(key, done) });
+    this.dropStale();
+    this.next();
+  }
+
+  // An answer that comes after that to a newer request of its key is not shown.
+  inOrder(key, done) {
+    const serial = ++this.serial;
+    return answer => {
+      if (serial < (this.shown.get(key) || 0)) return;
+      this.shown.set(key, serial);
+      done(answer);
+    };
+  }
+
+  // No more answers for keys that begin like this.
+  drop(prefix) {
+    for (const key of [...this.waiting.keys()]) if (key.startsWith(prefix)) this.waiting.delete(key);
+    for (const place of this.places) if (place.job?.key.startsWith(prefix)) place.job.stale = place.job.unwanted = true;
+    this.dropStale();
+  }
+
+  get busy() {
+    return this.waiting.size > 0 || this.places.some(place => place.job && !place.job.unwanted);
+  }
+
+  // Stops what runs for nobody, now or when its time is over.
+  dropStale() {
+    for (const place of this.places) {
+      if (!place.worker || !place.job?.stale || place.job.timer) continue;
+      const job = place.job;
+      job.timer = setTimeout(() => { if (place.job === job) this.restart(place); },
+        Math.max(0, patience_ms - (performance.now() - job.started)));
+    }
+  }
+
+  restart(place) {
+    place.worker.terminate();
+    this.open(place);
+    this.next();
+  }
+
+  next() {
+    for (const place of this.places) {
+      if (place.job || this.waiting.size === 0) continue;
+      const job = [...this.waiting.values()].reduce((a, b) => b.rank < a.rank ? b : a);
+      this.waiting.delete(job.key);
+      place.job = job;
+      job.started = performance.now();
+      if (place.worker) {
+        job.limit = setTimeout(() => {
+          if (place.job !== job) return;
+          if (!job.unwanted) job.done({ error: `stopped after ${this.limit_s} seconds`, stopped: true });
+          this.restart(place);
+        }, this.limit_s * 1000);
+        place.worker.postMessage(job.request);
+      } else {
+        setTimeout(async () => this.answer(place, await (await place.service)(job.request)), 0);
+      }
+    }
+  }
+
+  answer(place, data) {
+    const job = place.job;
+    place.job = null;
+    if (job) {
+      clearTimeout(job.limit);
+      clearTimeout(job.timer);
+      if (!job.unwanted) job.done(data);
+    }
+    this.next();
+  }
+}

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page: its state, who is asked for what when it changes, and where the answers go.
+import { byId, element } from "./dom.mjs";
+import { Decay } from "./decay.mjs";
+import { commands, save, svgFile } from "./export.mjs";
+import { Jobs } from "./jobs.mjs";
+import { Measures } from "./measures.mjs";
+import { SetView } from "./set_view.mjs";
+import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
+import { fromHash, limits, newSet, sourceOf, toHash } from "./state.mjs";
+import { exponent, strataOf } from "./strata.mjs";
+
+const ranks = { points: 0, spectrum: 12, quality: 25, decay: 30 };
+const names = ["a", "b"];
+let state = fromHash(location.hash), tables, jobs, measures, decay, hashTimer = 0;
+const views = {}, spectra = {}, frames = new Set();
+
+const shownNames = () => names.filter(name => state[name]);
+const axesOf = set => set.dim === 1 ? [0, 0] : state.axes.map(k => Math.min(k, set.dim - 1));
+const titleOf = name => {
+  const set = state[name], moved = set.edits.size ? `, ${set.edits.size} moved` : "";
+  return `${sourceOf(set)} seed ${set.seed}${moved}`;
+};
+const fileOf = name => `koksma-${name}.csv`;
+
+// Draws once a frame, however often it is asked for.
+function soon(what) {
+  if (frames.has(what)) return;
+  frames.add(what);
+  requestAnimationFrame(() => {
+    frames.delete(what);
+    what();
+  });
+}
+
+// ---- What is shown
+
+function drawSets() {
+  for (const name of shownNames()) {
+    const set = state[name], view = views[name];
+    const witness = measures.witness(state.witness, name);
+    view.plane.draw({
+      points: view.points, axes: axesOf(set), strata: state.strata, witness,
+      title: `Set ${view.label}: ${titleOf(name)}${witness ? `, with the witness of ${state.witness}` : ""}`,
+    });
+    view.sentence.textContent = view.points && state.witness ? measures.sentence(state.witness, name, view.points.n) : "";
+    view.showPoint();
+    view.lines.textContent = commandLines(name);
+  }
+}
+
+function drawSpectra() {
+  byId("radial").replaceChildren(radialChart(shownNames().map(name => spectra[name])));
+}
+
+function commandLines(name) {
+  const set = state[name], view = views[name];
+  if (!view.points) return "";
+  const layout = strataOf(state.strata, set.n, limits);
+  const asked = measures.values(name).map(value => value.measure);
+  return commands({
+    set, file: fileOf(name), measures: asked, witness: measures.witness(state.witness, name) ? measures.spec(state.witness) : "",
+    strata: state.strata, layout: layout && !layout.rooks ? layout : null,
+    decay: { spec: measures.spec(state.decay.measure), of: state.decay.of }, sizes: decay.sizes(name),
+  }).join("\n");
+}
+
+function showStrataControls() {
+  const { kind, columns, rows, base, split } = state.strata;
+  byId("strata").value = kind;
+  for (const node of document.querySelectorAll("[data-strata]")) node.hidden = node.dataset.strata !== kind;
+  Object.assign(byId("columns"), { value: columns || "" });
+  Object.assign(byId("rows"), { value: rows || "" });
+  byId("base").value = base;
+  const most = Math.max(...shownNames().map(name => exponent(state[name].n, base)));
+  byId("split").max = most;
+  byId("split").value = Math.min(split, most);
+  byId("split-text").textContent = `${base ** Math.min(split, most)} columns`;
+}
+
+function showAxes() {
+  const dims = Math.max(...shownNames().map(name => state[name].dim));
+  byId("axes").hidden = dims < 3;
+  ["across", "upwards"].forEach((id, k) => {
+    byId(id).replaceChildren(...Array.from({ length: dims }, (_, i) => element("option", { value: i }, String(i))));
+    byId(id).value = Math.min(state.axes[k], dims - 1);
+  });
+}
+
+function keepHash() {
+  clearTimeout(hashTimer);
+  hashTimer = setTimeout(() => history.replaceState(null, "", "#" + toHash(state)), 150);
+}
+
+// ---- What is asked for
+
+function measureAll(name) {
+  const set = state[name], points = views[name].points;
+  measures.wait(name);
+  for (const measure of measures.rows.keys()) measureOne(name, measure);
+  const reason = Spectrum.reason(set);
+  if (reason) {
+    jobs.drop(`${name}/spectrum`);
+    spectra[name].say(reason);
+    soon(drawSpectra);
+    return;
+  }
+  const ask = (key, rank, half, done) =>
+    jobs.ask(`${name}/spectrum/${key}`, rank, { kind: "spectrum", points, half, axes: axesOf(set) }, done);
+  ask("power", ranks.spectrum, halfOf(set.n), answer => {
+    spectra[name].show(titleOf(name), answer);
+    soon(drawSpectra);
+    ask("quality", ranks.quality, halfOfQuality(set.n), rest => spectra[name].showQuality(rest));
+  });
+}
+
+function measureOne(name, measure) {
+  const key = `${name}/measure/${measure}`, { min_dim, max_dim } = measures.rows.get(measure).member;
+  if (!measures.serves(measure, state[name].dim)) {
+    jobs.drop(key);
+    measures.show(measure, name, { error: min_dim === max_dim ? `takes ${min_dim} dimensions` : `takes ${min_dim} to ${max_dim} dimensions` });
+    return;
+  }
+  const request = { kind: "measure", points: views[name].points, measure: measures.spec(measure) };
+  jobs.ask(key, measures.rank(measure, state.witness), request, answer => {
+    measures.show(measure, name, answer);
+    soon(drawSets);
+  });
+}
+
+// A set has another pattern, number, seed: everything anew.
+function refresh(name) {
+  const { spec, n, dim, seed } = state[name], view = views[name];
+  jobs.drop(`${name}/`);
+  view.node.setAttribute("aria-busy", "true");
+  jobs.ask(`${name}/points`, ranks.points, { kind: "generate", spec, n, dim, seed: BigInt(seed) }, answer => {
+    view.node.removeAttribute("aria-busy");
+    view.fail(answer.error || "");
+    view.points = answer.points || null;
+    view.original = answer.points ? answer.points.xs.slice() : null;
+    if (answer.error) {
+      measures.clear(name);
+      spectra[name].say("");
+      decay.forget(name);
+      soon(drawSpectra);
+    } else {
+      for (const [i, xs] of state[name].edits) view.points.xs.set(xs, i * dim);
+      measureAll(name);
+      decay.ask(name);
+    }
+    soon(drawSets);
+  });
+  showStrataControls();
+  showAxes();
+  keepHash();
+}
+
+function moved(name, i, place) {
+  const set = state[name], { points } = views[name], at = i * points.dim;
+  axesOf(set).slice(0, Math.min(points.dim, 2)).forEach((axis, k) => { points.xs[at + axis] = place[k]; });
+  set.edits.set(i, [...points.xs.subarray(at, at + points.dim)]);
+  soon(drawSets);
+  soon(views[name].remeasure);
+  keepHash();
+}
+
+function unmoved(name) {
+  state[name].edits.clear();
+  views[name].points.xs.set(views[name].original);
+  views[name].remeasure();
+  soon(drawSets);
+  keepHash();
+}
+
+// ---- Wiring
+
+function openSet(name) {
+  const view = views[name] = new SetView(name, tables.patterns.filter(p => !p.takes_path && !p.alias_of), tables.references, {
+    changed: () => refresh(name),
+    moved: (i, place) => moved(name, i, place),
+    unmoved: () => unmoved(name),
+    saveSvg: () => save(fileOf(name).replace("csv", "svg"), "image/svg+xml", svgFile(view.plane.node, titleOf(name))),
+    saveCsv: () => jobs.ask(`${name}/csv`, 0, { kind: "csv", points: view.points }, answer => {
+      if (answer.error) tell(answer.error);
+      else save(fileOf(name), "text/csv", answer.csv);
+    }),
+    copy: text => navigator.clipboard.writeText(text).then(() => tell("Copied."), () => tell("The browser does not let this page copy; the commands can be selected.")),
+    removed: name === "b" ? () => setOther(null) : null,
+  });
+  view.points = null;
+  view.remeasure = () => {
+    if (!view.points || !state[name]) return;
+    measureAll(name);
+    if (state.decay.of === "prefixes") decay.ask(name);
+  };
+  spectra[name] = new Spectrum(name, view.label);
+  byId("sets").append(view.node);
+  byId("spectra").append(spectra[name].node);
+}
+
+function tell(text) {
+  byId("told").textContent = text;
+}
+
+function setOther(set) {
+  state.b = set;
+  showAll();
+}
+
+// The whole state, after the address or the number of sets changed.
+function showAll() {
+  document.body.classList.toggle("single", !state.b);
+  byId("compare").hidden = !!state.b;
+  for (const name of names) {
+    views[name].node.hidden = spectra[name].node.hidden = !state[name];
+    if (state[name]) {
+      views[name].show(state[name]);
+      refresh(name);
+    } else {
+      jobs.drop(`${name}/`);
+      views[name].points = null;
+      measures.clear(name);
+      spectra[name].say("");
+      decay.forget(name);
+    }
+  }
+  for (const row of measures.rows.values()) row.radio.checked = row.member.name === state.witness;
+  byId("witness-none").checked = !state.witness;
+  byId("decay-measure").value = state.decay.measure;
+  byId("decay-of").value = state.decay.of;
+  soon(drawSpectra);
+  keepHash();
+}
+
+function wire() {
+  byId("compare").onclick = () => {
+    setOther({ ...newSet(state.a.spec === "sobol" ? "jittered" : "sobol"), n: state.a.n });
+    views.b.pattern.focus();
+  };
+  byId("strata").onchange = event => { state.strata.kind = event.target.value; shownStrata(); };
+  const whole = (id, key) => {
+    byId(id).onchange = byId(id).oninput = event => {
+      if (!event.target.checkValidity()) return void event.target.reportValidity();
+      state.strata[key] = +event.target.value;
+      shownStrata();
+    };
+  };
+  const shownStrata = () => { showStrataControls(); soon(drawSets); keepHash(); };
+  whole("columns", "columns");
+  whole("rows", "rows");
+  whole("base", "base");
+  whole("split", "split");
+  ["across", "upwards"].forEach((id, k) => {
+    byId(id).onchange = event => {
+      state.axes[k] = +event.target.value;
+      for (const name of shownNames()) views[name].remeasure();
+      soon(drawSets);
+      keepHash();
+    };
+  });
+  byId("witness-none").onchange = () => { state.witness = ""; soon(drawSets); keepHash(); };
+  byId("decay-measure").onchange = event => { state.decay.measure = event.target.value; decay.askAll(); keepHash(); };
+  byId("decay-of").onchange = event => { state.decay.of = event.target.value; decay.askAll(); keepHash(); };
+  addEventListener("hashchange", () => {
+    if (location.hash.slice(1) === toHash(state)) return;
+    state = fromHash(location.hash);
+    takeMeasures();
+    showAll();
+  });
+}
+
+// The parameters of measures that the address has; those of names that are unknown are left out.
+function takeMeasures() {
+  for (const name of Object.keys(state.measures)) if (!measures.rows.has(name)) delete state.measures[name];
+  if (state.witness && !measures.rows.has(state.witness)) state.witness = "star";
+  if (!measures.rows.has(state.decay.measure)) state.decay.measure = "l2-star";
+  for (const [name, row] of measures.rows) row.setSpec(state.measures[name] || name);
+}
+
+async function start() {
+  const bytes = Uint8Array.from(atob(byId("wasm").textContent.trim()), c => c.charCodeAt(0));
+  jobs = new Jobs(await WebAssembly.compile(bytes), byId("worker").textContent, limits.answer_s);
+  byId("in-page").hidden = !jobs.inPage;
+  tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done));
+  if (tables.error) throw new Error(tables.error);
+  tables.references = JSON.parse(byId("references").textContent);
+  measures = new Measures(byId("measures"), tables.measures, name => {
+    state.witness = name;
+    soon(drawSets);
+    keepHash();
+  }, (name, spec) => {
+    if (spec === name) delete state.measures[name];
+    else state.measures[name] = spec;
+    for (const which of shownNames()) if (views[which].points) measureOne(which, name);
+    if (name === state.decay.measure) decay.askAll();
+    keepHash();
+  });
+  measures.spec = name => state.measures[name] || name;
+  decay = new Decay(jobs, ranks.decay, () => state, name => views[name].points, measures.spec, () => soon(drawSets));
+  names.forEach(openSet);
+  byId("decay-measure").replaceChildren(...tables.measures.map(m => element("option", { value: m.name }, m.name)));
+  byId("version").textContent = tables.version;
+  takeMeasures();
+  wire();
+  showAll();
+  document.body.classList.remove("starting");
+}
+
+// The tests wait for this.
+globalThis.koksmaExplorer = { busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state) };
+
+start().catch(error => {
+  document.body.classList.remove("starting");
+  tell(`The explorer could not start: ${error.message}`);
+});
