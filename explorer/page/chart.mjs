@@ -2,7 +2,10 @@
 // A chart of lines, axes linear or logarithmic.
 import { svg, short } from "./dom.mjs";
 
-const width = 560, height = 300, left = 64, right = 14, top = 14, bottom = 42;
+const height = 300, left = 64, right = 14, top = 14, bottom = 42;
+
+// As wide as the place that it is for, so that its letters have their size.
+const widthOf = place => Math.min(Math.max(place.clientWidth, 280), 736);
 
 // Round places in [low, high] for marks: 1, 2, 5 times a power of ten, or those powers alone.
 function marks(low, high, log) {
@@ -20,17 +23,18 @@ function marks(low, high, log) {
   return found;
 }
 
-// curves: [{ className, points: [[x, y], ..], dots, guide }]; guides do not count for the range.
-export function chart({ title, xLabel, yLabel, log, curves, level, from = Infinity }) {
+// Draws into a place of the page. curves: [{ className, points: [[x, y], ..], dots, guide }]; guides do not count for the range.
+export function chart(place, { title, xLabel, yLabel, log, curves, level }) {
+  const width = widthOf(place);
   const usable = ([x, y]) => Number.isFinite(x) && Number.isFinite(y) && (!log || (x > 0 && y > 0));
   const counted = curves.filter(c => !c.guide).flatMap(c => c.points.filter(usable));
   const node = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
-  if (counted.length < 2) return node;
+  place.replaceChildren(node);
+  if (counted.length < 2) return;
   const range = k => [Math.min(...counted.map(p => p[k])), Math.max(...counted.map(p => p[k]))];
   let [x0, x1] = range(0), [y0, y1] = range(1);
   if (log) [y0, y1] = [y0 / 1.3, y1 * 1.3];
   else [y0, y1] = [Math.min(0, y0), Math.max(y1 * 1.05, level || 0)];
-  x0 = Math.min(x0, from);
   if (x1 <= x0) x1 = x0 + 1;
   const scale = (v, a, b) => log ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a);
   const toX = x => +(left + scale(x, x0, x1) * (width - left - right)).toFixed(2);
@@ -57,5 +61,4 @@ export function chart({ title, xLabel, yLabel, log, curves, level, from = Infini
     }
   }
   node.append(inside);
-  return node;
 }

@@ -4,21 +4,21 @@ import { chart } from "./chart.mjs";
 import { byId, element } from "./dom.mjs";
 
 // Sizes that some pattern is at home in: powers of two, squares (of primes, too), Fibonacci numbers, cubes.
-export const sizeFamilies = [
+const sizeFamilies = [
   [...Array(11).keys()].map(m => 2 << m),
   [2, 3, 4, 5, 7, 8, 11, 13, 17, 19, 23, 29, 32, 37, 43].map(s => s * s),
   [5, 8, 13, 21, 34, 55, 89, 144, 233, 377, 610, 987, 1597],
   [2, 3, 4, 5, 7, 8, 9, 11, 12].map(s => s ** 3),
 ];
-export const largest = 2048; // of the sizes
+const largest = 2048; // of the sizes
 
 // The first k points for powers of two and all n.
-export function prefixSizes(n) {
+function prefixSizes(n) {
   return [...sizeFamilies[0].filter(k => k < Math.min(n, largest)), Math.min(n, largest)];
 }
 
 // sets: [{ name, label, samples: [[n, value], ..], line }]
-export function decayChart(measure, sets) {
+function decayChart(place, measure, sets) {
   const curves = [];
   for (const set of sets) {
     const sorted = [...set.samples].sort((p, q) => p[0] - q[0]);
@@ -29,14 +29,14 @@ export function decayChart(measure, sets) {
       curves.push({ className: `guide set-${set.name}`, guide: true, points: [first, [end, first[1] * (end / first[0]) ** slope]] });
     }
   }
-  return chart({
+  chart(place, {
     title: `${measure} against the number of points, logarithmic axes: ${sets.map(s => s.label).join("; ")}`,
     xLabel: "number of points", yLabel: measure, log: true, curves,
   });
 }
 
 // "slope −0.98 ± 0.02; theory −1, .."
-export function lineText(label, line) {
+function lineText(label, line) {
   if (!line || line.slope === null) return `${label}: fewer than three values, no slope`;
   const exponents = [];
   if (line.theory !== null) exponents.push(`theory has ${line.theory_text} for the pattern`);
@@ -106,7 +106,7 @@ export class Decay {
 
   draw() {
     const sets = ["a", "b"].map(name => this.sets[name]).filter(Boolean), { measure } = this.state().decay;
-    byId("decay-chart").replaceChildren(decayChart(this.spec(measure), sets));
+    decayChart(byId("decay-chart"), this.spec(measure), sets);
     byId("decay-text").replaceChildren(...sets.map(set => {
       const label = `${set.name.toUpperCase()}, ${set.label}`;
       const text = set.waiting ? `${label}: ${set.samples.length} values so far` : set.samples.length

@@ -11,7 +11,7 @@ export class Jobs {
     Object.assign(this, { module, limit_s, waiting: new Map(), places: [], shown: new Map(), serial: 0, inPage: false });
     try {
       this.url = URL.createObjectURL(new Blob([workerScript], { type: "text/javascript" }));
-      const count = Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4);
+      const count = Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 2), 4); // two: quick ones pass slow ones
       for (let i = 0; i < count; i++) this.places.push(this.open({}));
     } catch {
       this.inPage = true; // the page says so

@@ -50,7 +50,7 @@ function drawSets() {
 }
 
 function drawSpectra() {
-  byId("radial").replaceChildren(radialChart(shownNames().map(name => spectra[name])));
+  radialChart(byId("radial"), shownNames().map(name => spectra[name]));
 }
 
 function commandLines(name) {
@@ -75,7 +75,7 @@ function showStrataControls() {
   const most = Math.max(...shownNames().map(name => exponent(state[name].n, base)));
   byId("split").max = most;
   byId("split").value = Math.min(split, most);
-  byId("split-text").textContent = `${base ** Math.min(split, most)} columns`;
+  byId("split-text").textContent = `Split: ${base ** Math.min(split, most)} columns`;
 }
 
 function showAxes() {
@@ -261,6 +261,7 @@ function wire() {
   byId("witness-none").onchange = () => { state.witness = ""; soon(drawSets); keepHash(); };
   byId("decay-measure").onchange = event => { state.decay.measure = event.target.value; decay.askAll(); keepHash(); };
   byId("decay-of").onchange = event => { state.decay.of = event.target.value; decay.askAll(); keepHash(); };
+  addEventListener("resize", () => { soon(drawSpectra); decay.draw(); });
   addEventListener("hashchange", () => {
     if (location.hash.slice(1) === toHash(state)) return;
     state = fromHash(location.hash);

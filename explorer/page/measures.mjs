@@ -22,7 +22,8 @@ export class Measures {
       row.params = element("div", { class: "params" });
       const more = member.params.length
         ? element("details", {}, element("summary", { "aria-label": `Parameters of ${member.name}` }, "parameters"), row.params) : null;
-      row.head = element("th", { scope: "row" }, element("div", { class: "name" }, row.radio, row.name), row.what, more);
+      row.head = element("th", { scope: "row" },
+        element("div", {}, element("div", { class: "name" }, row.radio, row.name), row.what, more));
       row.node = element("tr", { "data-measure": member.name }, row.head, row.cells.a, row.cells.b, row.cells.ratio);
       row.setSpec = spec => paramControls(row.params, `measure-${member.name}`, member, spec, s => { row.setSpec(s); changed(member.name, s); });
       row.setSpec(member.name);
@@ -61,6 +62,7 @@ export class Measures {
     const a = row.answers.a?.value, b = row.answers.b?.value;
     row.cells.ratio.textContent = Number.isFinite(a) && Number.isFinite(b) && a !== 0 ? short(b / a) : "";
     const both = Object.values(row.answers).filter(Boolean);
+    row.radio.disabled = both.length > 0 && both.every(x => !x.witness) && !row.radio.checked;
     row.node.classList.toggle("off", both.length > 0 && both.every(x => x.error));
   }
 

@@ -63,9 +63,9 @@ export class Spectrum {
   }
 }
 
-export function radialChart(spectra) {
+export function radialChart(place, spectra) {
   const shown = spectra.filter(s => s.rings);
-  return chart({
+  chart(place, {
     title: `Radial mean of the power: ${shown.map(s => s.canvas.getAttribute("aria-label")).join("; ")}`,
     xLabel: "frequency", yLabel: "mean power", level: 1,
     curves: shown.map(s => ({ className: `line set-${s.name}`, points: s.rings.map(r => [r.frequency, r.power]) })),
