@@ -308,7 +308,9 @@ async function start() {
 }
 
 // The tests wait for this.
-globalThis.koksmaExplorer = { busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state) };
+globalThis.koksmaExplorer = {
+  busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state), limit: seconds => { jobs.limit_s = seconds; },
+};
 
 start().catch(error => {
   document.body.classList.remove("starting");

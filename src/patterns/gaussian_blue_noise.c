@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -40,7 +41,7 @@ typedef struct force {
 static void push(void *context, uint32_t point, double dx, double dy)
 {
     force *f = context;
-    const double s = f->d->s, w = point == f->self ? 0 : exp(-(dx * dx + dy * dy) / (2 * s * s));
+    const double s = f->d->s, w = point == f->self ? 0 : koksma__exp(-(dx * dx + dy * dy) / (2 * s * s));
     f->x -= w * dx;
     f->y -= w * dy;
 }

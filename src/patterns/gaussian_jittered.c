@@ -9,6 +9,7 @@
  */
 #include <math.h>
 
+#include "core/elementary.h"
 #include "core/random.h"
 #include "patterns/parts/cells.h"
 #include "patterns/parts/fill.h"
@@ -17,16 +18,16 @@
 /* t in [-a, a] with erf(t) = p erf(a): Newton's iteration kept inside a bracket that is halved when it strays. */
 static double inverse_erf(double p, double a)
 {
-    const double target = p * erf(a), slope = 1.1283791670955126; /* 2 / sqrt(pi) */
+    const double target = p * koksma__erf(a), slope = 1.1283791670955126; /* 2 / sqrt(pi) */
     double low = -a, high = a, t = fmax(-a, fmin(a, target / slope));
     for (int i = 0; i < 80 && high - low > 1e-16 * a; i++) {
-        const double excess = erf(t) - target;
+        const double excess = koksma__erf(t) - target;
         if (excess > 0) {
             high = t;
         } else {
             low = t;
         }
-        const double next = t - excess / (slope * exp(-t * t));
+        const double next = t - excess / (slope * koksma__exp(-t * t));
         const double last = t;
         t = next > low && next < high ? next : (low + high) / 2;
         if (fabs(t - last) <= 1e-15 * a) {

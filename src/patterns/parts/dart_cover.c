@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -131,7 +132,7 @@ static uint32_t how_many(const uint32_t *table, uint32_t word)
 
 static void poisson_table(double mean, uint32_t *table)
 {
-    double p = exp(-mean), sum = p;
+    double p = koksma__exp(-mean), sum = p;
     for (int k = 0; k < MOST; k++, p *= mean / k, sum += p) {
         table[k] = sum < 1 - 0x1p-33 ? (uint32_t)(sum * 0x1p32) : UINT32_MAX;
     }

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -118,7 +119,7 @@ koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma
     mask m = {.size = size, .n = (size_t)size * (size_t)size};
     for (int v = -REACH; v <= REACH; v++) {
         for (int u = -REACH; u <= REACH; u++) {
-            m.gauss[v + REACH][u + REACH] = exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
+            m.gauss[v + REACH][u + REACH] = koksma__exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
         }
     }
     m.energy = calloc(m.n, sizeof *m.energy);
