@@ -138,6 +138,7 @@ function refresh(name) {
     view.fail(answer.error || "");
     view.points = answer.points || null;
     view.original = answer.points ? answer.points.xs.slice() : null;
+    measures.forget(name);
     if (answer.error) {
       measures.clear(name);
       spectra[name].say("");

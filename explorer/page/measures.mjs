@@ -47,6 +47,11 @@ export class Measures {
     for (const row of this.rows.values()) row.cells[which].classList.add("waiting");
   }
 
+  // The set is another one: what its witnesses were means nothing any more.
+  forget(which) {
+    for (const row of this.rows.values()) row.answers[which] = null;
+  }
+
   clear(which) {
     for (const name of this.rows.keys()) this.show(name, which, null);
   }

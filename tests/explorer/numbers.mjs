@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// numbers.mjs PROGRAM WASM: what the explorer's module gives beside what the program prints. Points are equal to the last bit,
+// errors to the last letter, values to the last digit that the program shows.
+import fs from "node:fs";
+import { execFileSync } from "node:child_process";
+import { openKoksma } from "../../explorer/page/module.mjs";
+import { claimsOf } from "../../explorer/page/specs.mjs";
+
+const [program, wasm] = process.argv.slice(2);
+const koksma = await openKoksma(new WebAssembly.Module(fs.readFileSync(wasm)));
+const problems = [];
+let compared = 0;
+const check = (good, text) => { compared++; if (!good) problems.push(text); };
+
+function run(...words) {
+  try {
+    return { out: execFileSync(program, words.map(String), { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 26 }) };
+  } catch (error) {
+    return { error: error.stderr.trim() };
+  }
+}
+const attempt = call => { try { return call(); } catch (error) { return { error: error.message }; } };
+const rows = text => text.trim().split("\n").slice(1).map(line => line.split(/ {2,}/));
+const jsonLines = text => text.trim().split("\n").map(line => JSON.parse(line));
+
+// The tables: every member, and the words for claims.
+const tables = koksma.tables();
+const listed = kind => jsonLines(run("list", kind, "--json").out);
+check(tables.patterns.map(p => p.name).join() === listed("patterns").map(p => p.pattern).join(), "patterns");
+check(tables.measures.map(m => m.name).join() === listed("measures").map(m => m.measure).join(), "measures");
+listed("patterns").forEach((row, i) => {
+  const words = claimsOf(tables.patterns[i]).map(([word]) => word).join(",") || "-";
+  check(words === row.claims, `${row.pattern} claims ${row.claims}, not ${words}`);
+});
+
+// Points: every pattern, with each of its choices.
+const specs = tables.patterns.filter(p => !p.takes_path && !p.alias_of).flatMap(p => [p.name,
+  ...p.params.flatMap(q => q.choices ? q.choices.slice(1).map(choice => `${p.name}:${q.name}=${choice}`) : [])]);
+specs.push("random:shift=1", "gaussian-jittered:sigma=2", "poisson-disk:d=0.06,torus=1", "sobol:scramble=hash-owen,shuffle=1");
+for (const spec of specs) {
+  for (const [n, dim, seed] of [[16, 2, 7n], [64, 3, 0n], [100, 2, 12345678901234567890n], [55, 2, 1n]]) {
+    const theirs = run("generate", spec, "-n", n, "-d", dim, "--seed", seed, "-q"), what = `${spec} n=${n} dim=${dim} seed=${seed}`;
+    const ours = attempt(() => koksma.generate({ spec, n, dim, seed }));
+    if (theirs.error || ours.error) {
+      check(ours.error && theirs.error?.endsWith(ours.error), `${what}: "${ours.error}", not "${theirs.error}"`);
+      continue;
+    }
+    const xs = theirs.out.split("\n").filter(line => line && line[0] !== "#").flatMap(line => line.split(" ").map(Number));
+    check(xs.length === n * dim && xs.every((x, i) => Object.is(x, ours.points.xs[i])), `${what}: other points`);
+  }
+}
+
+// Measures with their witnesses, and spectra.
+for (const [spec, n, dim, seed] of [["random", 16, 2, 3n], ["sobol", 64, 2, 0n], ["n-rooks", 100, 2, 5n], ["fibonacci", 55, 2, 0n],
+  ["regular", 16, 2, 0n], ["random", 1, 2, 0n], ["jittered", 27, 3, 2n], ["halton", 20, 4, 0n], ["random", 30, 1, 8n]]) {
+  const { points } = koksma.generate({ spec, n, dim, seed }), source = `pattern:${spec}@${n}@${dim}`, args = [source, "--seed", seed];
+  const texts = rows(run("measure", ...args, "-m", "all").out), records = jsonLines(run("measure", ...args, "-m", "all", "--json").out);
+  const served = new Set(records.map(r => r.measure));
+  for (const measure of tables.measures) {
+    if (!served.has(measure.name)) check(attempt(() => koksma.measure({ points, measure: measure.name })).error, `${source} ${measure.name} is served`);
+  }
+  records.forEach((record, i) => {
+    const ours = koksma.measure({ points, measure: record.measure });
+    check(ours.value_text === texts[i][4], `${source} ${record.measure}: ${ours.value_text}, not ${texts[i][4]}`);
+    check(Math.abs(ours.value - record.value) <= 1e-13 * Math.abs(record.value), `${source} ${record.measure}: ${ours.value}, not ${record.value}`);
+    check(JSON.stringify(ours.witness) === JSON.stringify(record.witness), `${source} ${record.measure}: another witness`);
+  });
+  if (dim !== 2 || n < 2) continue;
+  const { rings } = koksma.spectrum({ points, half: Math.ceil(2 * Math.sqrt(n)), axes: [0, 1] });
+  for (const [i, row] of rows(run("curve", "rings", ...args).out).entries()) {
+    check(Math.abs(rings[i].power - Number(row[3])) <= 1e-8 * (1 + rings[i].power), `${source} ring ${i}: ${rings[i].power}, not ${row[3]}`);
+  }
+}
+const rescaled = koksma.measure({ points: koksma.generate({ spec: "random", n: 40, dim: 2, seed: 1n }).points, measure: "disk:r=0.1" });
+check(rescaled.value_text === rows(run("measure", "pattern:random@40", "--seed", 1, "-m", "disk:r=0.1").out)[0][4], "disk:r=0.1");
+check(attempt(() => koksma.measure({ points: { xs: [0.5, 2], n: 1, dim: 2 }, measure: "star" })).error, "a point outside of the square");
+check(attempt(() => koksma.generate({ spec: "x".repeat(600), n: 4, dim: 2, seed: 0n })).error, "a spec of 600 letters");
+
+problems.forEach(text => console.log(text));
+console.log(`numbers: ${compared} compared, ${problems.length} problems`);
+process.exit(problems.length || compared < 300 ? 1 : 0);

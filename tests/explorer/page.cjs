@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+// page.cjs PROGRAM PAGE [SCREENSHOTS]: the explorer in headless Chromium, every control used, every number beside the program's.
+// Exit code 77: skipped.
+"use strict";
+const fs = require("fs");
+const os = require("os");
+const path = require("path");
+const { execFileSync, execSync } = require("child_process");
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
+let playwright;
+try { playwright = require(require.resolve("playwright-core", { paths: [process.env.KOKSMA_NODE || ".", "."] })); } catch { playwright = null; }
+if (!chromium || !playwright) {
+  console.log("skipped: " + (chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
+  process.exit(77);
+}
+const [program, html, screenshots] = process.argv.slice(2).map(p => fs.realpathSync(p));
+const address = "file://" + html;
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "koksma-explorer-"));
+fs.mkdirSync(path.join(folder, "bin"));
+fs.symlinkSync(program, path.join(folder, "bin/koksma"));
+const problems = [];
+let checks = 0;
+const check = (good, text) => { checks++; if (!good) problems.push(text); };
+const run = (...words) => execFileSync(program, words.map(String), { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], cwd: folder });
+const refusal = (...words) => { try { run(...words); return ""; } catch (error) { return error.stderr.trim(); } };
+const table = text => text.trim().split("\n").slice(1).map(line => line.split(/ {2,}/));
+
+// Text against what is behind it, as WCAG 2.1 counts it; names of pictures and controls; ids.
+const accessibility = () => {
+  const found = [], parse = c => (c.match(/[\d.]+/g) || []).map(Number);
+  const light = ([r, g, b]) => [r, g, b].map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const behind = e => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
+  for (const e of document.querySelectorAll("body *")) {
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) || !e.checkVisibility() || e.disabled) continue;
+    const style = getComputedStyle(e), ink = light(parse(e instanceof SVGElement ? style.fill : style.color)), paper = light(behind(e));
+    const ratio = (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
+    if (ratio < 4.5) found.push(`${e.tagName} "${e.textContent.slice(0, 20)}": contrast ${ratio.toFixed(2)}`);
+  }
+  for (const e of document.querySelectorAll("canvas, img, body > svg, :not(svg, g) > svg")) if (!e.getAttribute("aria-label") && !e.alt) found.push(`${e.outerHTML.slice(0, 60)}: no name`);
+  for (const e of document.querySelectorAll("input, select, button, textarea")) if (!e.labels?.length && !e.textContent.trim()) found.push(`${e.outerHTML.slice(0, 60)}: no label`);
+  const ids = [...document.querySelectorAll("[id]")].map(e => e.id);
+  ids.filter((id, i) => ids.indexOf(id) !== i).forEach(id => found.push(`id ${id} twice`));
+  for (const e of document.querySelectorAll("[aria-labelledby], [aria-describedby]")) {
+    for (const id of `${e.getAttribute("aria-labelledby") || ""} ${e.getAttribute("aria-describedby") || ""}`.trim().split(" ")) if (!document.getElementById(id)) found.push(`no id ${id}`);
+  }
+  if (document.documentElement.scrollWidth > innerWidth) found.push(`the page is ${document.documentElement.scrollWidth} wide, the window ${innerWidth}`);
+  if (!document.documentElement.lang || !document.title || document.querySelectorAll("h1").length !== 1) found.push("language, title or h1");
+  return [...new Set(found)];
+};
+
+async function open(browser, { hash = "", colorScheme = "light", width = 1280, before } = {}) {
+  const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, acceptDownloads: true });
+  const page = await context.newPage();
+  page.on("console", m => check(!["error", "warning"].includes(m.type()), "console: " + m.text()));
+  page.on("pageerror", e => check(false, "error: " + e.stack));
+  page.on("request", r => check(/^(file|data|blob):/.test(r.url()), "network: " + r.url()));
+  if (before) await page.addInitScript(before);
+  await page.goto(address + hash);
+  await idle(page);
+  return page;
+}
+const idle = page => page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy(), null, { timeout: 60000 });
+const set = async (page, selector, value) => {
+  await page.locator(selector).fill(String(value));
+  await page.locator(selector).press("Tab");
+  await idle(page);
+};
+const choose = async (page, selector, value) => { await page.locator(selector).selectOption(value); await idle(page); };
+const values = (page, which) => page.evaluate(column => Object.fromEntries([...document.querySelectorAll("#measures tr")].map(row => {
+  const cell = row.cells[column];
+  return [row.dataset.measure, cell.querySelector(".why") ? { why: cell.textContent } : cell.textContent];
+})), which === "b" ? 2 : 1);
+const saved = async (page, which, button) => {
+  const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`.set-${which} button`, { hasText: button }).click()]);
+  await file.saveAs(path.join(folder, file.suggestedFilename()));
+  return path.join(folder, file.suggestedFilename());
+};
+const commandLines = async (page, which) => (await page.locator(`#${which}-commands`).textContent()).split("\n");
+const shell = line => execSync(line, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, PATH: `${folder}/bin:${process.env.PATH}` } });
+
+// All values of a set of the page, beside the program's for source.
+async function compare(page, which, source, ...args) {
+  const ours = await values(page, which), theirs = table(run("measure", source, "-m", "all", ...args));
+  for (const row of theirs) check(ours[row[3].split(":")[0]] === row[4], `${source} ${row[3]}: page ${JSON.stringify(ours[row[3]])}, program ${row[4]}`);
+  const served = theirs.map(row => row[3]);
+  for (const [name, value] of Object.entries(ours)) if (!served.includes(name)) check(value.why, `${source} ${name}: the program doesn't serve it, the page says ${value}`);
+  return ours;
+}
+
+async function controls(page) {
+  check((await page.locator("#a-pattern").inputValue()) === "n-rooks", "the pattern at the start");
+  await compare(page, "a", "pattern:n-rooks@16");
+  await choose(page, "#a-pattern", "poisson-disk");
+  await set(page, "#a-n", 20);
+  await set(page, "#a-param-d", 0.12);
+  await page.locator("#a-param-torus").check();
+  await set(page, "#a-seed", "12345678901234567890");
+  await compare(page, "a", "pattern:poisson-disk:d=0.12,torus=1@20", "--seed", "12345678901234567890");
+  check((await page.locator(".set-a .cites").textContent()).includes("Stochastic Sampling"), "the source is not cited");
+  check((await page.locator(".set-a .claims").textContent()).includes("min-distance"), "the claims are not shown");
+  await page.locator(".set-a button", { hasText: "Next" }).click();
+  await idle(page);
+  check((await page.locator("#a-seed").inputValue()) === "12345678901234567891", "the next seed");
+  await choose(page, "#a-pattern", "sobol");
+  await set(page, "#a-n", 64);
+  await choose(page, "#a-param-scramble", "owen");
+  await page.locator("#a-param-shift").check();
+  await set(page, "#a-seed", 3);
+  await compare(page, "a", "pattern:sobol:scramble=owen,shift=1@64", "--seed", 3);
+  // What the library refuses is said in its words, and nothing of another set stays.
+  await choose(page, "#a-pattern", "jittered");
+  await set(page, "#a-n", 17);
+  const words = refusal("generate", "jittered", "-n", 17), said = await page.locator(".set-a .problem").textContent();
+  check(said && words.endsWith(said), `17 jittered points: "${said}", the program "${words}"`);
+  check(!Object.values(await values(page, "a")).some(v => v), "values of no points");
+  // What the page refuses leaves the set as it is.
+  await page.locator("#a-n").fill("20000");
+  await page.locator("#a-n").press("Tab");
+  check((await page.evaluate(() => koksmaExplorer.hash())).includes("a=jittered@17"), "20,000 points are taken");
+  await set(page, "#a-n", 16);
+  check(!(await page.locator(".set-a .problem").textContent()), "the problem stays");
+  // Three dimensions.
+  await choose(page, "#a-pattern", "halton");
+  await set(page, "#a-dim", 3);
+  await compare(page, "a", "pattern:halton@16@3", "--seed", 3);
+  await choose(page, "#upwards", "2");
+  check((await page.evaluate(() => koksmaExplorer.hash())).includes("axes=0,2"), "the axes are not in the address");
+  await set(page, "#a-dim", 1);
+  await compare(page, "a", "pattern:halton@16@1", "--seed", 3);
+}
+
+async function strataAndWitness(page) {
+  await page.goto(address + "#a=sobol@16&strata=grid:4x4");
+  await page.reload();
+  await idle(page);
+  const text = () => page.locator(".set-a .strata-text").textContent();
+  check((await text()) === "16 of 16 cells of 4 × 4 hold one point", "strata: " + await text());
+  await set(page, "#columns", 2);
+  await set(page, "#rows", 3);
+  check((await text()) === "2 × 3 cells for 16 points", "strata: " + await text());
+  await choose(page, "#strata", "elementary");
+  for (let split = 0; split <= 4; split++) {
+    await page.locator("#split").fill(String(split));
+    await idle(page);
+    check((await text()) === `16 of 16 cells of ${2 ** split} × ${16 / 2 ** split} hold one point`, "elementary intervals: " + await text());
+  }
+  await choose(page, "#strata", "rooks");
+  check((await text()) === "32 of 32 columns and rows hold one point", "rooks: " + await text());
+  await set(page, "#a-n", 15);
+  await choose(page, "#strata", "grid");
+  await set(page, "#columns", "");
+  await set(page, "#rows", "");
+  check(/ of 15 cells of 5 × 3 /.test(await text()), "strata: " + await text());
+  // The witness in the picture is where the program has it.
+  const side = 400;
+  for (const [measure, shape] of [["star", "rect"], ["extreme", "rect"], ["edge", "polygon"], ["disk", "circle"]]) {
+    await page.locator(`#witness-${measure}`).check();
+    await idle(page);
+    const { witness } = JSON.parse(run("measure", "pattern:sobol@15", "-m", measure, "--json"));
+    const drawn = await page.locator(`.set-a svg.plane ${shape}.witness`).evaluateAll(nodes =>
+      nodes.map(n => Object.fromEntries(["x", "y", "width", "height", "cx", "cy", "r", "points"].map(k => [k, n.getAttribute(k)]))));
+    const near = (a, b) => Math.abs(a - b) < 0.01;
+    if (shape === "rect") {
+      const d = drawn[0];
+      check(near(d.x, side * witness.lo[0]) && near(d.width, side * (witness.hi[0] - witness.lo[0])) &&
+        near(d.y, side * (1 - witness.hi[1])) && near(d.height, side * (witness.hi[1] - witness.lo[1])), `${measure}: the box is elsewhere`);
+    } else if (shape === "circle") {
+      check(drawn.length === 9 && drawn.some(d => near(d.cx, side * witness.lo[0]) && near(d.cy, side * (1 - witness.lo[1])) && near(d.r, side * witness.hi[0])), "the disk is elsewhere");
+    } else {
+      // The area of the polygon is the half-plane's in the square.
+      const corners = drawn[0].points.split(" ").map(p => p.split(",").map(Number));
+      const area = Math.abs(corners.reduce((sum, [x, y], i) => { const [u, v] = corners[(i + 1) % corners.length]; return sum + x * v - u * y; }, 0)) / 2 / side ** 2;
+      check(Math.abs(area - witness.volume) < 1e-4, `edge: a polygon of area ${area}, the witness has ${witness.volume}`);
+    }
+    const sentence = await page.locator(".set-a .sentence").textContent();
+    check(sentence.includes(`${witness.count} of 15 points in the ${witness.closed ? "closed" : "open"} ${witness.kind}`), `${measure}: ${sentence}`);
+  }
+  await page.locator("#witness-none").check();
+  await idle(page);
+  check(await page.locator("svg.plane .witness").count() === 0, "a witness that was not asked for");
+  // A measure with another parameter.
+  await page.locator('[data-measure="disk"] summary').click();
+  await set(page, "#measure-disk-r", 0.1);
+  check((await values(page, "a")).disk === table(run("measure", "pattern:sobol@15", "-m", "disk:r=0.1"))[0][4], "disk:r=0.1");
+}
+
+async function moving(page) {
+  await page.goto(address + "#a=n-rooks@16&a.seed=7&strata=rooks&decay=l2-star:prefixes");
+  await page.reload();
+  await idle(page);
+  const before = await compare(page, "a", "pattern:n-rooks@16", "--seed", 7);
+  const untouched = await saved(page, "a", "Save CSV");
+  run("generate", "n-rooks", "-n", 16, "--seed", 7, "-o", "theirs.csv");
+  check(fs.readFileSync(untouched).equals(fs.readFileSync(path.join(folder, "theirs.csv"))), "the saved points are other bytes than the program's");
+  const points = fs.readFileSync(untouched, "utf8").trim().split("\n").slice(1).map(line => line.split(",").map(Number));
+  await page.locator(".set-a svg.plane").scrollIntoViewIfNeeded();
+  const box = await page.locator(".set-a svg.plane").boundingBox(), scale = box.width / 420;
+  const at = ([x, y]) => [box.x + (10 + x * 400) * scale, box.y + (10 + (1 - y) * 400) * scale];
+  await page.mouse.move(...at(points[4]));
+  await page.mouse.down();
+  for (let i = 1; i <= 10; i++) await page.mouse.move(...at([points[4][0] + (0.05 - points[4][0]) * i / 10, points[4][1] + (0.1 - points[4][1]) * i / 10]));
+  check((await page.locator("#a-point").inputValue()) === "5", "the point that is dragged is not the one under the pointer");
+  await page.mouse.up();
+  await idle(page);
+  const csv = await saved(page, "a", "Save CSV");
+  const moved = fs.readFileSync(csv, "utf8").trim().split("\n").slice(1).map(line => line.split(",").map(Number));
+  check(moved.every((p, i) => i === 4 ? Math.abs(p[0] - 0.05) < 0.01 && Math.abs(p[1] - 0.1) < 0.01 : p.join() === points[i].join()), "other points were moved");
+  const after = await compare(page, "a", csv);
+  check(after.star !== before.star, "the star discrepancy did not change");
+  // The commands of a set with moved points are of its file; all run, and the last gives the slope that the page shows.
+  const lines = await commandLines(page, "a");
+  check(lines.length === 4 && lines.every(line => line.includes("koksma-a.csv")), "commands: " + lines);
+  lines.slice(0, 3).forEach(shell);
+  const slope = table(shell(lines[3])).find(row => row[3].startsWith("slope"));
+  check((await page.locator("#decay-text").textContent()).includes(`slope ${slope[4]} (± `), `the slope ${slope[4]} is not on the page`);
+  // Its address gives the same again.
+  await page.waitForTimeout(300);
+  const again = await open(page.context().browser(), { hash: "#" + await page.evaluate(() => koksmaExplorer.hash()) });
+  check(JSON.stringify(await values(again, "a")) === JSON.stringify(after), "the address does not bring the moved point back");
+  await again.context().close();
+  // By keyboard, and by numbers.
+  await page.locator(".set-a svg.plane").focus();
+  await page.keyboard.press("Escape");
+  for (const key of ["n", "n", "p", "ArrowRight", "Shift+ArrowUp"]) await page.keyboard.press(key);
+  await idle(page);
+  const places = await Promise.all(["#a-point", "#a-x", "#a-y"].map(id => page.locator(id).inputValue().then(Number)));
+  check(places[0] === 1 && Math.abs(places[1] - points[0][0] - 0.01) < 1e-6 && Math.abs(places[2] - Math.min(points[0][1] + 0.1, 1)) < 1e-6, "keys: " + places);
+  await set(page, "#a-point", 2);
+  await set(page, "#a-x", 0.5);
+  await set(page, "#a-y", 0.25);
+  await compare(page, "a", await saved(page, "a", "Save CSV"));
+  check(fs.readFileSync(csv, "utf8").split("\n")[2] === "0.5,0.25", "the place that was typed in");
+  await page.locator(".set-a button", { hasText: "Undo moves" }).click();
+  await idle(page);
+  check(JSON.stringify(await values(page, "a")) === JSON.stringify(before), "undo does not bring the values back");
+}
+
+async function comparing(page) {
+  await page.goto(address + "#a=jittered@64&a.seed=2");
+  await page.reload();
+  await idle(page);
+  await page.locator("#compare").click();
+  await idle(page);
+  await choose(page, "#b-pattern", "dart-throwing");
+  await set(page, "#b-seed", 9);
+  const a = await compare(page, "a", "pattern:jittered@64", "--seed", 2), b = await compare(page, "b", "pattern:dart-throwing@64", "--seed", 9);
+  const ratio = await page.locator('[data-measure="star"] td').nth(2).textContent();
+  check(Math.abs(ratio - b.star / a.star) < 1e-3 * ratio, `B / A is ${ratio}`);
+  check(await page.locator(".set-b svg.plane .points").count() === 1, "set B is not drawn");
+  for (const which of ["a", "b"]) {
+    const source = which === "a" ? ["pattern:jittered@64", "--seed", 2] : ["pattern:dart-throwing@64", "--seed", 9];
+    const caption = await page.locator("#spectra figcaption").nth(which === "a" ? 0 : 1).textContent();
+    const [, , nyquist, relative, oscillation] = table(run("curve", "quality", ...source))[0];
+    check(caption.includes(`effective Nyquist frequency ${nyquist}; over √n/2 ${relative}` + (oscillation === "-" ? "" : `; oscillation ${oscillation}`)), `quality ${nyquist} ${relative} ${oscillation}; the page: ${caption}`);
+    (await commandLines(page, which)).forEach(line => { try { shell(line); } catch (error) { check(false, `${line}: ${error.stderr}`); } });
+    const svg = fs.readFileSync(await saved(page, which, "Save SVG"), "utf8");
+    const parts = await page.evaluate(text => {
+      const root = new DOMParser().parseFromString(text, "image/svg+xml");
+      const dots = root.querySelector("path[stroke-linecap=round]");
+      return { broken: !!root.querySelector("parsererror"), dots: (dots?.getAttribute("d").match(/M/g) || []).length, title: root.querySelector("title")?.textContent, stroke: dots?.getAttribute("stroke") };
+    }, svg);
+    check(!parts.broken && parts.dots === 64 && parts.title.includes("@64") && /^rgb/.test(parts.stroke), "the saved SVG: " + JSON.stringify(parts));
+  }
+  await page.locator('[data-measure="star"] input').check();
+  await choose(page, "#decay-measure", "star");
+  check(/A, jittered: slope -?[\d.]+ .*B, dart-throwing: slope -?[\d.]+/s.test(await page.locator("#decay-text").innerText()), "slopes: " + await page.locator("#decay-text").innerText());
+  check(await page.locator("#decay-chart .dots").count() === 2, "two curves are not drawn");
+  await page.locator(".set-b button", { hasText: "Remove" }).click();
+  await idle(page);
+  check(!(await page.evaluate(() => koksmaExplorer.hash())).includes("&b="), "set B is not removed");
+}
+
+async function guards(browser) {
+  // Addresses with nonsense open a page that works.
+  for (const hash of ["#a=nonsense@16", "#a=sobol@99999999&strata=elementary:9,99&axes=7,7&witness=none&measures=x:y|disk:r=9", "#%%%", "#a=sobol@16@3&b=sobol@16@2&decay=edge:prefixes"]) {
+    const page = await open(browser, { hash });
+    const a = await values(page, "a");
+    if (hash.includes("nonsense")) check((await page.locator(".set-a .problem").textContent()).includes("nonsense"), "an unknown pattern is not named");
+    else check(typeof a["l2-star"] === "string" && a["l2-star"] !== "", hash + ": no values");
+    await page.context().close();
+  }
+  // What takes longer than the limit is stopped and says so; the rest goes on.
+  const page = await open(browser);
+  await page.evaluate(() => koksmaExplorer.limit(0.3));
+  await page.evaluate(() => { location.hash = "#a=random@512&witness=disk"; });
+  await page.waitForFunction(() => document.querySelector('[data-measure="disk"] td').textContent.includes("stopped after"), null, { timeout: 30000 });
+  await idle(page);
+  check((await values(page, "a"))["l2-star"] === table(run("measure", "pattern:random@512", "-m", "l2-star"))[0][4], "after a stop");
+  await page.context().close();
+  // Without workers the page itself computes, and says so.
+  const alone = await open(browser, { before: () => { delete globalThis.Worker; } });
+  check(await alone.locator("#in-page").isVisible(), "nothing is said about missing workers");
+  await compare(alone, "a", "pattern:n-rooks@16");
+  await alone.context().close();
+}
+
+async function looks(browser) {
+  const hash = "#a=pmj02@64&a.seed=1&b=random@64&b.seed=4&strata=elementary:2,3&witness=edge&decay=star:sets";
+  for (const colorScheme of ["light", "dark"]) {
+    for (const [width, view] of [[1280, hash], [1280, ""], [390, hash]]) {
+      const page = await open(browser, { colorScheme, width, hash: view });
+      await page.locator("details").evaluateAll(nodes => nodes.forEach(n => { n.open = true; }));
+      (await page.evaluate(accessibility)).forEach(text => check(false, `${colorScheme}, ${width}: ${text}`));
+      await page.locator("details").evaluateAll(nodes => nodes.forEach(n => { n.open = false; }));
+      if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-${width}${view ? "-two" : ""}.png`, fullPage: true });
+      await page.context().close();
+    }
+  }
+  // Everything that can be used is reached by Tab.
+  const page = await open(browser);
+  const reached = new Set();
+  for (let i = 0; i < 120; i++) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""));
+  }
+  for (const name of ["strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
+    check(reached.has(name) || [...reached].some(text => text.startsWith(name)), `Tab does not reach ${name}`);
+  }
+  await page.context().close();
+}
+
+(async () => {
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+  try {
+    const page = await open(browser);
+    await controls(page);
+    await strataAndWitness(page);
+    await moving(page);
+    await comparing(page);
+    await page.context().close();
+    await guards(browser);
+    await looks(browser);
+  } catch (error) {
+    check(false, error.stack);
+  }
+  await browser.close();
+  fs.rmSync(folder, { recursive: true });
+  problems.forEach(text => console.log(text));
+  console.log(`page: ${checks} checks, ${problems.length} problems`);
+  process.exit(problems.length ? 1 : 0);
+})();
