@@ -4,6 +4,7 @@
 #   make test      build with sanitizers and with clang, run all tests
 #   make bench     speeds, each beside what it is compared with
 #   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
+#   make explorer  one HTML file for a browser: patterns, measures and their witnesses, live
 #   make deb       Debian packages in build/deb, checked by lintian
 #   make help      this list
 
@@ -11,7 +12,7 @@ PREFIX ?= /usr/local
 DEMO ?= demo
 TRIALS ?=
 
-.PHONY: help demo test bench install deb release clean
+.PHONY: help demo test bench install deb explorer release clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -26,6 +27,7 @@ demo: release
 
 test:
 	@scripts/setup build test
+	@scripts/setup explorer browser || echo "make test: without emcc and Chromium; the tests that want them are skipped" >&2
 	@scripts/test
 
 bench: release
@@ -33,6 +35,10 @@ bench: release
 
 install: release
 	cmake --install build/release
+
+explorer:
+	@scripts/setup explorer
+	@scripts/explorer
 
 deb:
 	@scripts/setup build deb

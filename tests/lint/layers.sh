@@ -33,6 +33,8 @@ rm -f /tmp/koksma-lint.$$
 
 grep -nE '#include "(core|kernels|patterns|warps|measures|image|scene|render|plot|study)/' cli/*.[ch] && complain "cli/ includes include/koksma/ only"
 
+grep -nE '#include "' explorer/*.c && complain "explorer/ includes include/koksma/ only"
+
 # One outside library, one source file.
 only() {
   others=$(grep -rlE "#include <$1" src cli include | grep -vxF "$2")
@@ -51,7 +53,8 @@ only 'kiss' src/measures/parts/fft.c
 only 'Random123' src/core/random.h
 
 # Every source says its licence; no file is long without a reason at its top.
-for file in $(git ls-files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]'); do
+for file in $(git ls-files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]' 'explorer/*.[ch]' \
+                         '*.mjs' '*.cjs'); do
   head -1 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || complain "$file: no SPDX line"
   if [ "$(wc -l <"$file")" -gt 400 ] && ! sed -n 2,12p "$file" | grep -qi 'long because'; then
     complain "$file: over 400 lines without 'Long because ...' at the top"

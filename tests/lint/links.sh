@@ -6,7 +6,7 @@ git ls-files '*.md' | while read -r file; do
   grep -oE '\]\([^)#: ]+\)' "$file" | sed 's/](\(.*\))/\1/' | while read -r link; do
     [ -e "$folder/$link" ] || echo "$file: no file $link"
   done
-  grep -oE '`(docs|src|cli|tests|scripts|examples|fuzz|cmake|include|python|tools|studies|scenes)/[A-Za-z0-9_./-]+`' "$file" | tr -d '`' |
+  grep -oE '`(docs|src|cli|tests|scripts|examples|explorer|fuzz|cmake|include|python|tools|studies|scenes)/[A-Za-z0-9_./-]+`' "$file" | tr -d '`' |
     while read -r path; do
       case $path in *my_* | *my-*) continue ;; esac
       [ -e "$path" ] || echo "$file: no file $path"
