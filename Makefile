@@ -4,6 +4,7 @@
 #   make test      build with sanitizers and with clang, run all tests
 #   make bench     speeds, each beside what it is compared with
 #   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
+#   make docs      a page for every pattern, measure, scene, .. in build/docs, with pictures
 #   make deb       Debian packages in build/deb, checked by lintian
 #   make help      this list
 
@@ -11,7 +12,7 @@ PREFIX ?= /usr/local
 DEMO ?= demo
 TRIALS ?=
 
-.PHONY: help demo test bench install deb release clean
+.PHONY: help demo test bench install docs deb release clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -33,6 +34,9 @@ bench: release
 
 install: release
 	cmake --install build/release
+
+docs: release
+	@tools/make_docs.py build/release/koksma build/docs
 
 deb:
 	@scripts/setup build deb
