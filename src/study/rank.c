@@ -275,7 +275,7 @@ static koksma_status fit_picture(ranking *r)
                  empty_s = fmax(many_s - 64 * pixels * sample_s, 0);
     const double pictures = LEAST_REPLICATES + (1 + FIRST_ROUND) * n;
     const double samples = LEAST_REPLICATES * side * side + (1 + FIRST_ROUND) * n * r->options->spp;
-    while (!status && r->scene.width > 64 && r->scene.height > 48 &&
+    while (!status && r->scene.width >= 128 && r->scene.height >= 96 &&
            pictures * empty_s + samples * sample_s * r->scene.width * r->scene.height > limit_s) {
         r->scene.width /= 2;
         r->scene.height /= 2;
