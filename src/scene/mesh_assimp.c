@@ -174,14 +174,14 @@ static koksma_status look_first(const char *path, koksma__gltf *gltf)
     if (!size) {
         status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
     } else if (strstr(strrchr(path, '.'), ".gl")) {
-        status = koksma__gltf_check(path, bytes, size, gltf);
+        status = koksma__gltf_read(path, bytes, size, gltf);
     }
     free(bytes);
     return status;
 }
 
-/* What assimp makes of a file, which the caller releases; of a glTF file also the rest; and the hash of all bytes that
-   it took. */
+/* What assimp makes of a file, which the caller releases; of a glTF file also the rest; and the hash of all bytes
+   that it took. */
 static koksma_status import(const char *path, koksma__gltf *gltf, const struct aiScene **out, uint64_t *hash)
 {
     struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)hash};
