@@ -5,6 +5,7 @@
 #   make bench     speeds, each beside what it is compared with
 #   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
 #   make explorer  one HTML file for a browser: patterns, measures and their witnesses, live
+#   make docs      a page for every pattern, measure, scene, .. in build/docs, with pictures
 #   make deb       Debian packages in build/deb, checked by lintian
 #   make help      this list
 
@@ -12,7 +13,7 @@ PREFIX ?= /usr/local
 DEMO ?= demo
 TRIALS ?=
 
-.PHONY: help demo test bench install deb explorer release clean
+.PHONY: help demo test bench install docs explorer deb release clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -39,6 +40,9 @@ install: release
 explorer:
 	@scripts/setup explorer
 	@scripts/explorer
+
+docs: release
+	@tools/make_docs.py build/release/koksma build/docs
 
 deb:
 	@scripts/setup build deb

@@ -61,6 +61,8 @@ bool cli_flag(const cli_arguments *arguments, const char *name);
 /* An option as a number in [min, max]; false after an error that names it. */
 bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
                uint64_t *out);
+/* --size WxH; without it both stay as they are. */
+bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
 /* "koksma NAME: text" on stderr; returns the exit code of a wrong command line. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/warp.h>
 
 #include "cli.h"
 
@@ -143,6 +144,65 @@ static void list_adaptive(cli_rows *rows)
     }
 }
 
+static void list_warps(cli_rows *rows)
+{
+    static const char *const domains[] = {"disk", "triangle", "hemisphere", "hemisphere, density z/pi"};
+    const koksma_warp *w;
+    for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
+        cli_row_text(rows, "warp", w->name);
+        cli_row_text(rows, "domain", domains[w->domain]);
+        cli_row_text(rows, "source", w->cite);
+        cli_row_text(rows, "what", w->title);
+        cli_row_end(rows);
+    }
+}
+
+static void put_range(cli_rows *rows, const koksma_param *p)
+{
+    char text[256] = "";
+    if (p->choices) {
+        for (size_t i = 0; p->choices[i]; i++) {
+            const size_t used = strlen(text);
+            snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", p->choices[i]);
+        }
+    } else {
+        snprintf(text, sizeof text, "%g to %g", p->min, p->max);
+    }
+    cli_row_text(rows, "range", text);
+}
+
+static void list_parameters_of(cli_rows *rows, const char *member, const koksma_param *params)
+{
+    for (const koksma_param *p = params; p && p->name; p++) {
+        cli_row_text(rows, "of", member);
+        cli_row_text(rows, "parameter", p->name);
+        if (p->choices) {
+            cli_row_text(rows, "default", p->choices[(int)p->fallback]);
+        } else {
+            cli_row_number(rows, "default", p->fallback);
+        }
+        put_range(rows, p);
+        cli_row_text(rows, "what", p->help);
+        cli_row_end(rows);
+    }
+}
+
+static void list_parameters(cli_rows *rows)
+{
+    const koksma_pattern *p;
+    const koksma_measure *m;
+    const koksma_adaptive *a;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        list_parameters_of(rows, p->name, p->params);
+    }
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        list_parameters_of(rows, m->name, m->params);
+    }
+    for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
+        list_parameters_of(rows, a->name, a->params);
+    }
+}
+
 static void list_uses(cli_rows *rows)
 {
     const koksma_use *u;
@@ -160,7 +220,7 @@ static const struct {
 } lists[] = {
     {"patterns", list_patterns},       {"measures", list_measures}, {"scenes", list_scenes},
     {"integrators", list_integrators}, {"filters", list_filters},   {"uses", list_uses},
-    {"adaptive", list_adaptive},
+    {"adaptive", list_adaptive},       {"warps", list_warps},       {"parameters", list_parameters},
 };
 
 static int run(const cli_arguments *arguments)
@@ -176,8 +236,9 @@ static int run(const cli_arguments *arguments)
     }
     const int code = cli_rows_close(rows);
     if (!code && (!found || arguments->n_operands > 1)) {
-        return cli_usage_error(arguments,
-                               "it takes one of patterns, measures, scenes, integrators, filters, uses, adaptive");
+        return cli_usage_error(
+            arguments,
+            "it takes one of patterns, measures, scenes, integrators, filters, uses, adaptive, warps, parameters");
     }
     return code;
 }
@@ -187,7 +248,7 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures|scenes|integrators|filters|uses|adaptive] [--json]",
+    .synopsis = "[patterns|measures|scenes|integrators|filters|uses|adaptive|warps|parameters] [--json]",
     .options = options,
     .run = run,
 };

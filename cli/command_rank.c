@@ -87,8 +87,8 @@ static void advise(const koksma_rank_options *options, const koksma_rank_row *ro
             fprintf(stderr, ", %s %.0f %% more", options->patterns[last->pattern], 100 * last->behind);
         }
     }
-    fprintf(stderr, ". %lld trials in %.1f s; the reference's own error is %.1g%s.\n", ranking->trials,
-            ranking->seconds, ranking->reference_error,
+    fprintf(stderr, ". %lld trials of %d x %d pixels in %.1f s; the reference's own error is %.1g%s.\n",
+            ranking->trials, ranking->width, ranking->height, ranking->seconds, ranking->reference_error,
             ranking->clear ? "" : "; not every place is settled, more time would tell");
 }
 
@@ -134,6 +134,7 @@ static int run(const cli_arguments *arguments)
     cli_work work;
     patterns p = {.n = 0};
     double time_limit_s;
+    int width = 0, height = 0;
     const char *list = cli_text(arguments, "spp", "4,16,64");
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -146,7 +147,7 @@ static int run(const cli_arguments *arguments)
     }
     int code = parse_patterns(arguments, &p);
     if (code || !cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
-        !cli_work_begin(arguments, "ranking", &work)) {
+        !cli_size(arguments, &width, &height) || !cli_work_begin(arguments, "ranking", &work)) {
         return code ? code : CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
@@ -156,6 +157,8 @@ static int run(const cli_arguments *arguments)
                                              .patterns = p.at,
                                              .n_patterns = p.n,
                                              .spp = (int)spp_at(list, i),
+                                             .width = width,
+                                             .height = height,
                                              .time_limit_s = time_limit_s / (double)n_spp};
         status = rank_at(arguments, &options, &work, rows);
     }
@@ -167,6 +170,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "spp", "N,N,...", "samples a pixel, one ranking for each (default: 4,16,64)"},
     {'p', "patterns", "LIST", "patterns with commas between, or thesis or later (default: thesis)"},
+    {0, "size", "WxH", "pixels (default: the scene's, halved until a ranking fits into the time)"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -176,7 +180,7 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "which pattern leaves the least error in a scene",
-    .synopsis = "SCENE [--spp N,N,...] [--patterns LIST] [--time-limit S] [--json]",
+    .synopsis = "SCENE [--spp N,N,...] [--patterns LIST] [--size WxH] [--time-limit S] [--json]",
     .details =
         "Renders the scene again and again with every pattern until the ranking is clear or the time is up: each\n"
         "pattern's mean absolute error with its 95 % interval; patterns that can't be told apart share a place.\n"

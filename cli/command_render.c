@@ -14,20 +14,6 @@ static double now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static bool parse_size(const cli_arguments *arguments, koksma_render_options *options)
-{
-    const char *text = cli_text(arguments, "size", NULL);
-    int used = 0;
-    if (!text) {
-        return true;
-    }
-    if (sscanf(text, "%6dx%6d%n", &options->width, &options->height, &used) != 2 || text[used]) {
-        cli_usage_error(arguments, "--size %s: it takes WIDTHxHEIGHT, such as 512x384", text);
-        return false;
-    }
-    return true;
-}
-
 static int put_row(const cli_arguments *arguments, const koksma_render_options *options, const cli_adaptive *adaptive,
                    uint64_t rays, double seconds)
 {
@@ -150,8 +136,8 @@ static int run(const cli_arguments *arguments)
     koksma_render_options_init(&options, scene);
     int code = CLI_USAGE;
     if (cli_whole(arguments, "spp", 16, 1, KOKSMA_MAX_SPP, &spp) &&
-        cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) && parse_size(arguments, &options) &&
-        cli_sampling_options(arguments, &options) &&
+        cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
+        cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code)) {
         options.spp = (int)spp;

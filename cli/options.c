@@ -146,6 +146,17 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
     return true;
 }
 
+bool cli_size(const cli_arguments *arguments, int *width, int *height)
+{
+    const char *text = cli_text(arguments, "size", NULL);
+    int used = 0;
+    if (text && (sscanf(text, "%6dx%6d%n", width, height, &used) != 2 || text[used] || *width < 1 || *height < 1)) {
+        cli_usage_error(arguments, "--size %s: it takes WIDTHxHEIGHT, such as 512x384", text);
+        return false;
+    }
+    return true;
+}
+
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out)
 {
     const char *text = cli_text(arguments, name, NULL);

@@ -127,6 +127,7 @@ typedef struct koksma_rank_options {
     const char *const *patterns; /* specs */
     size_t n_patterns;
     int spp;
+    int width, height;    /* of the picture; 0: the scene's, halved until a ranking fits into the time limit */
     double time_limit_s;  /* 0: until the ranking is clear, or max_trials */
     long long max_trials; /* 0: 1024 */
 } koksma_rank_options;
@@ -143,6 +144,7 @@ typedef struct koksma_rank_row {
 typedef struct koksma_ranking {
     size_t n; /* patterns in the ranking */
     long long trials;
+    int width, height;      /* of the picture that was ranked by */
     double reference_error; /* the reference's own mean absolute error */
     bool clear;             /* every neighbours in the ranking are different, or equal to 2 % */
     double seconds;

@@ -44,7 +44,7 @@ except ImportError:
 class Engine(_Base):
     """A pattern's points, drawn a few at a time.
 
-    pattern: a spec such as "sobol-owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
+    pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
     generate(p, n, d, s)), a numpy Generator or RandomState, or None. optimization: as in scipy.
 
     Of a sequence (a pattern whose first k of n points are the set of k points), random(n) goes on where the last call

@@ -149,6 +149,8 @@ def check(status: int) -> None:
 def call(function: object, *arguments: object, threads: int = 0, time_limit: Optional[float] = None,
          run_at: int) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. Ctrl-C stops it, as KeyboardInterrupt."""
+    if time_limit is not None and not time_limit > 0:
+        raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     interrupts: List[int] = []
     run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not interrupts), None)
     # The library asks keep_going from this thread; Python runs a pending handler when it does.

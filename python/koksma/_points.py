@@ -7,6 +7,7 @@ import os
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
+from operator import index
 from typing import List, Optional, Tuple, Union
 
 import numpy as np
@@ -103,8 +104,16 @@ def view(array: PointArray) -> s.Points:
 
 
 def as_points(points: npt.ArrayLike) -> PointArray:
-    """A C-contiguous (n, dim) array of doubles; without a copy when it is one already."""
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    """A C-contiguous (n, dim) array of doubles; without a copy when it is one already.
+
+    What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
+    """
+    given = np.asanyarray(points)
+    if given.dtype.kind not in "buifO":
+        raise ArgumentError(f"points are real numbers, not {given.dtype}")
+    if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
+        raise ArgumentError("points have no masked coordinates")
+    array = np.ascontiguousarray(given, dtype=np.float64)
     if array.ndim != 2 or 0 in array.shape:
         raise ArgumentError(f"points are an array of shape (n, dim), not {array.shape}")
     return array
@@ -127,7 +136,8 @@ def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0,
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
-    parsed = spec("pattern", pattern)
+    parsed, dim, seed = spec("pattern", pattern), index(dim), index(seed)
+    n = n if n is None else index(n)
     if not 0 <= seed < 1 << 64:
         raise ArgumentError(f"seed {seed}: it takes 0 to 2^64 - 1")
     if n is None and out is None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import weakref
 from ctypes import byref, c_void_p
+from operator import index
 from typing import Dict, List, Optional, Tuple
 
 import numpy as np
@@ -48,7 +49,7 @@ def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optiona
     handle, options, image = c_void_p(), s.RenderOptions(), s.Image()
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
                                "lights": _choice("light_selection", lights)}
-    parsed = spec("pattern", pattern)
+    parsed, spp, seed = spec("pattern", pattern), index(spp), index(seed)
     if not (0 <= seed < 1 << 64 and 0 < spp < 1 << 31):
         raise ArgumentError(f"seed {seed}, spp {spp}: seeds are 0 to 2^64 - 1, spp is at least 1")
     check(lab().koksma_scene_open(text(scene), byref(handle)))
@@ -58,7 +59,8 @@ def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optiona
         for name, value in choices.items():
             setattr(options, name, value)
         if size is not None:
-            options.width, options.height = size
+            width, height = size
+            options.width, options.height = index(width), index(height)
         if integrator is not None:
             options.integrator = _found("integrator", integrator)
         if filter is not None:

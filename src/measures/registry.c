@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "core/lookup.h"
 #include "measures/measures.h"
-
-#include <string.h>
 
 static const koksma_measure *const measures[] = {
 #define MEASURE(name) &koksma__measure_##name,
@@ -9,17 +8,4 @@ static const koksma_measure *const measures[] = {
 #undef MEASURE
 };
 
-const koksma_measure *koksma_measure_at(size_t i)
-{
-    return i < sizeof measures / sizeof *measures ? measures[i] : NULL;
-}
-
-const koksma_measure *koksma_measure_find(const char *name)
-{
-    for (size_t i = 0; koksma_measure_at(i); i++) {
-        if (!strcmp(koksma_measure_at(i)->name, name)) {
-            return koksma_measure_at(i);
-        }
-    }
-    return NULL;
-}
+KOKSMA__LOOKUP(koksma_measure, measures)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * best-candidate: each point is the best of some uniform candidates: the one furthest from the points before it, on
- * the torus. Point k has candidates * k + 1 of them, at most `most`. A sequence.
+ * the torus. A sequence.
  *
- * Source: Mitchell 1991.
+ *     x_k = argmax over c of min over j < k of |c - x_j|,   c one of min(candidates * k + 1, most) uniform points
+ *
+ * Source: Mitchell 1991, whose number of candidates grows with k so that the spectrum keeps its shape.
  */
 #include <math.h>
 

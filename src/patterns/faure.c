@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * faure: the (0,dim)-sequence of Faure (1982) in the smallest prime base b >= dim.
+ * faure: the (0,dim)-sequence of Faure in the smallest prime base b >= dim.
  *
  *     x_k = sum_r y_r b^(-r-1),   y = P^k a mod b: y_r = sum_(c >= r) C(c,r) k^(c-r) a_c
  *
  * with a the digits of i and P the upper triangular Pascal matrix. The first b^m points are a (0,m,dim)-net in base
- * b. Every value is the double nearest to its fraction.
+ * b. Every value is the double nearest to its fraction. Source: Faure 1982.
  */
 #include <stdlib.h>
 

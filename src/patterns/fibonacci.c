@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * fibonacci: the lattice of Zaremba (1966): n a Fibonacci number F_m.
+ * fibonacci: the lattice of two neighbouring Fibonacci numbers, n one of them: n = F_m.
  *
  *     x = i / n,   y = {i F_(m-1) / n}
  *
- * The best possible periodic L2 discrepancy for n = 1, 2, 3, 5, 8, 13 (Hinrichs & Oettershagen 2016).
+ * Source: Zaremba 1966. It has the best possible periodic L2 discrepancy for n = 1, 2, 3, 5, 8, 13 (Hinrichs &
+ * Oettershagen 2016).
  * Known exactly: n = 13: D* = 0.165680473, L2 star = 0.065208186. `golden` is its form for any n.
  */
 #include "core/status.h"

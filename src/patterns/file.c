@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * file: points from elsewhere: file:PATH, a .txt, .csv or .npy file. Asked for n points it gives the file's first n.
- * The file is read anew at each call.
+ * file: points from elsewhere: file:PATH, a .txt, .csv or .npy file. Asked for n points it gives the file's first n;
+ * asked for fewer dimensions than the file's, the first of them. The file is read anew at each call.
+ *
+ *     x_i = row i of the file, cut to dim columns
  */
 #include <string.h>
 
@@ -13,9 +15,15 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
     (void)seed;
     const int dim = out->dim;
     koksma_status status = koksma_points_read(args->path, out);
-    if (!status && dim && out->dim != dim) {
+    if (!status && out->dim < dim) {
         status =
             koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", args->path, out->dim, dim);
+    }
+    if (!status && dim && dim < out->dim) {
+        for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* never before what is still to be read */
+            out->xs[i] = out->xs[i / (size_t)dim * (size_t)out->dim + i % (size_t)dim];
+        }
+        out->dim = dim;
     }
     for (size_t i = 0; !status && i < out->n * (size_t)out->dim; i++) {
         if (out->xs[i] >= 1) {

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * halton: radical inverses of i in the first dim primes; a sequence. Scrambled on request:
- *   scramble=affine  the digit a at each place of each base becomes u a + v modulo b, with random u > 0 and v, the
- *                    zeros above the number included (for bases 2 and 3 these are all permutations; after Braaten &
- *                    Weller 1979)
- *   scramble=owen    Owen's nested uniform scrambling (1995): a permutation for each place and each row of digits
- *                    before it, drawn exactly, by stochastic generation (Helmer, Christensen & Kensler 2021)
+ * halton: radical inverses of i in the first dim primes; a sequence. Scrambled on request.
  *
  *     x_k(i) = phi_b(i), b the k-th prime: the digits of i in base b, mirrored at the radix point
+ *
+ *     scramble=affine  the digit a at each place of each base becomes u a + v modulo b, with random u > 0 and v, the
+ *                      zeros above the number included (for bases 2 and 3 these are all permutations; after Braaten
+ *                      & Weller 1979)
+ *     scramble=owen    Owen's nested uniform scrambling (1995): a permutation for each place and each row of digits
+ *                      before it, drawn exactly, by stochastic generation (Helmer, Christensen & Kensler 2021)
  *
  * Source: Halton 1960. Every plain value is the double nearest to its fraction; scrambled ones have 53 bits.
  * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.

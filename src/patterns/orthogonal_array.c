@@ -7,7 +7,7 @@
  *     strength 3, Bush 1952, to s dimensions: the polynomial with the digits of i in base s at k, modulo s
  *
  * The levels of each coordinate are permuted at random, and each level's n/s points go into n/s strata in random
- * order, so that the points are n-rooks too (the multi-jittered arrays of Jarosz et al. 2019).
+ * order, so that the points are n-rooks too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
  */
 #include <math.h>
 #include <stdlib.h>

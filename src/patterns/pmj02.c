@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * pmj02: progressive multi-jittered points whose prefixes of 2^m are (0,m,2)-nets in base 2, with every other
- * property of Christensen, Kensler & Kilpatrick (2018), by stochastic generation from the matrices of the Stirling
- * numbers of the first kind modulo 2 and the same shifted by a row and a column (Helmer, Christensen & Kensler 2021).
+ * property of the paper, by stochastic generation from the matrices of the Stirling numbers of the first kind modulo
+ * 2 and the same shifted by a row and a column.
  *
  *     x(2^l + i) is in the empty half of the stratum of width 2^-l of x(i ^ partner_l), at a random place
  *
+ * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
  * koksma_pmj02_2d of koksma/sampler.h has the same points one by one.
  */
 #include <koksma/sampler.h>

@@ -3,6 +3,8 @@
  * poisson-disk: random points, one after the other; a new one that is closer than d to an old one is rejected. With
  * torus=1 the distance goes around the sides, so that tiles fit together.
  *
+ *     x_i = the first of u_1, u_2, .. uniform in [0,1)^dim with |u - x_j| >= d for all j < i
+ *
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
  * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
  * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points

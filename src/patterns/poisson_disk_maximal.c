@@ -4,8 +4,9 @@
  * place further than d from all of them.
  *
  *     by distance, d=D: the number of points follows (about 0.6965 / D^2); asking for another is refused
- *     by number, d=0: darts at a distance that leaves a few points to come; then the distance shrinks, and room that
- * opens is filled by darts, until exactly n points leave no room (a bisection: room opens one place at a time)
+ *     by number, d=0: darts at a distance that leaves a few points to come; then the distance shrinks, and room
+ *     that opens is filled by darts, until exactly n points leave no room (a bisection: room opens one place at a
+ *     time)
  *
  * Source: Ebeida, Mitchell, Patney, Davidson & Owens 2012 for the flat quadtree of the room that is left; the law is
  * that of dart throwing, so the points are unbiased. Room narrower than 2^-30 counts as none. About n log n time.

@@ -2,6 +2,8 @@
 /*
  * random: every point independent and uniform in [0,1)^dim. The mother of all comparisons.
  *
+ *     x_k = u_k,   u uniform in [0,1)^dim, a hash of seed, point and coordinate
+ *
  * Source: Shirley 1991, section 5.5.1; Mitchell 1992 calls it Poisson.
  * Known exactly: E(S^2) = (2^-dim - 3^-dim) / n for the L2 star discrepancy S.
  */

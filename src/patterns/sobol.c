@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * sobol: the digital sequence of Sobol' (1967) with the direction numbers of Joe & Kuo (2008), or on request those of
- * Bratley & Fox (1988) that GSL has. Point i is the sum modulo 2 of the columns V_b over the set bits b of i, in
- * natural order. Dimensions 1 and 2 are a (0,2)-sequence in base 2. Coordinates are 32-bit fractions v 2^-32.
- *   scramble=digital-shift  xor with one random word a dimension
- *   scramble=lms            a random lower triangular matrix a dimension (Matousek 1998), and a digital shift. Not
- * Owen's: pairs of points that share a bit prefix stay correlated scramble=owen           Owen's nested uniform
- * scrambling (1995), exact, by stochastic generation (Helmer et al. 2021); the bits below the last that n
- * distinguishes are random scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020,
- * constants of Vegdahl 2021): random access, the same law but for the quality of the hash shuffle=1 with hash-owen:
- * the order is scrambled in the same way; prefixes stay aligned blocks
+ * sobol: the digital sequence of Sobol', in natural order. Dimensions 1 and 2 are a (0,2)-sequence in base 2.
+ *
+ *     x_k = 2^-32 (the sum modulo 2 of the columns V_b of dimension k over the set bits b of i)
+ *
+ * Source: Sobol' 1967; direction numbers of Joe & Kuo 2008, or on request those of Bratley & Fox 1988 that GSL has.
+ * Scrambled on request:
+ *
+ *     scramble=digital-shift  xor with one random word a dimension
+ *     scramble=lms            a random lower triangular matrix a dimension, and a digital shift (Matousek 1998); not
+ *                             Owen's: pairs of points that share a bit prefix stay correlated
+ *     scramble=owen           Owen's nested uniform scrambling (1995), exact, by stochastic generation (Helmer et al.
+ *                             2021); the bits below the last that n distinguishes are random
+ *     scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020, constants of Vegdahl
+ *                             2021): random access, the same law but for the quality of the hash
+ *     shuffle=1               with hash-owen: the order is scrambled alike; prefixes stay aligned blocks
  *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
  */

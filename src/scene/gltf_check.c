@@ -3,6 +3,7 @@
  * glTF 2 before assimp sees it: every number that names another thing is in range, every piece lies within what holds
  * it, and nodes are trees. assimp takes some of that on trust. The file's other errors are left to it.
  */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -253,12 +254,50 @@ static koksma_status check_root(const field *root)
     return status;
 }
 
+/* Follows keys into objects; false: one is not there. */
+static bool find(const field *from, const char *const keys[], field *out)
+{
+    field at = *from;
+    for (; *keys; keys++) {
+        const field object = at;
+        if (!koksma__json_has(&object, *keys) || koksma__json_member(&object, *keys, &at)) {
+            return false;
+        }
+    }
+    *out = at;
+    return true;
+}
+
+/* What is not there leaves *out as it is. */
+static koksma_status read_facts(const field *root, koksma__gltf *out)
+{
+    static const char *const strength[] = {"extensions", "KHR_materials_emissive_strength", NULL};
+    static const char *const perspective[] = {"perspective", NULL};
+    field list, found;
+    size_t n;
+    koksma_status status = open_list(root, "cameras", &list, &n);
+    if (!status && n) {
+        const field camera = koksma__json_item(&list, 0);
+        if (find(&camera, perspective, &found)) {
+            status = koksma__json_get_number(&found, "yfov", true, 0, M_PI, &out->yfov_rad);
+        }
+    }
+    status = status ? status : open_list(root, "materials", &list, &n);
+    for (size_t i = 0; !status && i < n && i < KOKSMA__GLTF_MATERIALS; i++) {
+        const field material = koksma__json_item(&list, i);
+        if (find(&material, strength, &found)) {
+            status = koksma__json_get_number(&found, "emissiveStrength", false, 0, 1e6, &out->strengths[i]);
+        }
+    }
+    return status;
+}
+
 static size_t number_at(const unsigned char *at)
 {
     return at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
 }
 
-koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size)
+koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out)
 {
     koksma__json *document;
     const unsigned char *text = file;
@@ -280,7 +319,14 @@ koksma_status koksma__gltf_check(const char *path, const unsigned char *file, si
     if (!status) {
         const field root = koksma__json_root(document);
         status = check_root(&root);
+        status = status ? status : read_facts(&root, out);
     }
     koksma__json_close(document);
     return status;
+}
+
+koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size)
+{
+    koksma__gltf idle;
+    return koksma__gltf_read(path, file, size, &idle);
 }

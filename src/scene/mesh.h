@@ -52,8 +52,18 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
+/* What assimp 5.2 does not tell of a glTF file, or tells otherwise. */
+enum { KOKSMA__GLTF_MATERIALS = 1024 };
+typedef struct koksma__gltf {
+    double yfov_rad;                          /* of the first camera; 0: it has no perspective */
+    double strengths[KOKSMA__GLTF_MATERIALS]; /* of emission, by material (KHR_materials_emissive_strength) */
+} koksma__gltf;
+
 /* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size);
+
+/* The same, and what it tells; what the file does not say is left as it is. */
+koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out);
 
 /* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
 

@@ -163,7 +163,7 @@ static void close_proc(struct aiFileIO *io, struct aiFile *file)
 }
 
 /* What must be known of a file before assimp reads it. */
-static koksma_status look_first(const char *path)
+static koksma_status look_first(const char *path, koksma__gltf *gltf)
 {
     unsigned char *bytes;
     size_t size;
@@ -174,17 +174,22 @@ static koksma_status look_first(const char *path)
     if (!size) {
         status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
     } else if (strstr(strrchr(path, '.'), ".gl")) {
-        status = koksma__gltf_check(path, bytes, size);
+        status = koksma__gltf_read(path, bytes, size, gltf);
     }
     free(bytes);
     return status;
 }
 
-/* What assimp makes of a file, which the caller releases, and the hash of all bytes that it took. */
-static koksma_status import(const char *path, const struct aiScene **out, uint64_t *hash)
+/* What assimp makes of a file, which the caller releases; of a glTF file also the rest; and the hash of all bytes
+   that it took. */
+static koksma_status import(const char *path, koksma__gltf *gltf, const struct aiScene **out, uint64_t *hash)
 {
     struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)hash};
     *hash = 0;
+    gltf->yfov_rad = 0;
+    for (int i = 0; i < KOKSMA__GLTF_MATERIALS; i++) {
+        gltf->strengths[i] = 1;
+    }
     if (!koksma__is_mesh_file(path)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
     }
@@ -195,7 +200,7 @@ static koksma_status import(const char *path, const struct aiScene **out, uint64
         free(bytes);
         return status ? status : koksma__fail(KOKSMA_MALFORMED, "%s: no plain file", path);
     }
-    const koksma_status status = look_first(path);
+    const koksma_status status = look_first(path, gltf);
     if (status) {
         return status;
     }
@@ -349,8 +354,9 @@ static koksma_status gather(const struct aiScene *scene, koksma__mesh *out)
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 {
     const struct aiScene *scene = NULL;
+    koksma__gltf idle;
     uint64_t hash;
-    koksma_status status = import(path, &scene, &hash);
+    koksma_status status = import(path, &idle, &scene, &hash);
     if (!status) {
         status = gather(scene, out);
         aiReleaseImport(scene);
@@ -365,6 +371,7 @@ typedef struct builder {
     koksma_scene *scene;
     const struct aiScene *from;
     const char *path;
+    koksma__gltf gltf;
     int *meshes;        /* of ours, by theirs; -1: not yet */
     double (*glows)[3]; /* by material */
     koksma_status status;
@@ -413,14 +420,14 @@ static void read_material(builder *b, unsigned i)
     const struct aiMaterial *from = b->from->mMaterials[i];
     koksma__material *m = &b->scene->materials[b->scene->n_materials++];
     struct aiColor4D colour = {0.8f, 0.8f, 0.8f, 1}, glow = {0, 0, 0, 1};
-    float metallic = 0, roughness = 1, strength = 1;
+    float metallic = 0, roughness = 1;
+    const double strength = i < KOKSMA__GLTF_MATERIALS ? b->gltf.strengths[i] : 1;
     struct aiString file;
     unsigned one = 1;
     if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour)) {
         aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour);
     }
     aiGetMaterialColor(from, AI_MATKEY_COLOR_EMISSIVE, &glow);
-    aiGetMaterialFloatArray(from, AI_MATKEY_EMISSIVE_INTENSITY, &strength, &one);
     aiGetMaterialFloatArray(from, AI_MATKEY_METALLIC_FACTOR, &metallic, &one);
     aiGetMaterialFloatArray(from, AI_MATKEY_ROUGHNESS_FACTOR, &roughness, &one);
     snprintf(m->name, sizeof m->name, "%u", i);
@@ -431,9 +438,9 @@ static void read_material(builder *b, unsigned i)
     to[1] = clamp01(colour.g);
     to[2] = clamp01(colour.b);
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
-    b->glows[i][0] = (double)(glow.r * strength);
-    b->glows[i][1] = (double)(glow.g * strength);
-    b->glows[i][2] = (double)(glow.b * strength);
+    b->glows[i][0] = (double)glow.r * strength;
+    b->glows[i][1] = (double)glow.g * strength;
+    b->glows[i][2] = (double)glow.b * strength;
     for (int k = 0; k < 3; k++) {
         b->glows[i][k] = b->glows[i][k] > 0 ? fmin(b->glows[i][k], 1e6) : 0;
     }
@@ -527,18 +534,20 @@ static bool within(const double v[3], double bound)
     return fabs(v[0]) <= bound && fabs(v[1]) <= bound && fabs(v[2]) <= bound;
 }
 
+/* Only glTF has cameras: at the origin of their node, looking down its -z. What assimp says besides differs by
+   version: 5.2 adds the node's translation once more, and has other angles. */
 static bool read_camera(const builder *b)
 {
+    static const struct aiVector3D origin = {0, 0, 0}, ahead = {0, 0, -1}, over = {0, 1, 0};
     const struct aiCamera *c = b->from->mNumCameras ? b->from->mCameras[0] : NULL;
     double matrix[12], eye[3], forward[3], up[3];
     if (!c || !find_node(b->from->mRootNode, c->mName.data, identity, 0, matrix)) {
         return false;
     }
-    transform(matrix, &c->mPosition, 1, eye);
-    transform(matrix, &c->mLookAt, 0, forward);
-    transform(matrix, &c->mUp, 0, up);
-    const double aspect = c->mAspect > 0 ? (double)c->mAspect : 4.0 / 3;
-    const double fov = 2 * atan(tan((double)c->mHorizontalFOV / 2) / aspect); /* theirs is of the whole width */
+    transform(matrix, &origin, 1, eye);
+    transform(matrix, &ahead, 0, forward);
+    transform(matrix, &over, 0, up);
+    const double fov = b->gltf.yfov_rad;
     return within(eye, 1e6) && within(forward, 1e6) && within(up, 1e6) && fov > 2e-4 && fov < 3.1 &&
            koksma__camera_aim(eye, forward, up, fov, &b->scene->camera);
 }
@@ -608,7 +617,7 @@ static koksma_status build(builder *b, bool *has_camera)
 koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
 {
     builder b = {.scene = scene, .path = path};
-    koksma_status status = import(path, &b.from, &scene->hash);
+    koksma_status status = import(path, &b.gltf, &b.from, &scene->hash);
     if (!status) {
         status = build(&b, has_camera);
         free(b.meshes);

@@ -62,6 +62,7 @@ koksma_status koksma__model_parse(const char *path, koksma_scene *scene)
         return koksma__fail_memory(KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
     }
     snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : path);
+    scene->is_model = true;
     scene->width = 512;
     scene->height = 384;
     scene->clamp = INFINITY;

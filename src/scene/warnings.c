@@ -69,7 +69,7 @@ bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_
 {
     asked a = {i, text, size};
     for (size_t m = 0; m < scene->n_materials; m++) {
-        if (!is_used(scene, (int)m) && here(&a)) {
+        if (!scene->is_model && !is_used(scene, (int)m) && here(&a)) {
             snprintf(text, size, "material '%s' is used by nothing", scene->materials[m].name);
             return true;
         }

@@ -22,7 +22,7 @@ static const double EQUAL = 0.02;
 
 /* A reference's error adds in squares to those that are measured: 1/10 of them changes them by 1/200. */
 static const double REFERENCE_SHARE = 0.1;
-enum { FIRST_ROUND = 8, MOST_TRIALS = 1024, REFERENCE_SPP = 1024, MOST_REPLICATES = 64 };
+enum { FIRST_ROUND = 8, MOST_TRIALS = 1024, REFERENCE_SPP = 1024, LEAST_REPLICATES = 4, MOST_REPLICATES = 64 };
 
 typedef struct ranking {
     const koksma_rank_options *options;
@@ -121,16 +121,23 @@ static koksma_status pilot(ranking *r, double *smallest)
     return status;
 }
 
+/* A reference has so many samples a pixel: a square number, for it is jittered. */
+static int reference_side(const ranking *r)
+{
+    int side = 32;
+    while (side * side < REFERENCE_SPP || side * side < 4 * r->options->spp) {
+        side++;
+    }
+    return side;
+}
+
 /* Independent replicates until their own error is small beside the smallest measured one. */
 static koksma_status make_reference(ranking *r, double *error)
 {
     koksma__replicates sums = {0};
     koksma_status status = KOKSMA_OK;
-    int side = 32;
-    while (side * side < REFERENCE_SPP || side * side < 4 * r->options->spp) {
-        side++;
-    }
-    long long wanted = 4;
+    const int side = reference_side(r);
+    long long wanted = LEAST_REPLICATES;
     double smallest = INFINITY;
     const double start = now_s(),
                  budget = r->options->time_limit_s > 0 ? r->options->time_limit_s / 3 : (double)INFINITY;
@@ -231,6 +238,51 @@ static koksma_status run_rounds(ranking *r, size_t *order, koksma_ranking *out)
     return status;
 }
 
+/* ---- What fits into the time --------------------------------------------------------------------------- */
+
+/* How long a picture of at most 4,096 pixels takes. */
+static koksma_status probe(const ranking *r, long long spp, double *pixels, double *seconds)
+{
+    ranking small = *r;
+    koksma_image image;
+    while ((long long)small.scene.width * small.scene.height > 4096 && small.scene.width > 1) {
+        small.scene.width = (small.scene.width + 1) / 2;
+        small.scene.height = (small.scene.height + 1) / 2;
+    }
+    const double start = now_s();
+    const koksma_status status = render(&small, "jittered", spp, 0, r->run, &image);
+    *seconds = now_s() - start;
+    *pixels = (double)small.scene.width * small.scene.height;
+    if (!status) {
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+/* Halves the picture until the least that a ranking takes (the first references, one trial to judge them by, the
+   first round) fits into half of the time limit, by what a sample and a picture without samples cost in two small
+   ones. */
+static koksma_status fit_picture(ranking *r)
+{
+    double pixels = 0, few_s = 0, many_s = 0;
+    const double n = (double)r->n, side = reference_side(r), limit_s = r->options->time_limit_s / 2;
+    if (r->options->width || !(limit_s > 0)) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = probe(r, 4, &pixels, &few_s);
+    status = status ? status : probe(r, 64, &pixels, &many_s);
+    const double sample_s = fmax(many_s - few_s, 0) / (60 * pixels),
+                 empty_s = fmax(many_s - 64 * pixels * sample_s, 0);
+    const double pictures = LEAST_REPLICATES + (1 + FIRST_ROUND) * n;
+    const double samples = LEAST_REPLICATES * side * side + (1 + FIRST_ROUND) * n * r->options->spp;
+    while (!status && r->scene.width >= 128 && r->scene.height >= 96 &&
+           pictures * empty_s + samples * sample_s * r->scene.width * r->scene.height > limit_s) {
+        r->scene.width /= 2;
+        r->scene.height /= 2;
+    }
+    return status;
+}
+
 static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_ranking *out)
 {
     const size_t n = r->options->n_patterns;
@@ -244,6 +296,9 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
     }
     size_t *order = r->patterns + n;
     koksma_status status = try_patterns(r, rows, &n_refused);
+    status = status ? status : fit_picture(r);
+    out->width = r->scene.width;
+    out->height = r->scene.height;
     status = status ? status : make_reference(r, &out->reference_error);
     status = status ? status : run_rounds(r, order, out);
     out->n = r->n;
@@ -267,8 +322,8 @@ koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *
     if (!status) {
         koksma_render_options defaults;
         koksma_render_options_init(&defaults, r.scene.scene);
-        r.scene.width = defaults.width;
-        r.scene.height = defaults.height;
+        r.scene.width = options->width ? options->width : defaults.width;
+        r.scene.height = options->width ? options->height : defaults.height;
         snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));
         status = rank_scene(&r, rows, out);
         koksma_scene_close(r.scene.scene);

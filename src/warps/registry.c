@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <string.h>
-
+#include "core/lookup.h"
 #include "warps/warps.h"
 
 static const koksma_warp *const warps[] = {
@@ -9,17 +8,4 @@ static const koksma_warp *const warps[] = {
 #undef WARP
 };
 
-const koksma_warp *koksma_warp_at(size_t i)
-{
-    return i < sizeof warps / sizeof *warps ? warps[i] : NULL;
-}
-
-const koksma_warp *koksma_warp_find(const char *name)
-{
-    for (size_t i = 0; koksma_warp_at(i); i++) {
-        if (!strcmp(koksma_warp_at(i)->name, name)) {
-            return koksma_warp_at(i);
-        }
-    }
-    return NULL;
-}
+KOKSMA__LOOKUP(koksma_warp, warps)

@@ -110,6 +110,66 @@ class Engines(unittest.TestCase):
         with self.assertRaises(koksma.ArgumentError):
             Engine("no-such")
 
+    def test_distribution(self):
+        for spec in usable(["sobol:scramble=owen", "halton:scramble=owen", "n-rooks", "random"]):
+            for dim in (1, 2, 5):
+                with self.subTest(spec=spec, dim=dim):
+                    sample = Engine(spec, dim, seed=3).random(1024)
+                    close = 0.05 if spec == "random" else 1e-2
+                    np.testing.assert_allclose(sample.mean(axis=0), 0.5, atol=close)
+                    np.testing.assert_allclose(np.percentile(sample, 25, axis=0), 0.25, atol=close)
+                    np.testing.assert_allclose(np.percentile(sample, 75, axis=0), 0.75, atol=close)
+
+    def test_n_may_be_any_whole_number(self):
+        for n in (1, np.int64(3), np.uint8(5)):
+            self.assertEqual(Engine("halton", 2).random(n).shape, (int(n), 2))
+        for bad in (-1, 2.5, "3"):
+            with self.assertRaises((ValueError, TypeError)):
+                Engine("halton", 2).random(bad)
+
+    def test_balance(self):
+        for m in range(1, 9):  # as scipy's Sobol.random_base2: each half, quarter, .. has its share
+            sample = Engine("sobol:scramble=owen", 4, seed=m).random(1 << m)
+            counts = np.array([np.bincount((column * (1 << m)).astype(int), minlength=1 << m) for column in sample.T])
+            np.testing.assert_array_equal(counts, 1)
+
+    def test_fast_forward_far(self):
+        for spec in usable(["sobol", "halton", "r-sequence", "random"]):
+            np.testing.assert_array_equal(Engine(spec, 2, seed=1).fast_forward(1000).random(24),
+                                          koksma.generate(spec, 1024, 2, 1)[1000:])
+
+    def test_own_generator_is_left_alone(self):
+        np.random.seed(5)
+        before = np.random.get_state()[1].copy()
+        Engine("random", 2, seed=4).random(16)
+        np.testing.assert_array_equal(np.random.get_state()[1], before)
+
+    def test_discrepancies_are_scipys(self):
+        try:
+            from scipy.stats import qmc
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        for seed in range(3):
+            sample = Engine("random", 3, seed=seed).random(50)
+            for measure, method, power in (("l2-centered", "CD", 2), ("l2-wraparound", "WD", 2), ("l2-mixture", "MD", 2),
+                                           ("l2-star", "L2-star", 1)):
+                self.assertAlmostEqual(float(koksma.measure(sample, measure))**power, qmc.discrepancy(sample, method=method),
+                                       places=12)
+
+    def test_optimizer_of_scipys(self):
+        try:
+            from scipy.stats import qmc
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        with self.assertRaises(ValueError):
+            Engine("random", 2, optimization="toto")
+        engine = Engine("n-rooks", 2, seed=8, optimization="random-cd")
+        for _ in range(2):
+            sample = engine.random(8)
+            np.testing.assert_array_equal(np.sort((sample * 8).astype(int), axis=0), np.arange(8)[:, None] * [1, 1])
+        scaled = qmc.scale(sample, [-1, 2], [1, 5])
+        self.assertTrue(((scaled >= [-1, 2]) & (scaled <= [1, 5])).all())
+
     def test_is_scipys(self):
         try:
             from scipy.stats import qmc

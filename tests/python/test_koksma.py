@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The Python package against the program KOKSMA (in the environment) and against numpy."""
+import ctypes
+import dataclasses
 import gc
+import inspect
 import json
 import os
 import signal
@@ -10,11 +13,13 @@ import sys
 import tempfile
 import threading
 import time
+import typing
 import unittest
 
 import numpy as np
 
 import koksma
+from koksma import _library, _points, _structs
 
 PROGRAM = os.environ["KOKSMA"]
 
@@ -140,6 +145,102 @@ class Errors(unittest.TestCase):
         value = koksma.measure(koksma.generate("random", 500, 6), "star", time_limit=0.2)
         self.assertFalse(value.exact)
         self.assertLessEqual(value.lower, value.upper)
+
+
+class OddArrays(unittest.TestCase):
+    def test_kinds_of_numbers(self):
+        exact = np.array([[0.25, 0.5], [0.75, 0.0], [0.5, 0.75]])
+        expected = float(koksma.measure(exact, "star"))
+        wide = np.zeros((6, 5))
+        wide[::2, 1::3] = exact
+        for same in (exact.astype(np.float32), exact.astype(np.float16), exact.astype(">f8"), exact.astype(object),
+                     exact.astype(np.longdouble), np.asfortranarray(exact), exact[::-1][::-1], wide[::2, 1::3],
+                     exact.tolist(), tuple(map(tuple, exact)), np.ma.array(exact)):
+            self.assertEqual(float(koksma.measure(same, "star")), expected)
+        self.assertEqual(float(koksma.measure(np.array([[0, 1], [1, 0]]), "star")), 1)
+        frozen = np.broadcast_to(exact[0], (4, 2))
+        self.assertGreater(float(koksma.measure(frozen, "star")), 0.5)
+
+    def test_what_is_no_points(self):
+        nan, inf = float("nan"), float("inf")
+        for bad in ([[0.5, nan]], [[0.5, inf]], [[-0.1, 0.5]], [[0.5, 1.0000001]], [[0.5 + 1j, 0.5]], [["0.5", "0.5"]],
+                    np.zeros((2, 2), "M8[s]"), np.ma.array([[0.5, 0.5]], mask=[[True, False]]), [], [[]], np.zeros((0, 2)),
+                    [0.5, 0.5], np.zeros((2, 2, 2)), [[0.1, 0.2], [0.3]], None):
+            for function in (koksma.measure, koksma.verify):
+                with self.subTest(bad=bad, function=function.__name__), self.assertRaises(ValueError):
+                    function(bad)
+
+    def test_what_is_no_number(self):
+        for arguments in ({"n": 1.5}, {"n": "4"}, {"n": 4, "dim": 2.5}, {"n": 4, "seed": 1.5}, {"n": 4, "seed": None}):
+            with self.subTest(arguments), self.assertRaises(TypeError):
+                koksma.generate("random", **arguments)
+        for limit in (0, -1, float("nan")):
+            with self.assertRaises(koksma.ArgumentError):
+                koksma.measure([[0.5, 0.5]], "star", time_limit=limit)
+        with self.assertRaises(TypeError):
+            koksma.render("ball", spp=1, size=(4.5, 4))
+        np.testing.assert_array_equal(koksma.generate("random", np.int64(4), seed=np.uint64(1 << 63)),
+                                      koksma.generate("random", 4, seed=1 << 63))
+
+    def test_inputs_are_not_written_to(self):
+        points = koksma.generate("random", 100)
+        points.flags.writeable = False
+        before = points.copy()
+        koksma.measure(points, "star")
+        koksma.verify(points)
+        koksma.spectrum(points, 4)
+        np.testing.assert_array_equal(points, before)
+
+    def test_no_copies(self):
+        points = koksma.generate("random", 100)
+        self.assertTrue(np.shares_memory(points, _points.as_points(points)))
+        self.assertEqual(_points.view(points).xs[7], points.ravel()[7])
+        for array in (points, koksma.generate("poisson-disk-maximal:d=0.1"), koksma.render("ball", spp=1, size=(8, 6))):
+            self.assertTrue(array.flags.c_contiguous and array.flags.writeable)
+
+
+class Speed(unittest.TestCase):
+    def test_bulk_rate_is_that_of_c(self):
+        n, run = 1 << 20, _structs.Run(1, 0.0, _structs.KeepGoing(0), None)
+        out = np.zeros((n, 2))
+        parsed, points = _library.spec("pattern", "sobol"), _points.view(out)
+
+        def best(function):
+            times = []
+            for _ in range(9):  # processor time of this thread: what others do does not count
+                start = time.thread_time()
+                function()
+                times.append(time.thread_time() - start)
+            return min(times)
+
+        for _ in range(3):
+            c = best(lambda: _library.core().koksma_generate(ctypes.byref(parsed), 7, ctypes.byref(run), ctypes.byref(points)))
+            python = best(lambda: koksma.generate("sobol", n, seed=7, threads=1, out=out))
+            if c > 0.8 * python:
+                break
+        self.assertGreater(c, 0.8 * python)
+
+
+class Texts(unittest.TestCase):
+    def test_every_public_name_has_hints_and_words(self):
+        for name in koksma.__all__:
+            thing = getattr(koksma, name)
+            self.assertTrue(inspect.getdoc(thing), name)
+            members = [thing] if inspect.isfunction(thing) else [
+                m for key, m in vars(thing).items() if inspect.isfunction(m) and (not key.startswith("_") or key == "__init__")
+                and m.__module__.startswith("koksma")]  # not what a dataclass writes
+            for function in members:
+                if getattr(function, "__qualname__", "").endswith("__init__") and dataclasses.is_dataclass(thing):
+                    continue
+                with self.subTest(function.__qualname__):
+                    if not function.__name__.startswith("_"):
+                        self.assertTrue(inspect.getdoc(function))
+                    signature = inspect.signature(function)
+                    for parameter in list(signature.parameters.values())[inspect.isclass(thing):]:
+                        self.assertIsNot(parameter.annotation, inspect.Parameter.empty, parameter.name)
+                    if function.__name__ != "__init__":
+                        self.assertIsNot(signature.return_annotation, inspect.Signature.empty)
+                    typing.get_type_hints(function)  # every name in them is there
 
 
 class Spectra(unittest.TestCase):

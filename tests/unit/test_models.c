@@ -115,7 +115,17 @@ static void images_are_albedos(void **state)
     unlink("texture.pfm");
 }
 
-/* A square of 2 x 2 at z = 0 that faces +z, 0.5 grey; its camera at z = 3, its light of 9 candela at z = 3. */
+/* A square of 2 x 2 at z = 0 that faces +z. */
+#define SQUARE                                                                                                       \
+    "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"material\": 0}]}],"        \
+    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [-1, "  \
+    "-1, 0],"                                                                                                        \
+    "\"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}],"        \
+    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": "    \
+    "12}],"                                                                                                          \
+    "\"buffers\": [{\"byteLength\": 60, \"uri\": \"square.bin\"}]}"
+
+/* The square in 0.5 grey; its camera at z = 3, its light of 9 candela at z = 3. */
 static const char *const gltf =
     "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_lights_punctual\"],"
     "\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"point\", \"intensity\": 9, \"name\": "
@@ -126,12 +136,19 @@ static const char *const gltf =
     "\"cameras\": [{\"type\": \"perspective\", \"name\": \"eye\", \"perspective\": {\"yfov\": 0.01, \"aspectRatio\": "
     "1, "
     "\"znear\": 0.1}}], \"materials\": [{\"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.5, 0.5, 1], "
-    "\"metallicFactor\": 0}}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, "
-    "\"material\": 0}]}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": "
-    "\"VEC3\", "
-    "\"min\": [-1, -1, 0], \"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": "
-    "\"SCALAR\"}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, "
-    "\"byteLength\": 12}], \"buffers\": [{\"byteLength\": 60, \"uri\": \"square.bin\"}]}";
+    "\"metallicFactor\": 0}}]," SQUARE;
+
+/* The square glows with 0.5 x 9 and fills half the height, 2 atan(2 / (3 sqrt 2)), of what a camera at x = z = 3 sees
+   that was turned to it. No aspectRatio: yfov is of the height all the same. */
+static const char *const glowing =
+    "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_materials_emissive_strength\"], \"scene\": 0,"
+    "\"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
+    "{\"camera\": 0, \"name\": \"eye\", \"translation\": [3, 0, 3], \"rotation\": [0, 0.38268343, 0, 0.92387953]}],"
+    "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.88137359, \"znear\": 0.1}}], "
+    "\"materials\":"
+    "[{\"emissiveFactor\": [0.5, 0.5, 0.5], \"extensions\": {\"KHR_materials_emissive_strength\": "
+    "{\"emissiveStrength\": "
+    "9}}}]," SQUARE;
 
 static void bare_files_bring_or_get_cameras_and_lights(void **state)
 {
@@ -147,6 +164,9 @@ static void bare_files_bring_or_get_cameras_and_lights(void **state)
     write_text("square.gltf", gltf);
     /* albedo / pi x intensity / distance^2 */
     assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), 0.5 / M_PI * 9 / 9, 1e-3);
+    write_text("glowing.gltf", glowing);
+    assert_near(mean(NULL, "glowing.gltf", "distribution", 1, 16), 4.5 / 4, 1e-6);
+    unlink("glowing.gltf");
     /* a square alone under a white sky that half of it sees: its albedo, and white beside it */
     write_text("square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     const double value = mean(NULL, "square.obj", "distribution", 32, 16);

@@ -3,9 +3,8 @@
  * confidence: more while the samples leave too much doubt of the pixel's luminance. With n samples of variance s^2,
  *
  *     test=t      the half width of the mean's interval: t_(n-1),(1+level)/2  s / sqrt(n)   (Purgathofer 1987)
- *     test=chi2   the upper confidence bound of the mean's standard error:
- *                 sqrt((n - 1) s^2 / chi2_(n-1),(1-level) / n)                             (Lee, Redner & Uselton
- * 1985)
+ *     test=chi2   the upper confidence bound of the mean's standard error (Lee, Redner & Uselton 1985):
+ *                 sqrt((n - 1) s^2 / chi2_(n-1),(1-level) / n)
  *
  * is above the threshold. Both suppose independent samples of a normal law; stratified samples err less than they
  * say.

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "render/adaptive/adaptive.h"
@@ -13,20 +14,7 @@ static const koksma_adaptive *const table[] = {
 #undef ADAPTIVE
 };
 
-const koksma_adaptive *koksma_adaptive_at(size_t i)
-{
-    return i < sizeof table / sizeof *table ? table[i] : NULL;
-}
-
-const koksma_adaptive *koksma_adaptive_find(const char *name)
-{
-    for (size_t i = 0; koksma_adaptive_at(i); i++) {
-        if (!strcmp(table[i]->name, name)) {
-            return table[i];
-        }
-    }
-    return NULL;
-}
+KOKSMA__LOOKUP(koksma_adaptive, table)
 
 koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
 {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/lookup.h"
 #include "core/status.h"
 #include "render/filters/filters.h"
 
@@ -15,20 +16,7 @@ static const koksma_filter *const table[] = {
 #undef FILTER
 };
 
-const koksma_filter *koksma_filter_at(size_t i)
-{
-    return i < sizeof table / sizeof *table ? table[i] : NULL;
-}
-
-const koksma_filter *koksma_filter_find(const char *name)
-{
-    for (size_t i = 0; koksma_filter_at(i); i++) {
-        if (!strcmp(table[i]->name, name)) {
-            return table[i];
-        }
-    }
-    return NULL;
-}
+KOKSMA__LOOKUP(koksma_filter, table)
 
 struct koksma__filter_table {
     const koksma_filter *filter;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * path: all light paths, one way on from each vertex. Luminaires are sampled at each vertex and met by chance, the
- * two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a path goes on with the
- * probability of its weight, at most 0.95, which keeps the mean. Without bias but for the end of paths at the depth
- * limit.
+ * path: all light paths (Kajiya 1986), one way on from each vertex. Luminaires are sampled at each vertex and met by
+ * chance, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a path goes on
+ * with the probability of its weight, at most 0.95, which keeps the mean. Without bias but for the end of paths at
+ * the depth limit.
  */
 #include "render/integrators/integrators.h"
 

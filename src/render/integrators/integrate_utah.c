@@ -2,6 +2,10 @@
 /*
  * utah: the local model. A surface reflects the scene's ambient light and what comes from the centre of each
  * luminaire, without shadows and without seeing other surfaces; mirrors and glass are black.
+ *
+ *     L(x, out) = E(x, out) + albedo ambient + sum over luminaires of f(in, out) cos(in) irradiance from its centre
+ *
+ * Source: Phong 1975; Shirley 1991. Nothing in it is random but the place in the pixel, on the lens and in time.
  */
 #include "render/integrators/integrators.h"
 

@@ -3,6 +3,11 @@
  * whitted: recursive ray tracing. A shadow ray to the centre of each luminaire; mirrors and glass send rays on, glass
  * both ways, so that rays make a tree. A branch that weighs less than 1/1000 is cut (Hall's depth control), which
  * leaves out that much light at most.
+ *
+ *     L(x, out) = local light, as utah has it, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
+ *
+ * with V = 1 where the centre of the luminaire is seen and R a mirror's reflectance or Fresnel's share. Source:
+ * Whitted 1980.
  */
 #include "render/integrators/integrators.h"
 

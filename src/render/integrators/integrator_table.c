@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <string.h>
-
+#include "core/lookup.h"
 #include "render/integrators/integrators.h"
 
 static const koksma_integrator *const table[] = {
@@ -9,17 +8,4 @@ static const koksma_integrator *const table[] = {
 #undef INTEGRATOR
 };
 
-const koksma_integrator *koksma_integrator_at(size_t i)
-{
-    return i < sizeof table / sizeof *table ? table[i] : NULL;
-}
-
-const koksma_integrator *koksma_integrator_find(const char *name)
-{
-    for (size_t i = 0; koksma_integrator_at(i); i++) {
-        if (!strcmp(table[i]->name, name)) {
-            return table[i];
-        }
-    }
-    return NULL;
-}
+KOKSMA__LOOKUP(koksma_integrator, table)

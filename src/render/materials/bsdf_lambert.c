@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lambert: reflects a share `albedo` of what comes, as bright from every side. */
+/*
+ * lambert: reflects a share `albedo` of what comes, as bright from every side.
+ *
+ *     f = albedo / pi;   ways with density cos / pi, so that each weighs albedo
+ */
 #include "render/materials/lobes.h"
 
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])

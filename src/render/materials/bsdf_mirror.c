@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* mirror: reflects a share `reflectance` of what comes along the one mirrored way. */
+/*
+ * mirror: reflects a share `reflectance` of what comes along the one mirrored way (Whitted 1980).
+ *
+ *     L(out) = reflectance L(2 (n.out) n - out)
+ */
 #include "render/materials/lobes.h"
 
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])

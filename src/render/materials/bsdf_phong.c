@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* phong: the glossy mirror of Shirley (1991): reflectance (e + 1) / (2 pi) cos^e about the mirrored way. It never
-   reflects more than `reflectance`, and less where a part of the lobe is under the surface. */
+/*
+ * phong: the glossy mirror of Shirley (1991). It never reflects more than `reflectance`, and less where a part of the
+ * lobe is under the surface.
+ *
+ *     f cos = reflectance (e + 1) / (2 pi) cos^e(angle to the mirrored way);   ways with the same density
+ */
 #include "render/materials/lobes.h"
 
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])

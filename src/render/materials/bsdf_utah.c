@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* utah: the local model of Phong (1975) as the sum of a Lambert part and a cosine lobe, which together reflect no
-   more than albedo + reflectance <= 1. Ways are chosen from either lobe in proportion to its luminance, and weigh
-   material over the density of the mixture. */
+/*
+ * utah: the local model of Phong (1975) as the sum of a Lambert part and a cosine lobe, which together reflect no
+ * more than albedo + reflectance <= 1. Ways are chosen from either lobe in proportion to its luminance, and weigh
+ * material over the density of the mixture.
+ *
+ *     f cos = albedo cos / pi + reflectance (e + 1) / (2 pi) cos^e(angle to the mirrored way)
+ */
 #include "render/materials/lobes.h"
 
 static float share(const koksma__surface *s, unsigned lobes)

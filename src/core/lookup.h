@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The two questions that every table of named things answers. In the file where `table` is an array of pointers to
+ * structs with a name:
+ *
+ *     KOKSMA__LOOKUP(koksma_pattern, table)
+ *
+ * defines koksma_pattern_at(i), NULL past the end, and koksma_pattern_find(name), NULL if unknown.
+ */
+#ifndef KOKSMA_CORE_LOOKUP_H
+#define KOKSMA_CORE_LOOKUP_H
+
+#include <stddef.h>
+#include <string.h>
+
+#define KOKSMA__LOOKUP(type, table)                                                                                  \
+    const type *type##_at(size_t i)                                                                                  \
+    {                                                                                                                \
+        return i < sizeof(table) / sizeof *(table) ? (table)[i] : NULL;                                              \
+    }                                                                                                                \
+    const type *type##_find(const char *name)                                                                        \
+    {                                                                                                                \
+        for (size_t i = 0; i < sizeof(table) / sizeof *(table); i++) {                                               \
+            if (!strcmp((table)[i]->name, name)) {                                                                   \
+                return (table)[i];                                                                                   \
+            }                                                                                                        \
+        }                                                                                                            \
+        return NULL;                                                                                                 \
+    }
+
+#endif

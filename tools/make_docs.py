@@ -1,0 +1,255 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""make_docs.py PROGRAM FOLDER [--quick]: a page for every member of every table, as HTML in FOLDER.
+
+The text is the head comment of the member's source file, the entry is what `koksma list` prints, pictures and numbers are
+made by PROGRAM with the commands that stand beside them. --quick makes fewer and smaller ones.
+"""
+import argparse
+import html
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import docs_text as text
+from docs_site import STYLE, Program, Site, page, table
+from docs_tables import small_tables
+
+PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")  # the columns of a pattern's page
+COMPARED = ("random", "jittered", "n-rooks", "sobol:scramble=owen")  # the curves of a chart
+
+
+def spec_at(row, n):
+    """A pattern's spec for n points: a distance that is given for 16 points (d=0.1) shrinks with n."""
+    d = re.search(r"\bd=([\d.]+)", row["parameters"])
+    if d and float(d[1]) > 0 and n > 16:
+        return f"{row['pattern']}:d={float(d[1]) * 4 / n**0.5:.3g}"
+    return row["pattern"] if row["pattern"] != "file" else "file:from-elsewhere.csv"
+
+
+def source_at(program, row, n, dim=""):
+    """pattern:SPEC@N for the n nearest to the wish that the pattern takes, as its own error tells; None without one."""
+    spec = spec_at(row, n)
+    _, error = program.try_run("generate", spec, "-n", str(n), *(["--dim", dim[1:]] if dim else []), "-q", "-o", "-")
+    said = re.search(r"n = (\d+)(?: or (\d+))? would do", error or "")
+    if said:
+        n = min((int(s) for s in said.groups() if s), key=lambda m: abs(m - n))
+    elif error:
+        return None, error
+    return f"pattern:{spec}@{n}{dim}", None
+
+
+def slow(measure_row):
+    """Measures whose cost is n^3 are taken of few points."""
+    return measure_row["cost"].startswith("n^3")
+
+
+def measured(site, row):
+    """{n: {measure: row}} of a pattern in its lowest dimension (2 if it can), and the commands."""
+    low, _, high = row["dim"].partition("-")
+    dim = "" if int(low) <= 2 <= int(high or low) else f"@{low}"
+    trials = "2" if site.program.quick else "10"
+    values, commands = {}, []
+    for n in (16,) if site.program.quick else (16, 64, 256):
+        source, error = source_at(site.program, row, n, dim)
+        if not source:
+            commands.append(f"# n = {n}: {error}")
+            continue
+        size = int(source[len("pattern:"):].split("@")[1])
+        names = [m["measure"] for m in site.lists["measures"] if m["measure"] != "t-value" or size & (size - 1) == 0]
+        names = [m for m in names if n <= 16 or not any(slow(r) and r["measure"] == m for r in site.lists["measures"])]
+        rows, command = taken(site, source, trials, names if not dim else [m for m in names if fits(site, m, int(dim[1:]))])
+        commands.append(command)
+        values[size] = {r["measure"]: r for r in rows}
+    return {"values": values, "commands": commands, "dim": dim[1:] or "2"}
+
+
+def taken(site, source, trials, names):
+    """The rows of those measures that take such points: one that refuses says so, and is left out."""
+    while True:
+        arguments = ["measure", source, "--trials", trials, "-m", ",".join(names)]
+        out, error = site.program.try_run(*arguments, "--json", "-q", "--threads", "1")
+        if not error:
+            return [json.loads(line) for line in out.splitlines()], "koksma " + " ".join(arguments)
+        if error.partition(":")[0] not in names:
+            raise SystemExit(f"koksma {' '.join(arguments)}: {error}")
+        names = [m for m in names if m != error.partition(":")[0]]
+
+
+def fits(site, measure, dim):
+    """Whether the measure is there in that many dimensions."""
+    low, _, high = next(m["dim"] for m in site.lists["measures"] if m["measure"] == measure).partition("-")
+    return int(low) <= dim <= int(high or low)
+
+
+def number(row):
+    """A mean with its standard error."""
+    if row is None or row["value"] is None:
+        return "-"
+    error = row["standard_error"]
+    return f"{row['value']:.4g}" + (f" <small>± {error:.1g}</small>" if error > 1e-9 * abs(row["value"]) else "")
+
+
+def projections(site, row, n):
+    """Pictures of pairs of coordinates of points that are not plane."""
+    name, figures = row["pattern"], []
+    out, error = site.program.try_run("generate", name, "-n", str(n), "--dim", row["dim"], "-q", "-o", "-")
+    if error:
+        raise SystemExit(f"{name}: {error}")
+    points = [line.split() for line in out.splitlines() if line and not line.startswith("#")]
+    for a, b in ((0, 1), (0, 2), (1, 2)):
+        file = f"{name}-{'xyt'[a]}{'xyt'[b]}"
+        (site.program.folder / f"{file}.txt").write_text("".join(f"{p[a]} {p[b]}\n" for p in points), encoding="utf-8")
+        figures.append(site.program.picture(f"{file}.svg", "plot", f"{file}.txt", "--size", "280",
+                                            alt=f"coordinates {'xyt'[a]} and {'xyt'[b]} of {n} points"))
+    os.replace(site.program.folder / f"{name}-xt.svg", site.program.folder / f"{name}.svg")
+    return "<div class='row'>" + "".join(figures).replace(f"{name}-xt.svg", f"{name}.svg") + "</div>"
+
+
+def pattern_pictures(site, row):
+    """Few points in their strata, many points, the spectrum and its radial mean."""
+    program, name, claims = site.program, row["pattern"], row["claims"].split(",")
+    few, _ = source_at(program, row, 16)
+    many, error = source_at(program, row, 16 if program.quick else 256)
+    if not few or not many:
+        return projections(site, row, 256) if error and "no 2-dimensional form" in error else f"<p class='none'>{error}</p>"
+    n = int(few.split("@")[1])
+    grid = ["--rooks"] if {"latin", "net2"} & set(claims) else ["--grid", f"{round(n**0.5)}"] if round(n**0.5) ** 2 == n else []
+    trials = "2" if program.quick else "10"
+    deterministic = "deterministic" in claims or name == "file"
+    figures = [
+        program.picture(f"{name}-few.svg", "plot", few, *grid, "--size", "280", alt=f"{n} points"),
+        program.picture(f"{name}.svg", "plot", many, "--size", "280", alt=f"{many.split('@')[1]} points"),
+        program.picture(f"{name}-power.png", "plot", "--curve", "power", many, *([] if deterministic else ["--trials", trials]),
+                        "--size", "280", alt="power spectrum"),
+        program.picture(f"{name}-radial.svg", "plot", "--curve", "radial", many, *([] if deterministic else ["--trials", trials]),
+                        alt="radial mean of the power spectrum"),
+    ]
+    return "<div class='row'>" + "".join(figures) + "</div>"
+
+
+def verified(site, row, n):
+    """What `koksma verify` finds."""
+    source, error = source_at(site.program, row, n, "" if row["dim"] != "3" else "@3")
+    if not source:
+        return f"<p class='none'>{html.escape(error)}</p>"
+    rows, command = site.program.rows("verify", source)
+    cells = [[r["property"], html.escape(r["subject"]), "yes" if r["holds"] else "no", f"{r['value']:.4g}",
+              html.escape(r["detail"])] for r in rows]
+    return (f"<details><summary>{sum(r['holds'] for r in rows)} of {len(rows)} properties hold</summary>"
+            f"{table(['property', 'of', 'holds', 'value', ''], cells)}</details><pre>{html.escape(command)}</pre>")
+
+
+def pattern_page(site, row, numbers):
+    """The page of a pattern."""
+    name = row["pattern"]
+    path = f"src/patterns/{name.replace('-', '_')}.c"
+    claims = [] if row["claims"] == "-" else row["claims"].split(",")
+    entry = table([], [["dimensions", row["dim"]], ["source", site.cite(row["source"], name, "patterns")]])
+    entry += site.parameters(name)
+    promised = table([], [[c, text.formula(site.claims[c])] for c in claims]) if claims else "<p>It claims nothing.</p>"
+    shown = [m for m in PLAIN if any(m in v for v in numbers["values"].values())]
+    rows = [[str(n)] + [number(v.get(m)) for m in shown] for n, v in numbers["values"].items()]
+    commands = html.escape("\n".join(numbers["commands"]))
+    head = ["n"] + [f"<a href='../measures/{m}.html'>{m}</a>" for m in shown]
+    body = (site.comment(path, name) + entry + pattern_pictures(site, row) +
+            "<h2>What it promises</h2><p>Each line is a test.</p>" + promised +
+            f"<h2>Measured</h2><p>Means and standard errors over the sets of the seeds 0, 1, ..; {numbers['dim']} dimensions.</p>" +
+            table(head, rows) + f"<pre>{commands}</pre><h2>Verified</h2>" + verified(site, row, 16 if site.program.quick else 256))
+    site.write(f"patterns/{name}.html", page(name, row["what"], body))
+
+
+def ranking(site, name, numbers):
+    """All patterns of the plane by the value of a measure, and what it was computed from."""
+    larger = name in ("min-distance", "relative-radius")
+    wished = sorted({n for of in numbers.values() for n in of["values"]})
+    sizes = [n for n in wished if n in (16, 64, 256)]
+    lines = []
+    for row in site.lists["patterns"]:
+        values = numbers[row["pattern"]]["values"]
+        if numbers[row["pattern"]]["dim"] != "2" or "another name" in row["what"] or row["pattern"] == "file":
+            continue
+        near = [next((v.get(name) for k, v in values.items() if abs(k - n) <= n // 5 + 1), None) for n in sizes]
+        where = [next((k for k in values if abs(k - n) <= n // 5 + 1), n) for n in sizes]
+        cells = [number(v) + (f" <small>n = {k}</small>" if v and k != n else "") for v, k, n in zip(near, where, sizes)]
+        keys = [v["value"] for v in near if v and v["value"] is not None]
+        if keys:
+            lines.append((keys[-1] if not larger else -keys[-1], len(keys), [f"<a href='../patterns/{row['pattern']}.html'>{row['pattern']}</a>"] + cells))
+    full = max((n for _, n, _ in lines), default=0)
+    lines.sort(key=lambda line: (full - line[1], line[0]))
+    columns = [i for i, n in enumerate(sizes) if any(line[2][1 + i] != "-" for line in lines)]
+    return table(["pattern"] + [f"n = {sizes[i]}" for i in columns], [[line[2][0]] + [line[2][1 + i] for i in columns] for line in lines])
+
+
+def measure_page(site, row, numbers):
+    """The page of a measure."""
+    name, program = row["measure"], site.program
+    sizes = "4,16" if program.quick else "4,16,64" if slow(row) else "16,64,256"
+    last, trials = sizes.split(",")[-1], "2" if program.quick else "10"
+    sources = [f"pattern:{p}@{last}" for p in COMPARED]
+    entry = table([], [["dimensions", row["dim"]], ["cost", text.formula(row["cost"])],
+                       ["source", site.cite(row["source"], name, "measures")]]) + site.parameters(name)
+    witness = program.picture(f"{name}-witness.svg", "plot", "pattern:jittered@16", "--witness", name, "--size", "280",
+                              alt=f"16 jittered points and where {name} is reached")
+    chart = program.picture(f"{name}-n.svg", "plot", "--curve", "convergence", "-m", name, "--sizes", sizes, "--trials", trials,
+                            *sources, alt=f"{name} against n")
+    body = (site.comment(f"src/measures/{name.replace('-', '_')}.c", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
+            "<h2>Patterns by it</h2><p>Means over sets with standard errors, as on the pages of the patterns, which have the "
+            "commands; the best first by the last column.</p>" + ranking(site, name, numbers))
+    site.write(f"measures/{name}.html", page(name, row["what"], body))
+
+
+def references_page(site):
+    """All references, with the pages that cite them."""
+    places = {"patterns": "patterns/{}.html", "measures": "measures/{}.html"}
+    body = ""
+    for key, fields in sorted(site.references.items(), key=lambda item: (item[1]["author"].split(" and ")[0].split()[-1], item[1]["year"])):
+        links = ", ".join(f"<a href='{places.get(kind, kind + '/index.html#{}').format(name)}'>{name}</a>"
+                          for kind, name in site.cited.get(key, []))
+        body += f"<p id='{key}'>{text.long_reference(fields)}" + (f"<br><small>For {links}</small>" if links else "") + "</p>\n"
+    site.write("references.html", page("References", "docs/references.bib", body, up=""))
+
+
+def index_page(site):
+    """Thumbnails of patterns, and everything else by name."""
+    cards = "".join(f"<a href='patterns/{r['pattern']}.html'><img src='pictures/{r['pattern']}.svg' alt=''>{r['pattern']}"
+                    f"<small>{html.escape(r['what'])}</small></a>" for r in site.lists["patterns"])
+    measures = table([], [[f"<a href='measures/{r['measure']}.html'>{r['measure']}</a>", html.escape(r["what"]), text.formula(r["cost"])]
+                          for r in site.lists["measures"]])
+    others = "".join(f"<li><a href='{kind}/index.html'>{title}</a></li>" for kind, title in (
+        ("scenes", "Scenes"), ("integrators", "Integrators"), ("filters", "Pixel filters"), ("adaptive", "Adaptive sampling"),
+        ("warps", "Warps"), ("materials", "Materials"), ("uses", "Uses of a sample")))
+    body = (f"<h2>Patterns</h2><div class='cards'>{cards}</div><h2>Measures</h2>{measures}"
+            f"<h2>Rendering</h2><ul>{others}</ul><p><a href='references.html'>References</a></p>")
+    site.write("index.html", page("Koksma", "sampling patterns, exact measures, and the error of the images", body, up=""))
+
+
+def main():
+    """Parses the command line and writes the site."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--quick", action="store_true", help="fewer and smaller pictures and numbers")
+    arguments = parser.parse_args()
+    pictures = arguments.folder / "pictures"
+    pictures.mkdir(parents=True, exist_ok=True)
+    program = Program(str(Path(arguments.program).resolve()), pictures, arguments.quick)
+    program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", "from-elsewhere.csv")
+    site = Site(program, arguments.folder)
+    patterns = site.lists["patterns"]
+    numbers = dict(zip([r["pattern"] for r in patterns], program.pool.map(lambda r: measured(site, r), patterns)))
+    list(program.pool.map(lambda r: pattern_page(site, r, numbers[r["pattern"]]), patterns))
+    list(program.pool.map(lambda r: measure_page(site, r, numbers), site.lists["measures"]))
+    small_tables(site)
+    references_page(site)
+    index_page(site)
+    site.write("style.css", STYLE.lstrip())
+    print(f"{arguments.folder}/index.html: {len(patterns)} patterns, {len(site.lists['measures'])} measures, "
+          f"{len(site.references)} references")
+
+
+if __name__ == "__main__":
+    main()
