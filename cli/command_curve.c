@@ -123,8 +123,7 @@ static int pairs_of(curve_job *j, const char *source)
 {
     double r_max;
     koksma_tally *tallies = calloc(j->curves.bins, sizeof *tallies);
-    const int code =
-        tallies ? cli_curves_pairs(&j->curves, source, tallies, &r_max) : cli_no_memory();
+    const int code = tallies ? cli_curves_pairs(&j->curves, source, tallies, &r_max) : cli_no_memory();
     if (tallies && tallies[0].count > 0) {
         put_pairs(j, source, tallies, r_max);
     }

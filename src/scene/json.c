@@ -138,8 +138,8 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
-/* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second reading,
-   of a copy: as much memory as the text is long was there. */
+/* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second
+   reading, of a copy: as much memory as the text is long was there. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;

@@ -97,7 +97,7 @@ char *__wrap_strdup(const char *text)
 /* ---- Files --------------------------------------------------------------------------------------------- */
 
 /* A stream whose reads and writes come by here; the stream below it has no buffer of its own. */
-enum { MAX_FILES = 64, BUFFER = 512 };
+enum { MAX_FILES = 64, BUFFER = 1024 };
 static struct {
     FILE *above, *below;
     char buffer[BUFFER]; /* small, so that there are several writes in a short file */
