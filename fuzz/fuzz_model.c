@@ -13,7 +13,8 @@ static const char *place(void)
 {
     static char path[64];
     if (!*path) {
-        snprintf(path, sizeof path, "%s/koksma-fuzz-%ld", access("/dev/shm", W_OK) ? "/tmp" : "/dev/shm", (long)getpid());
+        snprintf(path, sizeof path, "%s/koksma-fuzz-%ld", access("/dev/shm", W_OK) ? "/tmp" : "/dev/shm",
+                 (long)getpid());
     }
     return path;
 }

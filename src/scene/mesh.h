@@ -55,6 +55,10 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
 /* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size);
 
+/* The same of OFF and PLY files. Errors: MALFORMED. */
+koksma_status koksma__off_check(const char *path, const unsigned char *file, size_t size);
+koksma_status koksma__ply_check(const char *path, const unsigned char *file, size_t size);
+
 /* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */

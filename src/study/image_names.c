@@ -31,12 +31,11 @@ static void keep(koksma__image_name *p, const char *place, const char *text, siz
 typedef struct trial_fit {
     const char *path;
     size_t length;
-    unsigned char *failed; /* (MAX_PLACES + 1) x (length + 1) */
-    koksma__image_name *name;
+    unsigned char *failed;      /* (MAX_PLACES + 1) x (length + 1) */
+    size_t lengths[MAX_PLACES]; /* of the texts at the places */
 } trial_fit;
 
-/* Whether the path fits from `at` on, the longest text for the first place first; its texts go to the name. Depth:
-   the number of places. */
+/* Whether the path fits from `at` on, the longest text for the first place first. Depth: the number of places. */
 static bool fit_from(trial_fit *t, const char *places, int place, size_t at)
 {
     while (*places && *places != '{') {
@@ -49,22 +48,33 @@ static bool fit_from(trial_fit *t, const char *places, int place, size_t at)
     }
     unsigned char *failed = &t->failed[(size_t)place * (t->length + 1) + at];
     const char *path = t->path + at, *after = strchr(places, '}') + 1;
-    const koksma__image_name before = *t->name;
     for (size_t length = takes_digits(places) ? strspn(path, "0123456789") : strcspn(path, "/");
          length > 0 && !*failed; length--) {
-        keep(t->name, places, path, length);
+        t->lengths[place] = length;
         if (fit_from(t, after, place + 1, at + length)) {
             return true;
         }
-        *t->name = before;
     }
     *failed = 1;
     return false;
 }
 
+static void keep_all(const trial_fit *t, const char *places, koksma__image_name *out)
+{
+    const char *path = t->path;
+    for (int place = 0; *places; path++) {
+        if (*places == '{') {
+            keep(out, places, path, t->lengths[place]);
+            path += t->lengths[place++] - 1;
+            places = strchr(places, '}');
+        }
+        places++;
+    }
+}
+
 koksma_status koksma__image_name_read(const char *places, const char *path, koksma__image_name *out, bool *fits)
 {
-    trial_fit t = {.path = path, .length = strlen(path), .name = out};
+    trial_fit t = {.path = path, .length = strlen(path)};
     *out = (koksma__image_name){0};
     *fits = false;
     t.failed = calloc(MAX_PLACES + 1, t.length + 1);
@@ -73,6 +83,9 @@ koksma_status koksma__image_name_read(const char *places, const char *path, koks
     }
     *fits = fit_from(&t, places, 0, 0);
     free(t.failed);
+    if (*fits) {
+        keep_all(&t, places, out);
+    }
     return KOKSMA_OK;
 }
 
