@@ -136,6 +136,12 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
                         node->path, *node->path ? ": " : "", reason);
 }
 
+koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status)
+{
+    koksma__json_fail(node, "%s", koksma_error_text());
+    return koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM) ? status : KOKSMA_MALFORMED;
+}
+
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
 /* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second

@@ -192,15 +192,16 @@ koksma_status koksma__ply_check(const char *path, const unsigned char *file, siz
 {
     lines l = {.path = path, .at = file, .end = file + size};
     ply p = {0};
-    char format[24], rest[2];
+    char format[24] = "", version[8], rest[2];
     koksma_status status = next_line(&l);
     if (!status && strcmp(l.line, "ply") != 0) {
         status = wrong(&l, "not 'ply', with which such a file begins");
     }
     status = status ? status : next_line(&l);
-    if (!status && (sscanf(l.line, "format %23s 1.0%1s", format, rest) != 1 ||
-                    (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
-                     strcmp(format, "binary_big_endian") != 0))) {
+    if (!status &&
+        (sscanf(l.line, "format %23s %7s %1s", format, version, rest) != 2 || strcmp(version, "1.0") != 0 ||
+         (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
+          strcmp(format, "binary_big_endian") != 0))) {
         status = wrong(&l, "no format ascii, binary_little_endian or binary_big_endian 1.0");
     }
     p.text = !status && !strcmp(format, "ascii");

@@ -24,7 +24,8 @@ enum { MODE_ONCE, MODE_ON, MODE_END, ENDED = 99 };
 static fault_kind wanted;
 static long wanted_at;
 static int mode;
-static atomic_long count;
+static bool listening; /* KOKSMA_FAULT is set */
+static atomic_long counts[N_FAULTS];
 
 _Noreturn void fault_end(void)
 {
@@ -33,11 +34,8 @@ _Noreturn void fault_end(void)
 
 bool fault_here(fault_kind kind, bool *half)
 {
-    if (kind != wanted) {
-        return false;
-    }
-    const long at = atomic_fetch_add(&count, 1) + 1;
-    if (wanted_at == 0 || at < wanted_at || (mode != MODE_ON && at > wanted_at)) {
+    const long at = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (kind != wanted || at < wanted_at || (mode != MODE_ON && at > wanted_at)) {
         return false;
     }
     if (mode == MODE_END && !half) {
@@ -180,11 +178,6 @@ static FILE *above(FILE *below, const char *how)
     abort();
 }
 
-static bool streams_matter(void)
-{
-    return wanted == FAULT_READ || wanted == FAULT_WRITE;
-}
-
 FILE *__wrap_fopen(const char *path, const char *how)
 {
     if (fault_here(FAULT_OPEN, NULL)) {
@@ -192,7 +185,7 @@ FILE *__wrap_fopen(const char *path, const char *how)
         return NULL;
     }
     FILE *stream = __real_fopen(path, how);
-    return streams_matter() ? above(stream, how) : stream;
+    return listening ? above(stream, how) : stream;
 }
 
 FILE *__wrap_fdopen(int descriptor, const char *how)
@@ -202,7 +195,7 @@ FILE *__wrap_fdopen(int descriptor, const char *how)
         return NULL;
     }
     FILE *stream = __real_fdopen(descriptor, how);
-    return streams_matter() ? above(stream, how) : stream;
+    return listening ? above(stream, how) : stream;
 }
 
 int __wrap_fclose(FILE *stream)
@@ -273,11 +266,13 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
 
 /* ---- Before main, and at the end ----------------------------------------------------------------------- */
 
-static void tell_count(void)
+static void tell_counts(void)
 {
     FILE *stream = __real_fopen(getenv("KOKSMA_FAULT_COUNT"), "w");
     if (stream) {
-        fprintf(stream, "%ld\n", atomic_load(&count));
+        for (int i = 1; i < N_FAULTS; i++) {
+            fprintf(stream, "%s %ld\n", names[i], atomic_load(&counts[i]));
+        }
         __real_fclose(stream);
     }
 }
@@ -285,22 +280,25 @@ static void tell_count(void)
 __attribute__((constructor)) static void begin(void)
 {
     const char *kind = getenv("KOKSMA_FAULT"), *at = getenv("KOKSMA_FAULT_AT"), *how = getenv("KOKSMA_FAULT_MODE");
-    if (kind) {
-        json_set_alloc_funcs(__wrap_malloc, free);
-        fault_install_sqlite(); /* before anything is wanted */
+    if (!kind) {
+        return;
     }
-    for (int i = 1; kind && i < N_FAULTS; i++) {
-        wanted = !strcmp(kind, names[i]) ? (fault_kind)i : wanted;
+    json_set_alloc_funcs(__wrap_malloc, free);
+    fault_install_sqlite();
+    stdout = above(stdout, "w");
+    memset(counts, 0, sizeof counts);
+    listening = true;
+    int i = 0;
+    while (i < N_FAULTS && strcmp(kind, names[i]) != 0) {
+        i++;
     }
-    if (kind && !wanted) {
+    if (i == N_FAULTS) {
         abort();
     }
-    wanted_at = at ? strtol(at, NULL, 10) : 0;
     mode = how && !strcmp(how, "on") ? MODE_ON : how && !strcmp(how, "end") ? MODE_END : MODE_ONCE;
-    if (streams_matter()) {
-        stdout = above(stdout, "w");
-    }
+    wanted_at = at ? strtol(at, NULL, 10) : 1;
+    wanted = (fault_kind)i;
     if (getenv("KOKSMA_FAULT_COUNT")) {
-        atexit(tell_count);
+        atexit(tell_counts);
     }
 }

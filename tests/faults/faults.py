@@ -82,19 +82,15 @@ class Undisturbed:
 
     def __init__(self, runner, case):
         with tempfile.TemporaryDirectory() as folder:
-            done = runner.run(case.arguments, folder)
+            count = os.path.join(folder, "count")
+            done = runner.run(case.arguments, folder, ("none", 1, "once"), count)
+            with open(count, encoding="ascii") as stream:
+                self.calls = {kind: int(n) for kind, n in (line.split() for line in stream)}
+            os.remove(count)
             self.code, self.out, self.files = done.returncode, done.stdout, contents(folder)
             if done.returncode not in (0, 1) or done.stderr:
-                print(f"{case.name}: without a fault: exit code {done.returncode}, {done.stderr.decode()}")
+                raise SystemExit(f"{case.name}: without a fault: exit code {done.returncode}, {done.stderr.decode()}")
             self.rows = export(runner, folder) if case.study else None
-
-    @staticmethod
-    def calls(runner, case, kind):
-        with tempfile.TemporaryDirectory() as folder:
-            count = os.path.join(folder, "count")
-            runner.run(case.arguments, folder, (kind, 0, "once"), count)
-            with open(count, encoding="ascii") as stream:
-                return int(stream.read())
 
 
 def export(runner, folder):
@@ -171,11 +167,15 @@ def try_fault(runner, case, good, fault):
                 (problem_of_store(runner, case, good, folder) if case.study else None))
 
 
-def chosen(calls, everything, seldom):
-    """Which calls fail. Some: the first, the last, and one between."""
-    if everything or calls <= 2:
+def chosen(case, kind, calls, everything):
+    """Which calls fail. Some: the first, the last, and one between; of `seldom` cases an allocation or a write."""
+    if everything:
         return range(1, calls + 1)
-    return sorted({1, calls} if seldom else {1, calls * 2 // 5 + 1, calls})
+    if case.seldom:
+        some = {1 + len(case.name) * 7 % calls} if calls and kind in ("memory", "write") else set()
+    else:
+        some = {1, calls * 2 // 5 + 1, calls} if calls else set()
+    return sorted(some)
 
 
 def plan(runner, options):
@@ -186,8 +186,7 @@ def plan(runner, options):
         for kind in KINDS:
             if options.kind and kind != options.kind:
                 continue
-            calls = Undisturbed.calls(runner, case, kind)
-            for at in chosen(calls, options.all, case.seldom):
+            for at in chosen(case, kind, good.calls[kind], options.all):
                 modes = MODES[kind] if options.all else [MODES[kind][at % len(MODES[kind])]]
                 for mode in modes:
                     yield case, good, (kind, at, mode)
