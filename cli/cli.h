@@ -71,6 +71,9 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOK
 /* The library's error text on stderr; returns the exit code of status. */
 int cli_fail(const cli_arguments *arguments, koksma_status status);
 
+/* The same for the program's own memory; silent after another error, of which it may be a part. */
+int cli_no_memory(void);
+
 /* Item i (0..) of a list "a,b:x=1,y=2,c": commas inside a spec's parameters don't split, because a parameter has '='
    and what follows it in a list of specs has none before its ':' or end. False past the end. */
 bool cli_list_item(const char *list, size_t i, char *item, size_t size);
@@ -93,7 +96,7 @@ bool cli_interrupted(void);
 
 typedef struct cli_rows cli_rows;
 
-/* NULL when memory runs out. With json, rows are printed as they end; as text, all of them at cli_rows_close. */
+/* With json, rows are printed as they end; as text, all of them at cli_rows_close. */
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);
 void cli_row_number(cli_rows *rows, const char *key, double value); /* %.17g in JSON, %.9g as text; null or - */
@@ -102,7 +105,7 @@ void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
 void cli_row_flag(cli_rows *rows, const char *key, bool value);
 void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text); /* a ready JSON value */
 void cli_row_end(cli_rows *rows);
-/* The exit code: 0, or 4 when stdout could not be written. */
+/* The exit code: 0, or 4 after a line on stderr when there was no memory for the rows. */
 int cli_rows_close(cli_rows *rows);
 
 #endif

@@ -8,13 +8,11 @@
 static int put_row(const cli_arguments *arguments, const koksma_image_error *error)
 {
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    if (rows) {
-        cli_row_number(rows, "mean", error->mean);
-        cli_row_number(rows, "sd", error->sd);
-        cli_row_number(rows, "max", error->max);
-        cli_row_number(rows, "rmse", error->rmse);
-        cli_row_end(rows);
-    }
+    cli_row_number(rows, "mean", error->mean);
+    cli_row_number(rows, "sd", error->sd);
+    cli_row_number(rows, "max", error->max);
+    cli_row_number(rows, "rmse", error->rmse);
+    cli_row_end(rows);
     return cli_rows_close(rows);
 }
 

@@ -81,7 +81,7 @@ static int put_rings(const curve_job *j, const char *source, const koksma_spectr
 {
     koksma_ring *rings = malloc((size_t)s->half * sizeof *rings);
     if (!rings) {
-        return koksma_status_exit_code(KOKSMA_MEMORY);
+        return cli_no_memory();
     }
     const koksma_status status = koksma_spectrum_rings(s, rings);
     for (int r = 0; r < s->half && !status; r++) {
@@ -123,8 +123,7 @@ static int pairs_of(curve_job *j, const char *source)
 {
     double r_max;
     koksma_tally *tallies = calloc(j->curves.bins, sizeof *tallies);
-    const int code =
-        tallies ? cli_curves_pairs(&j->curves, source, tallies, &r_max) : koksma_status_exit_code(KOKSMA_MEMORY);
+    const int code = tallies ? cli_curves_pairs(&j->curves, source, tallies, &r_max) : cli_no_memory();
     if (tallies && tallies[0].count > 0) {
         put_pairs(j, source, tallies, r_max);
     }
@@ -165,7 +164,7 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     j.rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = j.rows ? CLI_YES : koksma_status_exit_code(KOKSMA_MEMORY);
+    int code = CLI_YES;
     for (int i = 1; i < arguments->n_operands && !code; i++) {
         const char *source = arguments->operands[i];
         code = !strcmp(kind, "pairs") ? pairs_of(&j, source) : spectrum_of(&j, kind, source);

@@ -228,7 +228,7 @@ static int run(const cli_arguments *arguments)
     const char *which = arguments->n_operands ? arguments->operands[0] : NULL;
     bool found = false;
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    for (size_t i = 0; rows && i < sizeof lists / sizeof *lists; i++) {
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         if (!which || !strcmp(which, lists[i].name)) {
             lists[i].list(rows);
             found = true;

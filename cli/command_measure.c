@@ -229,7 +229,7 @@ static int run(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     j.rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = j.rows && measuring_open(&j) ? CLI_YES : koksma_status_exit_code(KOKSMA_MEMORY);
+    int code = measuring_open(&j) ? CLI_YES : cli_no_memory();
     for (int i = 0; !code && i < arguments->n_operands; i++) {
         for (size_t w = 0; !code && w < (j.n_warps ? j.n_warps : 1); w++) {
             j.warp = j.warps[w];

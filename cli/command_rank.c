@@ -151,7 +151,7 @@ static int run(const cli_arguments *arguments)
         return code ? code : CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    koksma_status status = rows ? KOKSMA_OK : KOKSMA_MEMORY;
+    koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < n_spp; i++) {
         const koksma_rank_options options = {.scene = arguments->operands[0],
                                              .patterns = p.at,
@@ -163,8 +163,9 @@ static int run(const cli_arguments *arguments)
         status = rank_at(arguments, &options, &work, rows);
     }
     cli_work_end(&work);
-    code = cli_rows_close(rows);
-    return status ? cli_fail(arguments, status) : code;
+    code = status ? cli_fail(arguments, status) : CLI_YES;
+    const int rows_code = cli_rows_close(rows);
+    return code ? code : rows_code;
 }
 
 static const cli_option options[] = {

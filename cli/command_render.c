@@ -21,17 +21,15 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
     char pattern[KOKSMA_MAX_SPEC];
     koksma_spec_text(&options->pattern, pattern);
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    if (rows) {
-        cli_row_text(rows, "scene", arguments->operands[0]);
-        cli_row_text(rows, "pattern", method && method->own_samples ? "-" : pattern);
-        cli_row_whole(rows, "spp", (uint64_t)options->spp);
-        cli_row_whole(rows, "width", (uint64_t)options->width);
-        cli_row_whole(rows, "height", (uint64_t)options->height);
-        cli_adaptive_put(rows, adaptive, (double)options->width * options->height);
-        cli_row_whole(rows, "rays", rays);
-        cli_row_number(rows, "seconds", seconds);
-        cli_row_end(rows);
-    }
+    cli_row_text(rows, "scene", arguments->operands[0]);
+    cli_row_text(rows, "pattern", method && method->own_samples ? "-" : pattern);
+    cli_row_whole(rows, "spp", (uint64_t)options->spp);
+    cli_row_whole(rows, "width", (uint64_t)options->width);
+    cli_row_whole(rows, "height", (uint64_t)options->height);
+    cli_adaptive_put(rows, adaptive, (double)options->width * options->height);
+    cli_row_whole(rows, "rays", rays);
+    cli_row_number(rows, "seconds", seconds);
+    cli_row_end(rows);
     return cli_rows_close(rows);
 }
 

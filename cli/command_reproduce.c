@@ -87,9 +87,6 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    if (!rows) {
-        return koksma_status_exit_code(KOKSMA_MEMORY);
-    }
     koksma_study_summary summary;
     const char *plans[MAX_PLANS];
     const koksma_study_options options = {.plans = plans,
@@ -99,6 +96,7 @@ static int run(const cli_arguments *arguments)
                                           .quick = cli_flag(arguments, "quick")};
     const koksma_status status = reproduce(arguments, &options, &work, rows, &summary);
     cli_work_end(&work);
+    const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : 0;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {
         fprintf(stderr,
@@ -106,8 +104,8 @@ static int run(const cli_arguments *arguments)
                 folder);
         return koksma_status_exit_code(status);
     }
-    if (status) {
-        return cli_fail(arguments, status);
+    if (failed) {
+        return failed;
     }
     if (!cli_flag(arguments, "quiet")) {
         fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,

@@ -20,20 +20,18 @@ static int run(const cli_arguments *arguments)
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
     bool odd = false;
-    for (size_t i = 0; rows && koksma_scene_warning(scene, i, text, sizeof text); i++) {
+    for (size_t i = 0; koksma_scene_warning(scene, i, text, sizeof text); i++) {
         odd = true;
         fprintf(stderr, "koksma scene: %s: warning: %s\n", arguments->operands[1], text);
     }
-    if (rows) {
-        cli_row_text(rows, "scene", arguments->operands[1]);
-        cli_row_whole(rows, "shapes", counts.shapes);
-        cli_row_whole(rows, "meshes", counts.meshes);
-        cli_row_whole(rows, "placements", counts.placements);
-        cli_row_whole(rows, "triangles", counts.triangles);
-        cli_row_whole(rows, "materials", counts.materials);
-        cli_row_whole(rows, "lights", counts.lights);
-        cli_row_end(rows);
-    }
+    cli_row_text(rows, "scene", arguments->operands[1]);
+    cli_row_whole(rows, "shapes", counts.shapes);
+    cli_row_whole(rows, "meshes", counts.meshes);
+    cli_row_whole(rows, "placements", counts.placements);
+    cli_row_whole(rows, "triangles", counts.triangles);
+    cli_row_whole(rows, "materials", counts.materials);
+    cli_row_whole(rows, "lights", counts.lights);
+    cli_row_end(rows);
     koksma_scene_close(scene);
     const int code = cli_rows_close(rows);
     return code ? code : odd ? CLI_NO : CLI_YES;

@@ -160,15 +160,13 @@ static int estimate(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    if (rows) {
-        cli_row_whole(rows, "jobs", cost.jobs);
-        cli_row_whole(rows, "references", cost.references);
-        cli_row_whole(rows, "rows", cost.rows);
-        cli_row_rounded(rows, "cpu_seconds", cost.seconds, 3);
-        cli_row_rounded(rows, "reference_seconds", cost.reference_seconds, 3);
-        cli_row_rounded(rows, "megabytes", cost.bytes * 1e-6, 3);
-        cli_row_end(rows);
-    }
+    cli_row_whole(rows, "jobs", cost.jobs);
+    cli_row_whole(rows, "references", cost.references);
+    cli_row_whole(rows, "rows", cost.rows);
+    cli_row_rounded(rows, "cpu_seconds", cost.seconds, 3);
+    cli_row_rounded(rows, "reference_seconds", cost.reference_seconds, 3);
+    cli_row_rounded(rows, "megabytes", cost.bytes * 1e-6, 3);
+    cli_row_end(rows);
     return cli_rows_close(rows);
 }
 
@@ -217,7 +215,7 @@ static int report(const cli_arguments *arguments)
 
 static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t n)
 {
-    for (size_t i = 0; out && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
         cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
         cli_row_whole(out, "trials", rows[i].trials);

@@ -76,7 +76,7 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = rows ? CLI_YES : 4;
+    int code = CLI_YES;
     for (int i = 0; i < arguments->n_operands && code <= CLI_NO; i++) {
         koksma_points points = {0};
         koksma_findings findings = {0};
@@ -95,7 +95,7 @@ static int run(const cli_arguments *arguments)
         koksma_points_fini(&points);
     }
     const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code;
+    return code > CLI_NO || !rows_code ? code : rows_code;
 }
 
 static const cli_option options[] = {

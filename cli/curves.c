@@ -82,7 +82,7 @@ static koksma_status add_pairs(cli_curves *c, const koksma_points *points, void 
 int cli_curves_pairs(cli_curves *c, const char *source, koksma_tally *tallies, double *r_max)
 {
     pairs_sum s = {tallies, malloc(c->bins * sizeof(double)), c->r_max};
-    const int code = s.values ? for_each_set(c, source, add_pairs, &s) : koksma_status_exit_code(KOKSMA_MEMORY);
+    const int code = s.values ? for_each_set(c, source, add_pairs, &s) : cli_no_memory();
     free(s.values);
     *r_max = s.r_max;
     return code;

@@ -40,7 +40,7 @@ int main(int argc, char **argv)
     }
     if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h") || !strcmp(argv[1], "help")) {
         print_help(stdout);
-        return CLI_YES;
+        return cli_end_output(CLI_YES);
     }
     const char *name = !strcmp(argv[1], "--version") ? "version" : argv[1];
     for (int i = 0; commands[i]; i++) {

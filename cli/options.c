@@ -11,6 +11,8 @@
 
 enum { LONG_BASE = 1000, HELP = 999 };
 
+static bool complained; /* one error, one line */
+
 static void print_help(const cli_command *command)
 {
     printf("koksma %s: %s\n\nusage: koksma %s %s\n\n", command->name, command->summary, command->name,
@@ -38,21 +40,22 @@ static int parse_failure(const cli_arguments *arguments, int code, char **argv)
 }
 
 /* A second value goes on a line of its own. */
-static void add_value(cli_arguments *arguments, int i, const char *value)
+static bool add_value(cli_arguments *arguments, int i, const char *value)
 {
     const char *before = arguments->values[i];
     if (!before || !*value) {
         arguments->values[i] = value;
-        return;
+        return true;
     }
     const size_t size = strlen(before) + strlen(value) + 2;
     char *joined = malloc(size);
     if (!joined) {
-        abort();
+        return false;
     }
     snprintf(joined, size, "%s\n%s", before, value);
     free(arguments->joined[i]);
     arguments->values[i] = arguments->joined[i] = joined;
+    return true;
 }
 
 enum { PARSED = -1 };
@@ -91,16 +94,29 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
         if (arguments->values[i] && command->options[i].argument && !strstr(command->options[i].argument, "...")) {
             return cli_usage_error(arguments, "option --%s is given twice", command->options[i].name);
         }
-        add_value(arguments, i, optarg ? optarg : "");
+        if (!add_value(arguments, i, optarg ? optarg : "")) {
+            return cli_no_memory();
+        }
     }
     arguments->n_operands = argc - optind;
     arguments->operands = argv + optind;
     return PARSED;
 }
 
+/* What is on stdout must have got there: a full disk shows when the buffer is written. */
+int cli_end_output(int code)
+{
+    if (code <= CLI_NO && (fflush(stdout) || ferror(stdout))) {
+        fputs("koksma: standard output could not be written\n", stderr);
+        return koksma_status_exit_code(KOKSMA_IO);
+    }
+    return code;
+}
+
 int cli_run(const cli_command *command, int argc, char **argv)
 {
     cli_arguments arguments = {.command = command};
+    complained = false;
     int code = parse(&arguments, argc, argv);
     if (code == PARSED) {
         code = command->run(&arguments);
@@ -108,7 +124,7 @@ int cli_run(const cli_command *command, int argc, char **argv)
     for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
         free(arguments.joined[i]);
     }
-    return code;
+    return cli_end_output(code);
 }
 
 const char *cli_text(const cli_arguments *arguments, const char *name, const char *fallback)
@@ -177,6 +193,7 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 {
     va_list list;
+    complained = true;
     va_start(list, format);
     fprintf(stderr, "koksma %s: ", arguments->command->name);
     vfprintf(stderr, format, list);
@@ -187,8 +204,18 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 
 int cli_fail(const cli_arguments *arguments, koksma_status status)
 {
+    complained = true;
     fprintf(stderr, "koksma %s: %s\n", arguments->command->name, koksma_error_text());
     return koksma_status_exit_code(status);
+}
+
+int cli_no_memory(void)
+{
+    if (!complained) {
+        fputs("koksma: out of memory\n", stderr);
+    }
+    complained = true;
+    return koksma_status_exit_code(KOKSMA_MEMORY);
 }
 
 /* The end of the list item that starts at s: the next comma that is not followed by "key=value" up to the next

@@ -84,9 +84,7 @@ int plot_radial(plot_job *j)
     const cli_arguments *arguments = j->curves.arguments;
     const bool anisotropy = !strcmp(j->curve, "anisotropy");
     store s;
-    int code = open_store(&s, (size_t)arguments->n_operands, KOKSMA_SPECTRUM_MAX_HALF)
-                   ? CLI_YES
-                   : koksma_status_exit_code(KOKSMA_MEMORY);
+    int code = open_store(&s, (size_t)arguments->n_operands, KOKSMA_SPECTRUM_MAX_HALF) ? CLI_YES : cli_no_memory();
     koksma_ring *rings = calloc(KOKSMA_SPECTRUM_MAX_HALF, sizeof *rings);
     for (int i = 0; i < arguments->n_operands && !code && rings; i++) {
         koksma_spectrum spectrum;
@@ -124,9 +122,7 @@ int plot_pairs(plot_job *j)
     const size_t bins = j->curves.bins;
     store s;
     koksma_tally *tallies = malloc(bins * sizeof *tallies);
-    int code = open_store(&s, (size_t)arguments->n_operands, bins) && tallies
-                   ? CLI_YES
-                   : koksma_status_exit_code(KOKSMA_MEMORY);
+    int code = open_store(&s, (size_t)arguments->n_operands, bins) && tallies ? CLI_YES : cli_no_memory();
     for (int i = 0; i < arguments->n_operands && !code; i++) {
         double r_max, *numbers = next_numbers(&s);
         memset(tallies, 0, bins * sizeof *tallies);
@@ -274,9 +270,7 @@ int plot_convergence(plot_job *j)
     if (status) {
         return cli_fail(arguments, status);
     }
-    int code = open_store(&s, PER_SOURCE * (size_t)arguments->n_operands, MAX_SIZES)
-                   ? CLI_YES
-                   : koksma_status_exit_code(KOKSMA_MEMORY);
+    int code = open_store(&s, PER_SOURCE * (size_t)arguments->n_operands, MAX_SIZES) ? CLI_YES : cli_no_memory();
     for (int i = 0; i < arguments->n_operands && !code; i++) {
         code = add_convergence(j, &measure, arguments->operands[i], (size_t)i, &s);
     }

@@ -18,17 +18,22 @@ struct cli_rows {
     size_t n, room;
 };
 
+static cli_rows no_rows = {.failed = true}; /* takes rows and keeps none */
+
 cli_rows *cli_rows_open(bool json)
 {
     cli_rows *rows = calloc(1, sizeof *rows);
     if (rows) {
         rows->json = json;
     }
-    return rows;
+    return rows ? rows : &no_rows;
 }
 
 static void push(cli_rows *rows, const char *key, const char *text, bool is_number)
 {
+    if (rows->failed) {
+        return;
+    }
     if (rows->n == rows->room) {
         const size_t room = rows->room ? 2 * rows->room : 64;
         cell *cells = realloc(rows->cells, room * sizeof *cells);
@@ -193,9 +198,6 @@ static size_t print_block(const cli_rows *rows, size_t start)
 
 int cli_rows_close(cli_rows *rows)
 {
-    if (!rows) {
-        return 4;
-    }
     for (size_t at = 0; !rows->failed && at < rows->n;) {
         at = print_block(rows, at);
     }
@@ -205,10 +207,8 @@ int cli_rows_close(cli_rows *rows)
         free(rows->cells[i].text);
     }
     free(rows->cells);
-    free(rows);
-    if (failed || fflush(stdout) || ferror(stdout)) {
-        fputs("koksma: standard output could not be written\n", stderr);
-        return 4;
+    if (rows != &no_rows) {
+        free(rows);
     }
-    return CLI_YES;
+    return failed ? cli_no_memory() : CLI_YES;
 }

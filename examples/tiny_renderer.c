@@ -54,6 +54,7 @@ static int trace(vec from, vec way, hit *h)
     const vec to = add(from, mul(centre, -1));
     const double b = dot(to, way), c = dot(to, to) - 1, discriminant = b * b - c;
     h->t = INFINITY;
+    h->at = from;
     if (way.y < 0) {
         h->t = -from.y / way.y;
         h->at = add(from, mul(way, h->t));

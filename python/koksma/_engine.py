@@ -57,11 +57,8 @@ class Engine(_Base):
         self.pattern = pattern
         self._sequence = is_sequence(pattern)
         self._known: Optional[PointArray] = None
-        self._start()
-
-    def _start(self) -> None:
-        if isinstance(self.rng_seed, (int, np.integer)) and 0 <= self.rng_seed < 1 << 64:
-            self._seed = int(self.rng_seed)
+        if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
+            self._seed = int(seed)
         else:
             draw = getattr(self.rng, "integers", None) or self.rng.randint  # a Generator, or a RandomState
             self._seed = int(draw(0, np.iinfo(np.int64).max, dtype=np.int64))

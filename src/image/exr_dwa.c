@@ -59,6 +59,10 @@ koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koks
     const int descriptor = mkstemp(path);
     FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
     if (!stream) {
+        if (descriptor >= 0) {
+            close(descriptor);
+            unlink(path);
+        }
         return koksma__fail(KOKSMA_IO, "%s: no temporary file can be made", path);
     }
     const bool written = fwrite(bytes, 1, size, stream) == size;

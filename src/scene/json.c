@@ -136,7 +136,34 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
                         node->path, *node->path ? ": " : "", reason);
 }
 
+koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status)
+{
+    koksma__json_fail(node, "%s", koksma_error_text());
+    return koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM) ? status : KOKSMA_MALFORMED;
+}
+
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
+
+/* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second
+   reading, of a copy: as much memory as the text is long was there. */
+static koksma_status load(koksma__json *d)
+{
+    json_error_t error;
+    d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, &error);
+    if (d->root) {
+        return KOKSMA_OK;
+    }
+    char *copy = malloc(d->size + 4096);
+    if (!copy) {
+        return koksma__fail_memory(d->size + 4096);
+    }
+    memcpy(copy, d->text, d->size);
+    d->root = json_loadb(copy, d->size, JSON_REJECT_DUPLICATES, &error);
+    free(copy);
+    return d->root ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", d->kind, d->name,
+                                  error.line > 0 ? error.line : 1, error.text);
+}
 
 koksma_status koksma__json_open(const char *kind, const char *name, const char *text, size_t size, koksma__json **out)
 {
@@ -151,11 +178,8 @@ koksma_status koksma__json_open(const char *kind, const char *name, const char *
     }
     memcpy(d->text, text, size);
     d->text[size] = '\0';
-    json_error_t error;
-    d->root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    if (!d->root) {
-        const koksma_status status = koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", kind, name,
-                                                  error.line > 0 ? error.line : 1, error.text);
+    const koksma_status status = load(d);
+    if (status) {
         koksma__json_close(d);
         return status;
     }

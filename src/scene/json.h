@@ -29,6 +29,10 @@ koksma__json_node koksma__json_root(const koksma__json *document);
 /* "KIND 'NAME': line N: PATH: reason", status MALFORMED. */
 koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
+/* The same of an error below with the current text: MALFORMED, but want of memory and failures of the system stay
+   what they are. */
+koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status);
+
 /* Fails unless node is an object whose keys are all among `keys`, which ends at NULL. */
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys);
 

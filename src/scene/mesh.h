@@ -65,6 +65,10 @@ koksma_status koksma__gltf_check(const char *path, const unsigned char *file, si
 /* The same, and what it tells; what the file does not say is left as it is. */
 koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out);
 
+/* Whether an OFF or PLY file has what it says. Errors: MALFORMED. */
+koksma_status koksma__off_check(const char *path, const unsigned char *file, size_t size);
+koksma_status koksma__ply_check(const char *path, const unsigned char *file, size_t size);
+
 /* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */

@@ -175,6 +175,10 @@ static koksma_status look_first(const char *path, koksma__gltf *gltf)
         status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
     } else if (strstr(strrchr(path, '.'), ".gl")) {
         status = koksma__gltf_read(path, bytes, size, gltf);
+    } else if (!strcmp(strrchr(path, '.'), ".off")) {
+        status = koksma__off_check(path, bytes, size);
+    } else if (!strcmp(strrchr(path, '.'), ".ply")) {
+        status = koksma__ply_check(path, bytes, size);
     }
     free(bytes);
     return status;

@@ -38,9 +38,10 @@ koksma_status koksma__parse_image(const char *name, const field *f, const char *
         return koksma__fail_memory(sizeof **out);
     }
     const koksma_status status = koksma_image_read(full, *out);
-    return status ? koksma__json_fail(f, "%s%s", koksma_error_text(),
-                                      status == KOKSMA_MISSING ? koksma__package_hint(full) : "")
-                  : KOKSMA_OK;
+    if (status == KOKSMA_MISSING) {
+        koksma__fail(status, "%s%s", koksma_error_text(), koksma__package_hint(full));
+    }
+    return status ? koksma__json_fail_in(f, status) : KOKSMA_OK;
 }
 
 koksma_status koksma__parse_point(const field *object, const char *key, double out[3])

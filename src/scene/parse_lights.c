@@ -155,8 +155,8 @@ koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene
     const char *kind = "";
     koksma__light *light = NULL;
     koksma_status status = koksma__parse_kind(f, "rectangle disk sphere point directional environment", &kind);
-    if (!status && koksma__scene_add_light(scene, &light)) {
-        status = koksma__json_fail(f, "%s", koksma_error_text());
+    if (!status && (status = koksma__scene_add_light(scene, &light))) {
+        status = koksma__json_fail_in(f, status);
     }
     if (status) {
         return status;

@@ -91,7 +91,8 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     if (p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth) {
         return koksma__json_fail(f, "a luminaire is neither smooth nor does it move");
     }
-    return koksma__scene_add_glow(scene, p, radiance) ? koksma__json_fail(f, "%s", koksma_error_text()) : KOKSMA_OK;
+    const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
+    return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
 
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, const double radiance[3])
@@ -139,7 +140,7 @@ static koksma_status place(const field *f, koksma_scene *scene, int mesh)
     koksma__placement *p = NULL;
     koksma_status status = koksma__scene_add_placement(scene, &p);
     if (status) {
-        return koksma__json_fail(f, "%s", koksma_error_text());
+        return koksma__json_fail_in(f, status);
     }
     p->mesh = mesh;
     status = parse_place(f, &scene->meshes[mesh], p);

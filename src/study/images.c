@@ -10,16 +10,17 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "study/image_names.h"
 #include "study/statistics.h"
 #include "study/study.h"
 
 /* One file. */
 typedef struct picture {
     const char *path;
-    char group[KOKSMA_IMAGES_GROUP];
-    long long spp, trial;
-    koksma_image_error error;
+    koksma__image_name name;
+    _Alignas(8) koksma_image_error error; /* also where a double needs less, so that a picture is a row of doubles */
 } picture;
+_Static_assert(sizeof(picture) % sizeof(double) == 0, "the statistics step over pictures by doubles");
 
 typedef struct pictures {
     size_t n;
@@ -27,80 +28,14 @@ typedef struct pictures {
     koksma_image reference;
 } pictures;
 
-/* ---- Names --------------------------------------------------------------------------------------------- */
-
-static bool takes_digits(const char *place)
-{
-    return !strncmp(place, "{spp}", 5) || !strncmp(place, "{trial}", 7);
-}
-
-static void keep(picture *p, const char *place, const char *text, size_t length)
-{
-    if (!strncmp(place, "{spp}", 5)) {
-        p->spp = strtoll(text, NULL, 10);
-    } else if (!strncmp(place, "{trial}", 7)) {
-        p->trial = strtoll(text, NULL, 10);
-    } else {
-        const size_t used = strlen(p->group);
-        snprintf(p->group + used, sizeof p->group - used, "%s%.*s=%.*s", used ? " " : "",
-                 (int)strcspn(place + 1, "}"), place + 1, (int)length, text);
-    }
-}
-
-/* Whether a path fits, the longest text for the first place first; its texts go to p. Depth: the number of places. */
-static bool fit(const char *places, const char *path, picture *p)
-{
-    while (*places && *places != '{') {
-        if (*places++ != *path++) {
-            return false;
-        }
-    }
-    if (!*places) {
-        return !*path;
-    }
-    const char *after = strchr(places, '}') + 1;
-    const picture before = *p;
-    for (size_t length = takes_digits(places) ? strspn(path, "0123456789") : strcspn(path, "/"); length > 0;
-         length--) {
-        keep(p, places, path, length);
-        if (fit(after, path + length, p)) {
-            return true;
-        }
-        *p = before;
-    }
-    return false;
-}
-
-/* The places as stars, all else as itself. */
-static koksma_status pattern_of(const char *places, char *pattern, size_t size)
-{
-    size_t used = 0;
-    for (const char *at = places; *at && used + 3 < size; at++) {
-        if (*at == '{') {
-            at = strchr(at, '}');
-            if (!at) {
-                return koksma__fail(KOKSMA_ARGUMENT, "'%s': a place that is not closed", places);
-            }
-            pattern[used++] = '*';
-        } else {
-            if (strchr("*?[]\\", *at)) {
-                pattern[used++] = '\\';
-            }
-            pattern[used++] = *at;
-        }
-    }
-    pattern[used] = '\0';
-    return KOKSMA_OK;
-}
-
 static int compare_pictures(const void *a, const void *b)
 {
     const picture *p = a, *q = b;
-    const int group = strcmp(p->group, q->group);
-    if (group || p->spp != q->spp) {
-        return group ? group : p->spp < q->spp ? -1 : 1;
+    const int group = strcmp(p->name.group, q->name.group);
+    if (group || p->name.spp != q->name.spp) {
+        return group ? group : p->name.spp < q->name.spp ? -1 : 1;
     }
-    return p->trial != q->trial ? (p->trial < q->trial ? -1 : 1) : strcmp(p->path, q->path);
+    return p->name.trial != q->name.trial ? (p->name.trial < q->name.trial ? -1 : 1) : strcmp(p->path, q->path);
 }
 
 static koksma_status collect(const char *places, const glob_t *found, pictures *out)
@@ -109,11 +44,17 @@ static koksma_status collect(const char *places, const glob_t *found, pictures *
     if (!out->at) {
         return koksma__fail_memory(found->gl_pathc * sizeof *out->at);
     }
-    for (size_t i = 0; i < found->gl_pathc; i++) {
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < found->gl_pathc; i++) {
         picture p = {.path = found->gl_pathv[i]};
-        if (fit(places, p.path, &p)) {
+        bool fits;
+        status = koksma__image_name_read(places, p.path, &p.name, &fits);
+        if (!status && fits) {
             out->at[out->n++] = p;
         }
+    }
+    if (status) {
+        return status;
     }
     qsort(out->at, out->n, sizeof *out->at, compare_pictures);
     return out->n ? KOKSMA_OK : koksma__fail(KOKSMA_MISSING, "%s: no such images", places);
@@ -161,8 +102,8 @@ static void fill_row(const picture *first, size_t n, koksma_images_row *row)
 {
     const size_t stride = sizeof *first / sizeof(double);
     const koksma__summary mean = koksma__summarize(&first->error.mean, n, stride);
-    snprintf(row->group, sizeof row->group, "%s", first->group);
-    row->spp = first->spp;
+    snprintf(row->group, sizeof row->group, "%s", first->name.group);
+    row->spp = first->name.spp;
     row->trials = n;
     row->mean = mean.mean;
     row->low = mean.low;
@@ -179,8 +120,8 @@ static koksma_status make_rows(const pictures *all, koksma_images_row **rows, si
         return koksma__fail_memory(all->n * sizeof **rows);
     }
     for (size_t i = 0, end; i < all->n; i = end) {
-        for (end = i + 1;
-             end < all->n && !strcmp(all->at[end].group, all->at[i].group) && all->at[end].spp == all->at[i].spp;) {
+        for (end = i + 1; end < all->n && !strcmp(all->at[end].name.group, all->at[i].name.group) &&
+                          all->at[end].name.spp == all->at[i].name.spp;) {
             end++;
         }
         fill_row(&all->at[i], end - i, &(*rows)[(*n)++]);
@@ -202,15 +143,12 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     pictures all = {0};
     *rows = NULL;
     *n = 0;
-    if (2 * strlen(places) + 4 > sizeof pattern) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the path is longer than %zu characters", sizeof pattern / 2);
-    }
-    koksma_status status = pattern_of(places, pattern, sizeof pattern);
+    koksma_status status = koksma__image_names_pattern(places, pattern, sizeof pattern);
     if (status) {
         return status;
     }
-    glob(pattern, 0, NULL, &found);
-    status = collect(places, &found, &all);
+    status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
+                                                            : collect(places, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
     status = status ? status : make_rows(&all, rows, n);

@@ -59,9 +59,10 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
         for (size_t m = 0; m < b->measures.n; m++) {
             koksma_spec spec;
             koksma_value value;
-            if (koksma_measure_spec(b->measures.at[m], &spec) ||
-                koksma_warp_evaluate(warp, &spec, &point, NULL, &value)) {
-                return koksma__json_fail(node, "%s", koksma_error_text());
+            koksma_status status = koksma_measure_spec(b->measures.at[m], &spec);
+            status = status ? status : koksma_warp_evaluate(warp, &spec, &point, NULL, &value);
+            if (status) {
+                return koksma__json_fail_in(node, status);
             }
         }
     }
@@ -109,7 +110,7 @@ static koksma_status check_scene(const koksma__json_node *node, const char *name
     if (!status) {
         koksma_scene_close(scene);
     }
-    return status ? koksma__json_fail(node, "%s", koksma_error_text()) : KOKSMA_OK;
+    return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
 }
 
 static koksma_status check_scenes(const koksma__json_node *node, const koksma__texts *scenes)

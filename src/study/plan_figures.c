@@ -31,14 +31,15 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
 {
     koksma_adaptive_options adaptive;
     koksma_scene *scene;
-    if (f->scene && koksma_scene_open(f->scene, &scene)) {
-        return koksma__json_fail(node, "%s", koksma_error_text());
-    }
-    if (f->scene) {
+    koksma_status status = f->scene ? koksma_scene_open(f->scene, &scene) : KOKSMA_OK;
+    if (f->scene && !status) {
         koksma_scene_close(scene);
     }
-    if (f->adaptive && koksma_adaptive_parse(f->adaptive, &adaptive)) {
-        return koksma__json_fail(node, "%s", koksma_error_text());
+    if (!status && f->adaptive) {
+        status = koksma_adaptive_parse(f->adaptive, &adaptive);
+    }
+    if (status) {
+        return koksma__json_fail_in(node, status);
     }
     if (f->warp && (!koksma_warp_find(f->warp) || koksma_warp_find(f->warp)->domain != KOKSMA_DOMAIN_DISK)) {
         return koksma__json_fail(node, "no warp '%s' to the disk", f->warp);

@@ -22,8 +22,9 @@ static koksma_status canonical(const koksma__json_node *node, koksma__spec_parse
     if (status) {
         return status;
     }
-    if (parser(text, &spec)) {
-        return koksma__json_fail(node, "%s", koksma_error_text());
+    status = parser(text, &spec);
+    if (status) {
+        return koksma__json_fail_in(node, status);
     }
     char name[KOKSMA_MAX_SPEC];
     koksma_spec_text(&spec, name);

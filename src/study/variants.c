@@ -177,8 +177,9 @@ static koksma_status parse_words(const koksma__json_node *node, const option *o,
         koksma__variant scratch;
         memset(&scratch, 0, sizeof scratch);
         const koksma__json_node item = koksma__json_item(&list, i);
-        if (o->set(&scratch, words->at[i])) {
-            return koksma__json_fail(&item, "%s", koksma_error_text());
+        status = o->set(&scratch, words->at[i]);
+        if (status) {
+            return koksma__json_fail_in(&item, status);
         }
         if (scratch.adaptive.method) { /* two texts of one method are one variant */
             char text[KOKSMA_MAX_SPEC];
@@ -257,8 +258,8 @@ koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__text
             status = parse_words(&options, &known[i], &words[i]);
         }
     }
-    if (!status && combine(words, out)) {
-        status = koksma__json_fail(node, "%s", koksma_error_text());
+    if (!status && (status = combine(words, out))) {
+        status = koksma__json_fail_in(node, status);
     }
     for (int i = 0; i < N_KNOWN; i++) {
         koksma__texts_fini(&words[i]);

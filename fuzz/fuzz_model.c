@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A mesh file as a scene: the first line is the ending of its name (.obj .ply .off .gltf .glb), the rest the file. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "target.h"
+
+/* The file's path without its ending. It lies in memory where the system has such a place. */
+static const char *place(void)
+{
+    static char path[64];
+    if (!*path) {
+        snprintf(path, sizeof path, "%s/koksma-fuzz-%ld", access("/dev/shm", W_OK) ? "/tmp" : "/dev/shm",
+                 (long)getpid());
+    }
+    return path;
+}
+
+/* Of some files that it refuses assimp keeps a little memory. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libassimp\nleak:libstdc++\n"; /* its stack is not seen to the end */
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    static const char *const endings[] = {".obj", ".ply", ".off", ".gltf", ".glb"};
+    char path[80];
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        const size_t length = strlen(endings[i]);
+        if (size <= length || memcmp(bytes, endings[i], length) != 0 || bytes[length] != '\n') {
+            continue;
+        }
+        snprintf(path, sizeof path, "%s%s", place(), endings[i]);
+        const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        if (file < 0 || write(file, bytes + length + 1, size - length - 1) != (ssize_t)(size - length - 1)) {
+            abort();
+        }
+        close(file);
+        koksma_scene *scene;
+        const koksma_status status = koksma_scene_open(path, &scene);
+        fuzz_check_status(status);
+        if (!status) {
+            koksma_scene_close(scene);
+        }
+        unlink(path);
+    }
+    return 0;
+}

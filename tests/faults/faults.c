@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The program with a fault: linked in by --wrap, so that what the program and the two libraries call comes here, and
+   what outside libraries and libc call does not. */
+#include "faults.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+static const char *const names[N_FAULTS] = {
+    "none", "memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory",
+};
+
+enum { MODE_ONCE, MODE_ON, MODE_END, ENDED = 99 };
+
+static fault_kind wanted;
+static long wanted_at;
+static int mode;
+static bool listening; /* KOKSMA_FAULT is set */
+static atomic_long counts[N_FAULTS];
+
+_Noreturn void fault_end(void)
+{
+    _exit(ENDED);
+}
+
+bool fault_here(fault_kind kind, bool *half)
+{
+    const long at = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (kind != wanted || at < wanted_at || (mode != MODE_ON && at > wanted_at)) {
+        return false;
+    }
+    if (mode == MODE_END && !half) {
+        fault_end();
+    }
+    if (half) {
+        *half = mode == MODE_END;
+    }
+    return true;
+}
+
+/* ---- Memory -------------------------------------------------------------------------------------------- */
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t n, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+char *__real_strdup(const char *text);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+char *__wrap_strdup(const char *text);
+
+static bool no_memory(void)
+{
+    const bool fails = fault_here(FAULT_MEMORY, NULL);
+    errno = fails ? ENOMEM : errno;
+    return fails;
+}
+
+void *__wrap_malloc(size_t size)
+{
+    return no_memory() ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return no_memory() ? NULL : __real_calloc(n, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return no_memory() ? NULL : __real_realloc(old, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return no_memory() ? NULL : __real_aligned_alloc(alignment, size);
+}
+
+char *__wrap_strdup(const char *text)
+{
+    return no_memory() ? NULL : __real_strdup(text);
+}
+
+/* ---- Files --------------------------------------------------------------------------------------------- */
+
+/* A stream whose reads and writes come by here; the stream below it has no buffer of its own. */
+enum { MAX_FILES = 64, BUFFER = 1024 };
+static struct {
+    FILE *above, *below;
+    char buffer[BUFFER]; /* small, so that there are several writes in a short file */
+} files[MAX_FILES];
+
+FILE *__real_fopen(const char *path, const char *how);
+FILE *__real_fdopen(int descriptor, const char *how);
+int __real_fclose(FILE *stream);
+int __real_fileno(FILE *stream);
+int __real_fsync(int descriptor);
+int __real_rename(const char *from, const char *to);
+int __real_mkdir(const char *path, mode_t bits);
+int __real_mkstemp(char *path);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
+FILE *__wrap_fopen(const char *path, const char *how);
+FILE *__wrap_fdopen(int descriptor, const char *how);
+int __wrap_fclose(FILE *stream);
+int __wrap_fileno(FILE *stream);
+int __wrap_fsync(int descriptor);
+int __wrap_rename(const char *from, const char *to);
+int __wrap_mkdir(const char *path, mode_t bits);
+int __wrap_mkstemp(char *path);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
+
+static ssize_t read_below(void *cookie, char *bytes, size_t size)
+{
+    if (fault_here(FAULT_READ, NULL)) {
+        errno = EIO;
+        return -1;
+    }
+    const size_t got = fread(bytes, 1, size, cookie);
+    return got == 0 && ferror((FILE *)cookie) ? -1 : (ssize_t)got;
+}
+
+static ssize_t write_below(void *cookie, const char *bytes, size_t size)
+{
+    bool half = false;
+    if (fault_here(FAULT_WRITE, &half)) {
+        if (half) {
+            fwrite(bytes, 1, size / 2, cookie);
+            fflush(cookie);
+            fault_end();
+        }
+        errno = ENOSPC;
+        return 0; /* what glibc asks for */
+    }
+    return (ssize_t)fwrite(bytes, 1, size, cookie);
+}
+
+static int seek_below(void *cookie, off64_t *offset, int from)
+{
+    if (fseeko(cookie, *offset, from)) {
+        return -1;
+    }
+    *offset = ftello(cookie);
+    return 0;
+}
+
+static int close_below(void *cookie)
+{
+    return __real_fclose(cookie);
+}
+
+static FILE *above(FILE *below, const char *how)
+{
+    const cookie_io_functions_t functions = {read_below, write_below, seek_below, close_below};
+    if (!below) {
+        return NULL;
+    }
+    setvbuf(below, NULL, _IONBF, 0);
+    FILE *stream = fopencookie(below, how, functions);
+    for (int i = 0; stream && i < MAX_FILES; i++) {
+        if (!files[i].above) {
+            files[i].above = stream;
+            files[i].below = below;
+            setvbuf(stream, files[i].buffer, _IOFBF, BUFFER);
+            return stream;
+        }
+    }
+    abort();
+}
+
+FILE *__wrap_fopen(const char *path, const char *how)
+{
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = EMFILE;
+        return NULL;
+    }
+    FILE *stream = __real_fopen(path, how);
+    return listening ? above(stream, how) : stream;
+}
+
+FILE *__wrap_fdopen(int descriptor, const char *how)
+{
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    FILE *stream = __real_fdopen(descriptor, how);
+    return listening ? above(stream, how) : stream;
+}
+
+int __wrap_fclose(FILE *stream)
+{
+    for (int i = 0; i < MAX_FILES; i++) {
+        if (files[i].above == stream) {
+            files[i].above = NULL;
+        }
+    }
+    const int code = __real_fclose(stream);
+    if (fault_here(FAULT_CLOSE, NULL)) {
+        errno = EIO;
+        return EOF;
+    }
+    return code;
+}
+
+int __wrap_fileno(FILE *stream)
+{
+    for (int i = 0; i < MAX_FILES; i++) {
+        if (files[i].above == stream) {
+            return __real_fileno(files[i].below);
+        }
+    }
+    return __real_fileno(stream);
+}
+
+int __wrap_fsync(int descriptor)
+{
+    if (fault_here(FAULT_SYNC, NULL)) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_fsync(descriptor);
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    if (fault_here(FAULT_RENAME, NULL)) {
+        errno = EACCES;
+        return -1;
+    }
+    return __real_rename(from, to);
+}
+
+int __wrap_mkdir(const char *path, mode_t bits)
+{
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return __real_mkdir(path, bits);
+}
+
+int __wrap_mkstemp(char *path)
+{
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return __real_mkstemp(path);
+}
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument)
+{
+    return fault_here(FAULT_THREAD, NULL) ? EAGAIN : __real_pthread_create(thread, attributes, f, argument);
+}
+
+/* ---- Before main, and at the end ----------------------------------------------------------------------- */
+
+static void tell_counts(void)
+{
+    FILE *stream = __real_fopen(getenv("KOKSMA_FAULT_COUNT"), "w");
+    if (stream) {
+        for (int i = 1; i < N_FAULTS; i++) {
+            fprintf(stream, "%s %ld\n", names[i], atomic_load(&counts[i]));
+        }
+        __real_fclose(stream);
+    }
+}
+
+__attribute__((constructor)) static void begin(void)
+{
+    const char *kind = getenv("KOKSMA_FAULT"), *at = getenv("KOKSMA_FAULT_AT"), *how = getenv("KOKSMA_FAULT_MODE");
+    if (!kind) {
+        return;
+    }
+    json_set_alloc_funcs(__wrap_malloc, free);
+    fault_install_sqlite();
+    stdout = above(stdout, "w");
+    memset(counts, 0, sizeof counts);
+    listening = true;
+    int i = 0;
+    while (i < N_FAULTS && strcmp(kind, names[i]) != 0) {
+        i++;
+    }
+    if (i == N_FAULTS) {
+        abort();
+    }
+    mode = how && !strcmp(how, "on") ? MODE_ON : how && !strcmp(how, "end") ? MODE_END : MODE_ONCE;
+    wanted_at = at ? strtol(at, NULL, 10) : 1;
+    wanted = (fault_kind)i;
+    if (getenv("KOKSMA_FAULT_COUNT")) {
+        atexit(tell_counts);
+    }
+}
