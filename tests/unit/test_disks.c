@@ -57,6 +57,28 @@ static void by_distance(void **state)
     assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
 }
 
+/* Cells are a little smaller than the distance asks for, so that points of cells that touch at a corner's corner can
+   be too near: one set in thousands shows it. */
+static void many_small_sets_keep_their_distance(void **state)
+{
+    (void)state;
+    static const double distances[] = {0.6, 0.3, 0.29, 0.21};
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
+        char text[64];
+        koksma_spec spec;
+        snprintf(text, sizeof text, "poisson-disk-maximal:d=%g", distances[i]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        for (uint64_t seed = 0; seed < 5000; seed++) {
+            koksma_points p;
+            double d;
+            assert_ok(koksma_generate_whole(&spec, seed, NULL, 2, &p));
+            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+            assert_true(d >= distances[i] * (1 - 1e-12));
+            koksma_points_fini(&p);
+        }
+    }
+}
+
 /* More points than 256 are thrown by another method; the first 256 are the same darts. */
 static void grids_change_no_points(void **state)
 {
@@ -145,7 +167,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exactly_n_points),       cmocka_unit_test(by_distance),
         cmocka_unit_test(grids_change_no_points), cmocka_unit_test(fractions_of_the_densest),
-        cmocka_unit_test(files_are_patterns),
+        cmocka_unit_test(files_are_patterns),     cmocka_unit_test(many_small_sets_keep_their_distance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,10 +96,11 @@ static void put_into_grid(koksma__disks *s, uint32_t cell_x, uint32_t cell_y, do
     }
 }
 
-/* The points of the 21 cells that a point of the cell can be in reach of. */
+/* The points of the cells that a point of the cell can be in reach of: 25 of them, with the corners, since the
+   diagonal of a cell is a little shorter than d. */
 typedef struct around {
     size_t count; /* rounded up to a multiple of 8 by places far away */
-    double xs[24 + 8], ys[24 + 8];
+    double xs[32], ys[32];
 } around;
 
 static void look_around(const koksma__disks *s, uint32_t x, uint32_t y, around *a)
@@ -107,8 +108,8 @@ static void look_around(const koksma__disks *s, uint32_t x, uint32_t y, around *
     const size_t place = place_of(s, x, y);
     size_t count = 0;
     for (size_t r = 0; r < 5; r++) {
-        const size_t row = place + r * s->stride - 2 * s->stride, edge = r % 4 == 0;
-        for (size_t at = row - 2 + edge; at <= row + 2 - edge; at++) {
+        const size_t row = place + r * s->stride - 2 * s->stride;
+        for (size_t at = row - 2; at <= row + 2; at++) {
             a->xs[count] = s->gx[at];
             a->ys[count] = s->gy[at];
             count += s->gx[at] < far_away;

@@ -42,9 +42,9 @@ static bool stopped(koksma__disks *s, const koksma__dart *d)
 {
     const int cells = (int)s->cells, cell_x = (int)d->cell_x;
     for (int r = -2; r <= 2; r++) {
-        const int reach = r == -2 || r == 2 ? 1 : 2, y = (int)d->cell_y + r, v = y < 0 ? -1 : y >= cells;
+        const int y = (int)d->cell_y + r, v = y < 0 ? -1 : y >= cells;
         const uint32_t *row = s->starts + (size_t)(y - v * cells) * s->cells;
-        const int low = cell_x - reach, high = cell_x + reach;
+        const int low = cell_x - 2, high = cell_x + 2;
         if ((low < 0 && stopped_by(s, d, row[low + cells], row[cells], -1, v)) ||
             (high >= cells && stopped_by(s, d, row[0], row[high + 1 - cells], 1, v)) ||
             stopped_by(s, d, row[low < 0 ? 0 : low], row[high < cells ? high + 1 : cells], 0, v)) {
