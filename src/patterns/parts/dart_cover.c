@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
@@ -36,10 +37,10 @@ static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;
     s->cells = (uint32_t)ceil(sqrt(2) / d);
-    s->stride = (size_t)s->cells + BEFORE + AFTER;
     s->tiles = s->cells <= WHOLE ? 1 : (s->cells + TILE - 1) / TILE;
-    s->tile = (s->cells + s->tiles - 1) / s->tiles;
-    s->tiles = (s->cells + s->tile - 1) / s->tile;
+    s->wide = (s->cells + s->tiles - 1) / s->tiles;
+    s->stride = s->wide + BEFORE + AFTER;
+    s->block = s->stride * (s->wide + 2 * BEFORE);
     s->level = 0;
     s->n_squares = 0;
     const double reach = d * s->cells;
@@ -51,14 +52,15 @@ static void choose_grid(koksma__disks *s, double d)
 static koksma_status make_grid(koksma__disks *s, double d)
 {
     choose_grid(s, d);
-    const size_t places = s->stride * (s->cells + 2 * BEFORE) + AFTER, squares = (size_t)s->cells * s->cells;
-    const size_t bytes = places * (2 * sizeof *s->gx) + squares * (sizeof *s->who + sizeof *s->squares);
+    const size_t tiles = (size_t)s->tiles * s->tiles, squares = (size_t)s->cells * s->cells;
+    const size_t places = tiles * s->block + AFTER, own = tiles * s->wide * s->wide;
+    const size_t bytes = places * (2 * sizeof *s->gx) + own * sizeof *s->who + squares * sizeof *s->squares;
     void *grid = s->gx, *who = s->who, *list = s->squares, *first = s->first;
     size_t who_room = s->who_room;
     const bool ok = get_room(&grid, &s->grid_room, 2 * places, sizeof *s->gx) &
-                    get_room(&who, &who_room, squares, sizeof *s->who) &
+                    get_room(&who, &who_room, own, sizeof *s->who) &
                     get_room(&list, &s->square_room, squares, sizeof *s->squares) &
-                    get_room(&first, &s->first_room, (size_t)s->tiles * s->tiles + 1, sizeof *s->first);
+                    get_room(&first, &s->first_room, tiles + 1, sizeof *s->first);
     s->gx = grid;
     s->who = who;
     s->who_room = who_room;
@@ -71,10 +73,11 @@ static koksma_status make_grid(koksma__disks *s, double d)
     for (size_t i = 0; i < 2 * places; i++) {
         s->gx[i] = far_away;
     }
-    for (size_t i = 0; i < squares; i++) {
-        s->who[i] = NONE;
+    memset(s->who, 0xff, own * sizeof *s->who);
+    if (s->tiles > 1 && !s->times) {
+        s->times = malloc(s->room * sizeof *s->times);
     }
-    return KOKSMA_OK;
+    return s->tiles == 1 || s->times ? KOKSMA_OK : koksma__fail_memory(s->room * sizeof *s->times);
 }
 
 koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
@@ -84,17 +87,7 @@ koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
     if (!s->xs) {
         return koksma__fail_memory(2 * s->room * sizeof *s->xs);
     }
-    const koksma_status status = make_grid(s, d);
-    if (status) {
-        return status;
-    }
-    if (s->tiles > 1) {
-        s->times = malloc(s->room * sizeof *s->times);
-        if (!s->times) {
-            return koksma__fail_memory(s->room * sizeof *s->times);
-        }
-    }
-    return status;
+    return make_grid(s, d);
 }
 
 void koksma__disks_fini(koksma__disks *s)
@@ -110,20 +103,52 @@ void koksma__disks_fini(koksma__disks *s)
     *s = (koksma__disks){0};
 }
 
-void koksma__disks_put(koksma__disks *s, uint32_t cell_x, uint32_t cell_y, float in_x, float in_y, size_t i)
+/* Where a cell is on one axis: the tiles of the row, and its number in them, which is outside in borders. */
+typedef struct axis {
+    int count, at[BEFORE + AFTER + 1];
+    uint32_t tile[BEFORE + AFTER + 1];
+} axis;
+
+static axis find_copies(const koksma__disks *s, uint32_t tile, int cell)
 {
-    const uint32_t cells = s->cells;
-    s->who[(size_t)cell_y * cells + cell_x] = (uint32_t)i;
-    const size_t place = koksma__disks_place(s, cell_x, cell_y);
-    s->gx[place] = in_x;
-    s->gy[place] = in_y;
-    if ((cell_x >= AFTER) & (cell_y >= BEFORE) & (cell_x + BEFORE < cells) & (cell_y + BEFORE < cells)) {
+    axis a = {.count = 1, .at = {cell}, .tile = {tile}};
+    uint32_t t = tile;
+    for (int at = cell; at < AFTER; a.count++) {
+        t = t ? t - 1 : s->tiles - 1;
+        at += (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t));
+        a.at[a.count] = at;
+        a.tile[a.count] = t;
+    }
+    t = tile;
+    for (int at = cell, size;
+         size = (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t)), at >= size - BEFORE; a.count++) {
+        at -= size;
+        t = t + 1 < s->tiles ? t + 1 : 0;
+        a.at[a.count] = at;
+        a.tile[a.count] = t;
+    }
+    return a;
+}
+
+void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x, uint32_t cell_y, float in_x,
+                       float in_y, size_t i)
+{
+    s->who[koksma__disks_own(s, t->number, cell_x, cell_y)] = (uint32_t)i;
+    if ((cell_x >= AFTER) & (cell_y >= AFTER) & (cell_x + BEFORE < t->nx) & (cell_y + BEFORE < t->ny)) {
+        const size_t place = koksma__disks_place(s, t->number, (int)cell_x, (int)cell_y);
+        s->gx[place] = in_x;
+        s->gy[place] = in_y;
         return;
     }
-    for (size_t y = (cell_y + BEFORE) % cells; y < (size_t)cells + 2 * BEFORE; y += cells) {
-        for (size_t x = (cell_x + BEFORE) % cells; x < s->stride; x += cells) {
-            s->gx[y * s->stride + x] = in_x;
-            s->gy[y * s->stride + x] = in_y;
+    const axis x = find_copies(s, t->number % s->tiles, (int)cell_x);
+    const axis y = find_copies(s, t->number / s->tiles, (int)cell_y);
+    for (int v = 0; v < y.count; v++) {
+        for (int u = 0; u < x.count; u++) {
+            if (y.at[v] < (int)s->wide + BEFORE) {
+                const size_t place = koksma__disks_place(s, y.tile[v] * s->tiles + x.tile[u], x.at[u], y.at[v]);
+                s->gx[place] = in_x;
+                s->gy[place] = in_y;
+            }
         }
     }
 }
@@ -135,9 +160,9 @@ typedef struct around {
     float xs[40], ys[40]; /* and at least eight places far away */
 } around;
 
-static inline void look_around(const koksma__disks *s, uint32_t x, uint32_t y, around *a)
+static inline void look_around(const koksma__disks *s, uint32_t tile, uint32_t x, uint32_t y, around *a)
 {
-    const size_t corner = koksma__disks_place(s, x, y) - 2 * s->stride - 2;
+    const size_t corner = koksma__disks_corner(s, tile, x, y);
     a->count = s->kernels->look_around(s->gx + corner, s->gy + corner, s->stride, a->xs, a->ys);
 }
 
@@ -155,7 +180,7 @@ static void look_exactly(const koksma__disks *s, uint32_t cell_x, uint32_t cell_
         const int v = (int)cell_y + r + 2 * cells, y = v % cells;
         for (int c = -2; c <= 2; c++) {
             const int u = (int)cell_x + c + 2 * cells, x = u % cells;
-            const uint32_t who = s->who[(size_t)y * s->cells + (size_t)x];
+            const uint32_t who = koksma__disks_who(s, (uint32_t)x, (uint32_t)y);
             if (who != NONE) {
                 a->xs[count] = s->xs[2 * (size_t)who] + (u / cells - 2);
                 a->ys[count++] = s->xs[2 * (size_t)who + 1] + (v / cells - 2);
@@ -195,9 +220,10 @@ static inline unsigned covered(const judge *j, koksma__square square)
 
 /* The squares of a tile, those of a cell being neighbours in the list; the quarters with room are appended to the
    spare list. */
-static size_t refine_tile(judge *j, size_t first, size_t end, koksma__square *out)
+static size_t refine_tile(judge *j, uint32_t number, size_t first, size_t end, koksma__square *out)
 {
     const koksma__disks *s = j->s;
+    const koksma__tile tile = koksma__disks_tile(s, number);
     const int level = s->level - 1;
     uint32_t cell_x = NONE, cell_y = NONE;
     bool full = false;
@@ -207,11 +233,12 @@ static size_t refine_tile(judge *j, size_t first, size_t end, koksma__square *ou
         if (cell_x != square.x >> level || cell_y != square.y >> level) {
             cell_x = square.x >> level;
             cell_y = square.y >> level;
-            full = s->gx[koksma__disks_place(s, cell_x, cell_y)] < far_away; /* its point covers it */
+            const uint32_t x = cell_x - tile.x, y = cell_y - tile.y;
+            full = s->who[koksma__disks_own(s, number, x, y)] != NONE; /* its point covers it */
             if (!full && j->exact) {
                 look_exactly(s, cell_x, cell_y, &j->points.all);
             } else if (!full) {
-                look_around(s, cell_x, cell_y, &j->points.few);
+                look_around(s, number, x, y, &j->points.few);
             }
         }
         if (full) {
@@ -233,7 +260,7 @@ koksma_status koksma__disks_refine(koksma__disks *s)
     const float h = 0.5F / (float)((uint32_t)1 << s->level);
     judge j = {.s = s, .exact = s->level >= EXACT, .h = h, .half = (double)h / s->cells};
     size_t kept = 0, first = 0;
-    for (size_t t = 0; t < (size_t)s->tiles * s->tiles; t++) {
+    for (uint32_t t = 0; t < s->tiles * s->tiles; t++) {
         const size_t end = s->first[t + 1], most = kept + 4 * (end - first);
         if (most + 1 > s->spare_room) {
             const size_t room = most + most / 2 + s->n_squares + 1;
@@ -245,7 +272,7 @@ koksma_status koksma__disks_refine(koksma__disks *s)
             s->spare_room = room;
         }
         s->first[t] = kept;
-        kept += refine_tile(&j, first, end, s->spare + kept);
+        kept += refine_tile(&j, t, first, end, s->spare + kept);
         first = end;
     }
     koksma__square *squares = s->squares;
@@ -262,18 +289,16 @@ koksma_status koksma__disks_refine(koksma__disks *s)
 static void list_cells(koksma__disks *s, bool all)
 {
     around points;
-    for (uint32_t t = 0; t < s->tiles * s->tiles; t++) {
-        const uint32_t x0 = t % s->tiles * s->tile, y0 = t / s->tiles * s->tile;
-        const uint32_t x1 = s->cells - x0 < s->tile ? s->cells : x0 + s->tile;
-        const uint32_t y1 = s->cells - y0 < s->tile ? s->cells : y0 + s->tile;
-        s->first[t] = s->n_squares;
-        for (uint32_t y = y0; y < y1; y++) {
-            for (uint32_t x = x0; x < x1; x++) {
-                s->squares[s->n_squares] = (koksma__square){x, y};
+    for (uint32_t i = 0; i < s->tiles * s->tiles; i++) {
+        const koksma__tile t = koksma__disks_tile(s, i);
+        s->first[i] = s->n_squares;
+        for (uint32_t y = 0; y < t.ny; y++) {
+            for (uint32_t x = 0; x < t.nx; x++) {
+                s->squares[s->n_squares] = (koksma__square){t.x + x, t.y + y};
                 if (all) {
                     s->n_squares++;
-                } else if (s->gx[koksma__disks_place(s, x, y)] >= far_away) {
-                    look_around(s, x, y, &points);
+                } else if (s->who[koksma__disks_own(s, i, x, y)] == NONE) {
+                    look_around(s, i, x, y, &points);
                     s->n_squares +=
                         !s->kernels->covers_roughly(points.count, points.xs, points.ys, 0.5F, 0.5F, 0, 0.5F, s->low);
                 }
@@ -312,7 +337,9 @@ koksma_status koksma__disks_shrink(koksma__disks *s, size_t n, double d)
     for (size_t i = 0; i < n && !status; i++) {
         const double x = s->xs[2 * i] * s->cells, y = s->xs[2 * i + 1] * s->cells;
         const uint32_t cell_x = (uint32_t)fmin(x, s->cells - 1.0), cell_y = (uint32_t)fmin(y, s->cells - 1.0);
-        koksma__disks_put(s, cell_x, cell_y, (float)(x - cell_x), (float)(y - cell_y), i);
+        const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);
+        const koksma__tile t = koksma__disks_tile(s, ty * s->tiles + tx);
+        koksma__disks_put(s, &t, cell_x - t.x, cell_y - t.y, (float)(x - cell_x), (float)(y - cell_y), i);
     }
     if (!status) {
         list_cells(s, false);

@@ -30,8 +30,13 @@ typedef struct koksma__square {
 typedef struct koksma__dart {
     double x, y, time;
     float in_x, in_y; /* place in its cell */
-    uint32_t cell_x, cell_y, next;
+    uint32_t cell_x, cell_y, tile, next;
 } koksma__dart;
+
+/* A tile: cells x .. x + nx - 1, y .. y + ny - 1. */
+typedef struct koksma__tile {
+    uint32_t number, x, y, nx, ny;
+} koksma__tile;
 
 enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BEFORE = 2, KOKSMA__DART_AFTER = 5 };
 
@@ -42,14 +47,14 @@ typedef struct koksma__disks {
     double *xs;     /* pairs */
     double *times;  /* of the points of this round, where there are several tiles */
     uint32_t cells; /* a side; none holds two points */
-    size_t stride;  /* of the rows of gx and gy, which have a border of copies: 5 after, else 2 */
-    size_t grid_room;
+    uint32_t tiles; /* a side */
+    size_t wide;    /* cells a side of the largest tile */
+    size_t stride;  /* of the rows of gx and gy, where each tile has a border of copies: 5 after, else 2 */
+    size_t block;   /* from tile to tile in gx and gy */
+    size_t grid_room, who_room;
     float *gx, *gy;
-    size_t who_room;
-    uint32_t *who;   /* the point of each cell, row by row without border; UINT32_MAX: none */
+    uint32_t *who;   /* the point of each cell, by tile, without border; UINT32_MAX: none */
     float low, high; /* squares of distances in cells: below is near, above is not, between the doubles tell */
-    uint32_t tile;   /* cells a side of a tile */
-    uint32_t tiles;  /* a side */
     int level;       /* squares are cells / 2^level wide */
     size_t n_squares, square_room, spare_room, first_room;
     koksma__square *squares, *spare; /* by tile */
@@ -75,16 +80,57 @@ koksma_status koksma__disks_shrink(koksma__disks *disks, size_t n, double d);
 /* Inside. A round of darts, on average `mean` at each square; no more than n points afterwards. */
 koksma_status koksma__darts_throw(koksma__disks *disks, double mean, size_t n, const koksma_run *run);
 
-/* Point number i goes into its cell and into the copies of the cell in the border. */
-void koksma__disks_put(koksma__disks *disks, uint32_t cell_x, uint32_t cell_y, float in_x, float in_y, size_t i);
+/* Point number i goes into its cell and into the copies of the cell in borders. */
+void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t cell_x, uint32_t cell_y, float in_x,
+                       float in_y, size_t i);
 
 /* Cuts the squares in four and keeps those with room. */
 koksma_status koksma__disks_refine(koksma__disks *disks);
 
-/* The place in gx and gy of a cell. */
-static inline size_t koksma__disks_place(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y)
+/* The first cell of a row of tiles, and the tile in the row that a cell is of. */
+static inline uint32_t koksma__disks_start(const koksma__disks *s, uint32_t tile)
 {
-    return (cell_y + (size_t)KOKSMA__DART_BEFORE) * s->stride + cell_x + KOKSMA__DART_BEFORE;
+    return (uint32_t)((uint64_t)tile * s->cells / s->tiles);
+}
+
+static inline uint32_t koksma__disks_tile_of(const koksma__disks *s, uint32_t cell)
+{
+    return (uint32_t)((((uint64_t)cell + 1) * s->tiles - 1) / s->cells);
+}
+
+static inline koksma__tile koksma__disks_tile(const koksma__disks *s, uint32_t number)
+{
+    const uint32_t tx = number % s->tiles, ty = number / s->tiles;
+    koksma__tile t = {number, koksma__disks_start(s, tx), koksma__disks_start(s, ty), 0, 0};
+    t.nx = koksma__disks_start(s, tx + 1) - t.x;
+    t.ny = koksma__disks_start(s, ty + 1) - t.y;
+    return t;
+}
+
+/* Where the 5 x 8 cells about a cell of a tile begin in gx and gy. */
+static inline size_t koksma__disks_corner(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
+{
+    return tile * s->block + cell_y * s->stride + cell_x;
+}
+
+static inline size_t koksma__disks_place(const koksma__disks *s, uint32_t tile, int cell_x, int cell_y)
+{
+    return tile * s->block + (size_t)(cell_y + KOKSMA__DART_BEFORE) * s->stride +
+           (size_t)(cell_x + KOKSMA__DART_BEFORE);
+}
+
+/* The place in who. */
+static inline size_t koksma__disks_own(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
+{
+    return (tile * s->wide + cell_y) * s->wide + cell_x;
+}
+
+/* The point of a cell of the grid; UINT32_MAX: none. */
+static inline uint32_t koksma__disks_who(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y)
+{
+    const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);
+    return s->who[koksma__disks_own(s, ty * s->tiles + tx, cell_x - koksma__disks_start(s, tx),
+                                    cell_y - koksma__disks_start(s, ty))];
 }
 
 #endif

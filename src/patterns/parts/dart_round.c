@@ -16,14 +16,11 @@ enum {
 
 #define NONE UINT32_MAX
 
-#define SLICE 0.25 /* of darts at a square at a time: of many, more would wait for others */
-
-/* A tile at work: the darts of this round that wait, by cell. */
-typedef struct tile {
-    uint32_t x, y, nx, ny; /* its cells */
+/* The darts of this round that wait in a tile, by cell. */
+typedef struct queue {
     uint64_t rows[MOST_CELLS];
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
-} tile;
+} queue;
 
 /* The next 128 random bits of the stream. Few are drawn at first: small sets need few. */
 static const uint32_t *draw(koksma__disks *s)
@@ -39,14 +36,14 @@ static const uint32_t *draw(koksma__disks *s)
 
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
-    const int cells = (int)s->cells;
-    for (int r = -2; r <= 2; r++) {
-        const int y = (((int)d->cell_y + r) % cells + cells) % cells;
-        for (int c = -2; c <= 2; c++) {
-            const int x = (((int)d->cell_x + c) % cells + cells) % cells;
-            const uint32_t who = s->who[(size_t)y * s->cells + (size_t)x];
+    const koksma__tile t = koksma__disks_tile(s, d->tile);
+    for (uint32_t r = 0; r < 5; r++) {
+        const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
+        for (uint32_t c = 0; c < 5; c++) {
+            const uint32_t x = (t.x + d->cell_x + c + 2 * s->cells - 2) % s->cells;
+            const size_t who = koksma__disks_who(s, x, y);
             if (who != NONE) {
-                double a = fabs(s->xs[2 * (size_t)who] - d->x), b = fabs(s->xs[2 * (size_t)who + 1] - d->y);
+                double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
                 a = fmin(a, 1 - a);
                 b = fmin(b, 1 - b);
                 if (a * a + b * b < s->d * s->d) {
@@ -61,15 +58,15 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 /* Whether there is a point nearer than d. */
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
-    const size_t corner = koksma__disks_place(s, d->cell_x, d->cell_y) - 2 * s->stride - 2;
+    const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
     const unsigned found =
         s->kernels->near_rows(s->gx + corner, s->gy + corner, s->stride, d->in_x, d->in_y, s->low, s->high);
     return found && (found & 1 || near_in_doubles(s, d));
 }
 
-/* A dart at a random one of the squares. False if it misses the unit square by rounding. */
-static inline bool aim(koksma__disks *s, const koksma__square *squares, uint32_t count, const uint32_t *w,
-                       koksma__dart *d)
+/* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
+static inline bool aim(koksma__disks *s, const koksma__tile *t, const koksma__square *squares, uint32_t count,
+                       const uint32_t *w, koksma__dart *d)
 {
     const koksma__square square = squares[koksma__below(w[0], count)];
     const uint32_t inside = ((uint32_t)1 << s->level) - 1;
@@ -77,8 +74,9 @@ static inline bool aim(koksma__disks *s, const koksma__square *squares, uint32_t
     const double u = w[1] * 0x1p-32, v = w[2] * 0x1p-32;
     d->in_x = (float)(((square.x & inside) + u) * in_cell);
     d->in_y = (float)(((square.y & inside) + v) * in_cell);
-    d->cell_x = square.x >> s->level;
-    d->cell_y = square.y >> s->level;
+    d->cell_x = (square.x >> s->level) - t->x;
+    d->cell_y = (square.y >> s->level) - t->y;
+    d->tile = t->number;
     d->x = (square.x + u) * whole;
     d->y = (square.y + v) * whole;
     return (d->x < 1) & (d->y < 1);
@@ -98,7 +96,7 @@ static koksma_status more_points(koksma__disks *s)
     return KOKSMA_OK;
 }
 
-static inline koksma_status keep(koksma__disks *s, const koksma__dart *d)
+static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const koksma__dart *d)
 {
     if (s->n == s->room) {
         const koksma_status status = more_points(s);
@@ -111,18 +109,19 @@ static inline koksma_status keep(koksma__disks *s, const koksma__dart *d)
     if (s->times) {
         s->times[s->n] = d->time;
     }
-    koksma__disks_put(s, d->cell_x, d->cell_y, d->in_x, d->in_y, s->n++);
+    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->in_x, d->in_y, s->n++);
     return KOKSMA_OK;
 }
 
 /* Asks the cache for what the darts after this one will need. Past the words that are drawn, these are of no dart. */
-static inline void look_ahead(const koksma__disks *s, const koksma__square *squares, uint32_t count,
-                              const uint32_t *w, bool grid)
+static inline void look_ahead(const koksma__disks *s, const koksma__tile *t, const koksma__square *squares,
+                              uint32_t count, const uint32_t *w, bool grid)
 {
     __builtin_prefetch(squares + koksma__below(w[4 * 2 * AHEAD], count));
     if (grid) {
         const koksma__square next = squares[koksma__below(w[4 * AHEAD], count)];
-        const size_t corner = koksma__disks_place(s, next.x >> s->level, next.y >> s->level) - 2 * s->stride - 2;
+        const size_t corner =
+            koksma__disks_corner(s, t->number, (next.x >> s->level) - t->x, (next.y >> s->level) - t->y);
         for (size_t r = 0; r < 5; r++) {
             __builtin_prefetch(s->gx + corner + r * s->stride);
             __builtin_prefetch(s->gy + corner + r * s->stride);
@@ -133,27 +132,28 @@ static inline void look_ahead(const koksma__disks *s, const koksma__square *squa
 /* The only tile: its darts are in order of time, and decided at once. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
+    const koksma__tile t = koksma__disks_tile(s, 0);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < darts && s->n < n && !status; i++) {
         koksma__dart d = {.time = 0};
-        if (aim(s, s->squares, (uint32_t)s->n_squares, draw(s), &d) && !is_near(s, &d)) {
-            status = keep(s, &d);
+        if (aim(s, &t, s->squares, (uint32_t)s->n_squares, draw(s), &d) && !is_near(s, &d)) {
+            status = keep(s, &t, &d);
         }
     }
     return status;
 }
 
 /* Whether the dart has to wait: its reach leaves the tile, or an earlier dart near it waits. */
-static inline bool must_wait(const koksma__disks *s, const tile *t, const koksma__dart *d)
+static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, const queue *q, const koksma__dart *d)
 {
-    const uint32_t x = d->cell_x - t->x, y = d->cell_y - t->y;
+    const uint32_t x = d->cell_x, y = d->cell_y;
     if ((x < 2) | (y < 2) | (x + 2 >= t->nx) | (y + 2 >= t->ny)) {
         return true;
     }
     for (uint32_t r = y - 2; r <= y + 2; r++) {
-        for (uint64_t some = t->rows[r] >> (x - 2) & 31; some; some &= some - 1) {
+        for (uint64_t some = q->rows[r] >> (x - 2) & 31; some; some &= some - 1) {
             const uint32_t c = x - 2 + (uint32_t)__builtin_ctzll(some);
-            for (uint32_t i = t->last[r * MOST_CELLS + c]; i != NONE; i = s->waiting[i].next) {
+            for (uint32_t i = q->last[r * MOST_CELLS + c]; i != NONE; i = s->waiting[i].next) {
                 const double a = s->waiting[i].x - d->x, b = s->waiting[i].y - d->y;
                 if (a * a + b * b < s->d * s->d) {
                     return true;
@@ -164,7 +164,7 @@ static inline bool must_wait(const koksma__disks *s, const tile *t, const koksma
     return false;
 }
 
-static koksma_status wait(koksma__disks *s, tile *t, const koksma__dart *d)
+static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
 {
     if (s->n_waiting == s->waiting_room) {
         const size_t room = 2 * s->waiting_room + 256;
@@ -175,12 +175,12 @@ static koksma_status wait(koksma__disks *s, tile *t, const koksma__dart *d)
         s->waiting = waiting;
         s->waiting_room = room;
     }
-    const uint32_t x = d->cell_x - t->x, y = d->cell_y - t->y;
-    uint32_t *last = &t->last[y * MOST_CELLS + x];
+    const uint32_t x = d->cell_x, y = d->cell_y;
+    uint32_t *last = &q->last[y * MOST_CELLS + x];
     s->waiting[s->n_waiting] = *d;
-    s->waiting[s->n_waiting].next = t->rows[y] >> x & 1 ? *last : NONE;
+    s->waiting[s->n_waiting].next = q->rows[y] >> x & 1 ? *last : NONE;
     *last = (uint32_t)s->n_waiting++;
-    t->rows[y] |= (uint64_t)1 << x;
+    q->rows[y] |= (uint64_t)1 << x;
     return KOKSMA_OK;
 }
 
@@ -197,8 +197,8 @@ static bool tick(stopwatch *c, uint32_t word)
     if (!c->factors) {
         c->before -= log(c->product);
         c->product = 1;
-        c->factors = 16; /* of at least 2^-33 */
-        c->last = exp(c->before - c->rate);
+        c->factors = 16; /* of at least 2^-33: exp(-366) together */
+        c->last = c->rate - c->before > 400 ? 0 : exp(c->before - c->rate);
     }
     c->factors--;
     c->product *= (word + 0.5) * 0x1p-32;
@@ -211,15 +211,14 @@ static double time_of(const stopwatch *c)
 }
 
 /* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
-static void fetch(const koksma__disks *s, const tile *t, size_t first, size_t count)
+static void fetch(const koksma__disks *s, size_t tile, size_t first, size_t count)
 {
-    for (uint32_t y = 0; y < t->ny; y++) {
-        const size_t row = koksma__disks_place(s, t->x, t->y + y);
-        for (uint32_t x = 0; x < t->nx; x += 16) {
-            __builtin_prefetch(s->gx + row + x, 1);
-            __builtin_prefetch(s->gy + row + x, 1);
-            __builtin_prefetch(s->who + (size_t)(t->y + y) * s->cells + t->x + x, 1);
-        }
+    for (size_t i = 0; i < s->block; i += 16) {
+        __builtin_prefetch(s->gx + tile * s->block + i, 1);
+        __builtin_prefetch(s->gy + tile * s->block + i, 1);
+    }
+    for (size_t i = 0; i < s->wide * s->wide; i += 16) {
+        __builtin_prefetch(s->who + tile * s->wide * s->wide + i, 1);
     }
     for (size_t i = 0; i < count; i += 8) {
         __builtin_prefetch(s->squares + first + i);
@@ -227,21 +226,18 @@ static void fetch(const koksma__disks *s, const tile *t, size_t first, size_t co
 }
 
 /* One of several tiles. Times of points are written down if asked for. */
-static koksma_status throw_at_tile(koksma__disks *s, tile *t, size_t number, double mean, bool timed)
+static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
 {
     const size_t first = s->first[number];
     const uint32_t count = (uint32_t)(s->first[number + 1] - first);
+    const koksma__tile t = koksma__disks_tile(s, number);
     if (!count) {
         return KOKSMA_OK;
     }
-    t->x = (uint32_t)(number % s->tiles) * s->tile;
-    t->y = (uint32_t)(number / s->tiles) * s->tile;
-    t->nx = s->cells - t->x < s->tile ? s->cells - t->x : s->tile;
-    t->ny = s->cells - t->y < s->tile ? s->cells - t->y : s->tile;
-    memset(t->rows, 0, sizeof t->rows);
+    memset(q->rows, 0, sizeof q->rows);
     const bool many = mean * count > 256;
     if (many) {
-        fetch(s, t, first, count);
+        fetch(s, number, first, count);
     }
     stopwatch clock = {.rate = mean * count, .product = 1};
     koksma_status status = KOKSMA_OK;
@@ -251,11 +247,11 @@ static koksma_status throw_at_tile(koksma__disks *s, tile *t, size_t number, dou
         if (!tick(&clock, w[3])) {
             break;
         }
-        look_ahead(s, s->squares + first, count, w, !many);
-        if (aim(s, s->squares + first, count, w, &d) && !is_near(s, &d)) {
-            const bool waits = must_wait(s, t, &d);
+        look_ahead(s, &t, s->squares + first, count, w, !many);
+        if (aim(s, &t, s->squares + first, count, w, &d) && !is_near(s, &d)) {
+            const bool waits = must_wait(s, &t, q, &d);
             d.time = waits || timed ? time_of(&clock) : 0;
-            status = waits ? wait(s, t, &d) : keep(s, &d);
+            status = waits ? wait(s, q, &d) : keep(s, &t, &d);
         }
     }
     return status;
@@ -288,11 +284,14 @@ static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
     return KOKSMA_OK;
 }
 
-/* The waiting darts in order of time, near which most of n uniform numbers are in their place already. */
+/* Puts the waiting darts in order of time: n uniform numbers are nearly in order when their n-ths are. */
 static koksma_status sort_waiting(koksma__disks *s)
 {
     const size_t n = s->n_waiting;
-    if (2 * n > s->waiting_room || n >= NONE) {
+    if (!n) {
+        return KOKSMA_OK;
+    }
+    if (2 * n > s->waiting_room) {
         koksma__dart *waiting = realloc(s->waiting, 2 * n * sizeof *waiting);
         if (!waiting) {
             return koksma__fail_memory(2 * n * sizeof *waiting);
@@ -327,15 +326,17 @@ static koksma_status sort_waiting(koksma__disks *s)
     return KOKSMA_OK;
 }
 
-/* A round at several tiles. */
-static koksma_status throw_at_tiles(koksma__disks *s, double mean, size_t n, const koksma_run *run)
+koksma_status koksma__darts_throw(koksma__disks *s, double mean, size_t n, const koksma_run *run)
 {
+    if (s->tiles == 1) {
+        return throw_at_all(s, (size_t)ceil(mean * (double)s->n_squares) + 4, n);
+    }
     const size_t before = s->n;
     koksma_status status = KOKSMA_OK;
-    tile t;
+    queue q;
     s->n_waiting = 0;
-    for (size_t i = 0; i < (size_t)s->tiles * s->tiles && !status; i++) {
-        status = throw_at_tile(s, &t, i, mean, n < SIZE_MAX);
+    for (uint32_t i = 0; i < s->tiles * s->tiles && !status; i++) {
+        status = throw_at_tile(s, i, &q, mean, n < SIZE_MAX);
         if (!status && i % 4096 == 4095 && !koksma__keep_going(run, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n)) {
             status = koksma__fail_interrupted();
         }
@@ -343,21 +344,9 @@ static koksma_status throw_at_tiles(koksma__disks *s, double mean, size_t n, con
     status = status ? status : sort_waiting(s);
     for (size_t i = 0; i < s->n_waiting && !status; i++) {
         if (!is_near(s, &s->waiting[i])) {
-            status = keep(s, &s->waiting[i]);
+            const koksma__tile t = koksma__disks_tile(s, s->waiting[i].tile);
+            status = keep(s, &t, &s->waiting[i]);
         }
     }
     return !status && s->n > n ? drop_last(s, before, n) : status;
-}
-
-koksma_status koksma__darts_throw(koksma__disks *s, double mean, size_t n, const koksma_run *run)
-{
-    if (s->tiles == 1) {
-        return throw_at_all(s, (size_t)ceil(mean * (double)s->n_squares) + 4, n);
-    }
-    koksma_status status = KOKSMA_OK;
-    const int slices = (int)ceil(mean / SLICE);
-    for (int i = 0; i < slices && s->n < n && !status; i++) {
-        status = throw_at_tiles(s, mean / slices, n, run);
-    }
-    return status;
 }
