@@ -224,14 +224,50 @@ void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t f
     }
 }
 
-bool KERNEL_NAME(near)(size_t count, const double *xs, const double *ys, double x, double y, double d2)
+unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride, float x, float y, float low,
+                                float high)
 {
-    for (size_t i = 0; i < count; i++) {
-        if ((xs[i] - x) * (xs[i] - x) + (ys[i] - y) * (ys[i] - y) < d2) {
-            return true;
+    unsigned found = 0;
+    for (int r = 0; r < 5; r++) {
+        for (int c = 0; c < 8; c++) {
+            const float a = xs[(size_t)r * stride + (size_t)c] - ((x + 2) - (float)c);
+            const float b = ys[(size_t)r * stride + (size_t)c] - ((y + 2) - (float)r);
+            found |= (unsigned)(a * a + b * b < low) | (unsigned)(a * a + b * b < high) << 1;
         }
     }
-    return false;
+    return found;
+}
+
+size_t KERNEL_NAME(look_around)(const float *xs, const float *ys, size_t stride, float *around_xs, float *around_ys)
+{
+    size_t count = 0;
+    for (int r = 0; r < 5; r++) {
+        for (int c = 0; c < 5; c++) {
+            const size_t at = (size_t)r * stride + (size_t)c;
+            if (xs[at] < 2) {
+                around_xs[count] = xs[at] + (float)(c - 2);
+                around_ys[count++] = ys[at] + (float)(r - 2);
+            }
+        }
+    }
+    for (int far = 0; far < 8; far++) {
+        around_xs[count + (size_t)far] = around_ys[count + (size_t)far] = 1e9F;
+    }
+    return count;
+}
+
+unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float *ys, float x, float y, float step,
+                                     float h, float d2)
+{
+    unsigned found = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned q = 0; q < 4; q++) {
+            const float a = fabsf(xs[i] - (q & 1 ? x + step : x - step)) + h;
+            const float b = fabsf(ys[i] - (q & 2 ? y + step : y - step)) + h;
+            found |= (unsigned)(a * a + b * b < d2) << q;
+        }
+    }
+    return found;
 }
 
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,

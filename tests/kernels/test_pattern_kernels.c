@@ -95,13 +95,35 @@ static void grow(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
-static void near(const koksma__kernel_table *t, size_t count, void *out)
+static void covers(const koksma__kernel_table *t, size_t count, void *out)
 {
     unsigned *found = out;
     for (size_t i = 0; i < count; i++) {
         const double d2 = 0.1 * units[i] * units[i];
-        found[2 * i] = t->near(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], d2);
-        found[2 * i + 1] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
+        found[i] = t->covers(8 * (i % 4), units + i, units + 200, units[i + 1], units[i + 9], 0.02, 0.02, d2);
+    }
+}
+
+/* Of a grid of which half is empty, where places are in their cells. */
+static void cells_as_floats(const koksma__kernel_table *t, size_t count, void *out)
+{
+    enum { STRIDE = 17 };
+    static float xs[600], ys[600];
+    unsigned *found = out;
+    float around_x[40], around_y[40];
+    for (size_t i = 0; i < 600; i++) {
+        xs[i] = i % 3 ? 1e9F : (float)units[i];
+        ys[i] = i % 3 ? 1e9F : (float)units[599 - i];
+    }
+    for (size_t i = 0; i < count; i++) {
+        const float x = (float)units[i + 1], y = (float)units[i + 9], h = (float)units[i] / 4;
+        found[8 * i] = t->near_rows(xs + i, ys + i, STRIDE, x, y, 0.3F, 0.35F);
+        const size_t places = t->look_around(xs + i, ys + i, STRIDE, around_x, around_y);
+        found[8 * i + 1] = (unsigned)places;
+        memcpy(found + 8 * i + 2, around_x + places / 2, 2 * sizeof(float));
+        memcpy(found + 8 * i + 4, around_y + places - 1, 2 * sizeof(float));
+        found[8 * i + 6] = t->covers_roughly(places, around_x, around_y, x, y, h, h, 2.1F);
+        found[8 * i + 7] = t->covers_roughly(places, around_x, around_y, x, y, 0, h, 0.9F);
     }
 }
 
@@ -144,7 +166,8 @@ TEST(digital_at, MAX)
 TEST(owen_hash, MAX)
 TEST(pascal, MAX)
 TEST(grow, MAX)
-TEST(near, 250)
+TEST(covers, 250)
+TEST(cells_as_floats, 250)
 TEST(nearest_offset, MAX)
 TEST(rooks_2d, 120)
 TEST(rows_of_columns, 150)
@@ -161,7 +184,8 @@ int main(void)
         cmocka_unit_test(owen_hash_equals_reference),
         cmocka_unit_test(pascal_equals_reference),
         cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(near_equals_reference),
+        cmocka_unit_test(covers_equals_reference),
+        cmocka_unit_test(cells_as_floats_equals_reference),
         cmocka_unit_test(nearest_offset_equals_reference),
         cmocka_unit_test(rooks_2d_equals_reference),
         cmocka_unit_test(rows_of_columns_equals_reference),

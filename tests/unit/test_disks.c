@@ -2,6 +2,7 @@
 /* Maximal Poisson disk sets: exactly n points, for many n and seeds, and by distance; files and specs as patterns. */
 #include <koksma/verify.h>
 
+#include <math.h>
 #include <string.h>
 
 #include "patterns/parts/packing.h"
@@ -55,6 +56,78 @@ static void by_distance(void **state)
     assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
     assert_ok(koksma_pattern_spec("random", &spec));
     assert_int_equal(koksma_generate_whole(&spec, 3, NULL, 2, &p), KOKSMA_N);
+}
+
+/* Cells are a little smaller than the distance asks for, so that points of cells that touch at a corner's corner can
+   be too near: one set in thousands shows it. */
+static void many_small_sets_keep_their_distance(void **state)
+{
+    (void)state;
+    static const double distances[] = {0.6, 0.3, 0.29, 0.21};
+    for (size_t i = 0; i < sizeof distances / sizeof *distances; i++) {
+        char text[64];
+        koksma_spec spec;
+        snprintf(text, sizeof text, "poisson-disk-maximal:d=%g", distances[i]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        for (uint64_t seed = 0; seed < 5000; seed++) {
+            koksma_points p;
+            double d;
+            assert_ok(koksma_generate_whole(&spec, seed, NULL, 2, &p));
+            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+            assert_true(d >= distances[i] * (1 - 1e-12));
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+/* Sets of more than 96 x 96 cells are thrown tile by tile, here 2 x 2 tiles of 49 x 49 cells. Points are as many near
+   the tiles' borders as elsewhere, and as many as on grids of one tile. If darts did not wait for earlier ones that
+   wait, there would be 6 % fewer. */
+static void tiles_leave_no_trace(void **state)
+{
+    (void)state;
+    enum { SETS = 24, CELLS = 98 };
+    const double d = 0.0145, fraction = 1 - (45.0 / 49) * (45.0 / 49);
+    double sum = 0, squares = 0, points = 0;
+    koksma_spec spec;
+    assert_ok(koksma_pattern_spec("poisson-disk-maximal:d=0.0145", &spec));
+    for (uint64_t seed = 0; seed < SETS; seed++) {
+        koksma_points p;
+        double least, border = 0;
+        assert_ok(koksma_generate_whole(&spec, seed, NULL, 2, &p));
+        assert_ok(koksma_smallest_distance(&p, true, NULL, &least));
+        assert_true(least >= d * (1 - 1e-12));
+        for (size_t i = 0; i < p.n; i++) {
+            const int x = (int)(CELLS * p.xs[2 * i]) % 49, y = (int)(CELLS * p.xs[2 * i + 1]) % 49;
+            border += x < 2 || x >= 47 || y < 2 || y >= 47;
+        }
+        const double ratio = border / (double)p.n / fraction;
+        sum += ratio / SETS;
+        squares += ratio * ratio / SETS;
+        points += (double)p.n / SETS;
+        koksma_points_fini(&p);
+    }
+    assert_near(sum, 1, 4 * sqrt((squares - sum * sum) / (SETS - 1)));
+    assert_near(points, 0.6965 / d / d, 0.002 * points);
+}
+
+/* Darts at a grid of several tiles stop at the n-th of a round by time, wherever it is. */
+static void tiles_end_at_n(void **state)
+{
+    (void)state;
+    static const char *const specs[] = {"dart-throwing", "dart-throwing:f=0.5", "poisson-disk-maximal"};
+    for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
+        koksma_points p = test_points(specs[i], 12345, 2, 9);
+        double d, quarter = 0;
+        assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+        const double f = d / koksma__packing_distance(p.n, 2, true);
+        assert_true(f >= (i == 0 ? 0.75 : i == 1 ? 0.5 : 0.73) * (1 - 1e-12));
+        for (size_t k = 0; k < p.n; k++) {
+            quarter += p.xs[2 * k] < 0.5 && p.xs[2 * k + 1] < 0.5;
+        }
+        assert_near(quarter, 12345 / 4.0, 4 * sqrt(12345 * 3 / 16.0));
+        koksma_points_fini(&p);
+    }
 }
 
 /* More points than 256 are thrown by another method; the first 256 are the same darts. */
@@ -145,7 +218,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exactly_n_points),       cmocka_unit_test(by_distance),
         cmocka_unit_test(grids_change_no_points), cmocka_unit_test(fractions_of_the_densest),
-        cmocka_unit_test(files_are_patterns),
+        cmocka_unit_test(tiles_leave_no_trace),   cmocka_unit_test(tiles_end_at_n),
+        cmocka_unit_test(files_are_patterns),     cmocka_unit_test(many_small_sets_keep_their_distance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

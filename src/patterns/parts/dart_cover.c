@@ -3,295 +3,325 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "core/elementary.h"
 #include "core/parallel.h"
-#include "core/random.h"
 #include "core/status.h"
-#include "kernels/kernels.h"
 
-enum { BEFORE = 2, AFTER = 2, WORDS = 256, MOST = 16 };
+enum {
+    BEFORE = KOKSMA__DART_BEFORE,
+    AFTER = KOKSMA__DART_AFTER,
+    WHOLE = 96, /* cells a side of the largest grid that is one tile */
+    TILE = 64   /* the most of another tile */
+};
 
 #define NONE UINT32_MAX
 
 #define FINEST ((uint64_t)1 << 30) /* squares a side; room smaller than that is none */
 
-static const double far_away = 1e9;
+static const float far_away = 1e9F;
 
-static size_t place_of(const koksma__disks *s, uint32_t x, uint32_t y)
+/* Room for `count` things of `size` bytes, whose contents may be lost. */
+static bool get_room(void **things, size_t *room, size_t count, size_t size)
 {
-    return (y + BEFORE) * s->stride + x + BEFORE;
+    if (count > *room) {
+        free(*things);
+        *things = malloc(count * size);
+        *room = *things ? count : 0;
+    }
+    return *things != NULL;
+}
+
+/* Cells and tiles for distance d; the margins are those of floats: places are below 8 cells, and off by 2^-22. */
+static void choose_grid(koksma__disks *s, double d)
+{
+    s->d = d;
+    s->cells = (uint32_t)ceil(sqrt(2) / d);
+    s->tiles = s->cells <= WHOLE ? 1 : (s->cells + TILE - 1) / TILE;
+    s->wide = (s->cells + s->tiles - 1) / s->tiles;
+    s->stride = s->wide + BEFORE + AFTER;
+    s->block = s->stride * (s->wide + 2 * BEFORE);
+    s->level = 0;
+    s->n_squares = 0;
+    const double reach = d * s->cells;
+    s->low = (float)(reach * reach - 1e-5);
+    s->high = (float)(reach * reach + 1e-5);
 }
 
 /* An empty grid for distance d. */
 static koksma_status make_grid(koksma__disks *s, double d)
 {
-    s->d = d;
-    s->cells = (uint32_t)ceil(sqrt(2) / d);
-    s->stride = s->cells + BEFORE + AFTER;
-    s->level = 0;
-    s->n_squares = 0;
-    const size_t places = s->stride * (s->cells + 2 * BEFORE) + AFTER, squares = (size_t)s->cells * s->cells;
-    if (places > s->places) {
-        free(s->gx);
-        s->gx = malloc(2 * places * sizeof *s->gx);
-        s->places = places;
-    }
-    if (squares > s->start_room) {
-        free(s->starts);
-        s->starts = malloc((squares + 1) * sizeof *s->starts);
-        s->start_room = squares;
-    }
-    if (squares > s->square_room) {
-        free(s->squares);
-        s->squares = malloc(squares * sizeof *s->squares);
-        s->square_room = squares;
-    }
-    if (!s->gx || !s->squares || !s->starts) {
-        koksma__disks_fini(s);
-        return koksma__fail_memory(2 * places * sizeof *s->gx);
+    choose_grid(s, d);
+    const size_t tiles = (size_t)s->tiles * s->tiles, squares = (size_t)s->cells * s->cells;
+    const size_t places = tiles * s->block + AFTER, own = tiles * s->wide * s->wide;
+    const size_t bytes = places * (2 * sizeof *s->gx) + own * sizeof *s->who + squares * sizeof *s->squares;
+    void *grid = s->gx, *who = s->who, *list = s->squares, *first = s->first;
+    size_t who_room = s->who_room;
+    const bool ok = get_room(&grid, &s->grid_room, 2 * places, sizeof *s->gx) &
+                    get_room(&who, &who_room, own, sizeof *s->who) &
+                    get_room(&list, &s->square_room, squares, sizeof *s->squares) &
+                    get_room(&first, &s->first_room, tiles + 1, sizeof *s->first);
+    s->gx = grid;
+    s->who = who;
+    s->who_room = who_room;
+    s->squares = list;
+    s->first = first;
+    if (!ok) {
+        return koksma__fail_memory(bytes);
     }
     s->gy = s->gx + places;
     for (size_t i = 0; i < 2 * places; i++) {
         s->gx[i] = far_away;
     }
-    return KOKSMA_OK;
+    memset(s->who, 0xff, own * sizeof *s->who);
+    if (s->tiles > 1 && !s->times) {
+        s->times = malloc(s->room * sizeof *s->times);
+    }
+    return s->tiles == 1 || s->times ? KOKSMA_OK : koksma__fail_memory(s->room * sizeof *s->times);
 }
 
 koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
 {
-    *s = (koksma__disks){.seed = seed, .room = 64 + (size_t)(0.72 / d / d)};
+    *s = (koksma__disks){.kernels = koksma__kernels(), .seed = seed, .room = 64 + (size_t)(0.72 / d / d)};
     s->xs = malloc(2 * s->room * sizeof *s->xs);
     if (!s->xs) {
         return koksma__fail_memory(2 * s->room * sizeof *s->xs);
     }
-    const koksma_status status = make_grid(s, d);
-    for (uint32_t y = 0; y < s->cells && !status; y++) {
-        for (uint32_t x = 0; x < s->cells; x++) {
-            s->squares[s->n_squares++] = (koksma__square){x, y};
-        }
-    }
-    return status;
+    return make_grid(s, d);
 }
 
 void koksma__disks_fini(koksma__disks *s)
 {
     free(s->gx);
+    free(s->who);
     free(s->squares);
-    free(s->starts);
-    free(s->darts);
+    free(s->spare);
+    free(s->first);
+    free(s->waiting);
+    free(s->times);
     free(s->xs);
     *s = (koksma__disks){0};
 }
 
-/* The point goes into its cell and into the copies of the cell in the border. */
-static void put_into_grid(koksma__disks *s, uint32_t cell_x, uint32_t cell_y, double x, double y)
+/* Where a cell is on one axis: the tiles of the row, and its number in them, which is outside in borders. */
+typedef struct axis {
+    int count, at[BEFORE + AFTER + 1];
+    uint32_t tile[BEFORE + AFTER + 1];
+} axis;
+
+static axis find_copies(const koksma__disks *s, uint32_t tile, int cell)
 {
-    const int cells = (int)s->cells, cx = (int)cell_x, cy = (int)cell_y;
-    for (int v = -((cy + BEFORE) / cells); v <= (cells + BEFORE - 1 - cy) / cells; v++) {
-        for (int u = -((cx + BEFORE) / cells); u <= (cells + AFTER - 1 - cx) / cells; u++) {
-            const size_t at = (size_t)(cy + v * cells + BEFORE) * s->stride + (size_t)(cx + u * cells + BEFORE);
-            s->gx[at] = x + u;
-            s->gy[at] = y + v;
+    axis a = {.count = 1, .at = {cell}, .tile = {tile}};
+    uint32_t t = tile;
+    for (int at = cell; at < AFTER; a.count++) {
+        t = t ? t - 1 : s->tiles - 1;
+        at += (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t));
+        a.at[a.count] = at;
+        a.tile[a.count] = t;
+    }
+    t = tile;
+    for (int at = cell, size;
+         size = (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t)), at >= size - BEFORE; a.count++) {
+        at -= size;
+        t = t + 1 < s->tiles ? t + 1 : 0;
+        a.at[a.count] = at;
+        a.tile[a.count] = t;
+    }
+    return a;
+}
+
+void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x, uint32_t cell_y, float in_x,
+                       float in_y, size_t i)
+{
+    s->who[koksma__disks_own(s, t->number, cell_x, cell_y)] = (uint32_t)i;
+    if ((cell_x >= AFTER) & (cell_y >= AFTER) & (cell_x + BEFORE < t->nx) & (cell_y + BEFORE < t->ny)) {
+        const size_t place = koksma__disks_place(s, t->number, (int)cell_x, (int)cell_y);
+        s->gx[place] = in_x;
+        s->gy[place] = in_y;
+        return;
+    }
+    const axis x = find_copies(s, t->number % s->tiles, (int)cell_x);
+    const axis y = find_copies(s, t->number / s->tiles, (int)cell_y);
+    for (int v = 0; v < y.count; v++) {
+        for (int u = 0; u < x.count; u++) {
+            if (y.at[v] < (int)s->wide + BEFORE) {
+                const size_t place = koksma__disks_place(s, y.tile[v] * s->tiles + x.tile[u], x.at[u], y.at[v]);
+                s->gx[place] = in_x;
+                s->gy[place] = in_y;
+            }
         }
     }
 }
 
-/* The points of the 21 cells that a point of the cell can be in reach of. */
+/* The points of the cells that a point of the cell can be in reach of: 25 of them, with the corners, since the
+   diagonal of a cell is a little shorter than d. */
 typedef struct around {
-    size_t count; /* rounded up to a multiple of 8 by places far away */
-    double xs[24 + 8], ys[24 + 8];
+    size_t count;
+    float xs[40], ys[40]; /* and at least eight places far away */
 } around;
 
-static void look_around(const koksma__disks *s, uint32_t x, uint32_t y, around *a)
+static inline void look_around(const koksma__disks *s, uint32_t tile, uint32_t x, uint32_t y, around *a)
 {
-    const size_t place = place_of(s, x, y);
+    const size_t corner = koksma__disks_corner(s, tile, x, y);
+    a->count = s->kernels->look_around(s->gx + corner, s->gy + corner, s->stride, a->xs, a->ys);
+}
+
+/* The same in doubles, in units of the torus. */
+typedef struct around_exact {
+    size_t count;
+    double xs[32], ys[32];
+} around_exact;
+
+static void look_exactly(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y, around_exact *a)
+{
+    const int cells = (int)s->cells;
     size_t count = 0;
-    for (size_t r = 0; r < 5; r++) {
-        const size_t row = place + r * s->stride - 2 * s->stride, edge = r % 4 == 0;
-        for (size_t at = row - 2 + edge; at <= row + 2 - edge; at++) {
-            a->xs[count] = s->gx[at];
-            a->ys[count] = s->gy[at];
-            count += s->gx[at] < far_away;
+    for (int r = -2; r <= 2; r++) {
+        const int v = (int)cell_y + r + 2 * cells, y = v % cells;
+        for (int c = -2; c <= 2; c++) {
+            const int u = (int)cell_x + c + 2 * cells, x = u % cells;
+            const uint32_t who = koksma__disks_who(s, (uint32_t)x, (uint32_t)y);
+            if (who != NONE) {
+                a->xs[count] = s->xs[2 * (size_t)who] + (u / cells - 2);
+                a->ys[count++] = s->xs[2 * (size_t)who + 1] + (v / cells - 2);
+            }
         }
     }
     for (a->count = (count + 7) & ~(size_t)7; count < a->count; count++) {
-        a->xs[count] = a->ys[count] = far_away;
+        a->xs[count] = a->ys[count] = (double)far_away;
     }
 }
 
-/* A random number of darts, of the law of Poisson with the mean that the table of probabilities is for. */
-static uint32_t how_many(const uint32_t *table, uint32_t word)
+/* Which quarters of a square are covered, as the kernels say. Squares much larger than the errors of floats may be
+   told not to be covered when they nearly are not: their quarters will be. */
+typedef struct judge {
+    const koksma__disks *s;
+    bool exact;
+    float h;     /* half of a quarter's side, in cells */
+    double half; /* and on the torus */
+    union {
+        around few;
+        around_exact all;
+    } points;
+} judge;
+
+static inline unsigned covered(const judge *j, koksma__square square)
 {
-    uint32_t count = 0;
-    while (count < MOST - 1 && word >= table[count]) {
-        count++;
+    const koksma__kernel_table *k = j->s->kernels;
+    if (j->exact) {
+        return k->covers(j->points.all.count, j->points.all.xs, j->points.all.ys,
+                         (4 * (double)square.x + 2) * j->half, (4 * (double)square.y + 2) * j->half, j->half, j->half,
+                         j->s->d * j->s->d);
     }
-    return count;
+    const uint32_t inside = ((uint32_t)1 << (j->s->level - 1)) - 1;
+    const float x = (float)(4 * (square.x & inside) + 2) * j->h, y = (float)(4 * (square.y & inside) + 2) * j->h;
+    return k->covers_roughly(j->points.few.count, j->points.few.xs, j->points.few.ys, x, y, j->h, j->h, j->s->low);
 }
 
-static void poisson_table(double mean, uint32_t *table)
+/* The squares of a tile, those of a cell being neighbours in the list; the quarters with room are appended to the
+   spare list. */
+static size_t refine_tile(judge *j, uint32_t number, size_t first, size_t end, koksma__square *out)
 {
-    double p = koksma__exp(-mean), sum = p;
-    for (int k = 0; k < MOST; k++, p *= mean / k, sum += p) {
-        table[k] = sum < 1 - 0x1p-33 ? (uint32_t)(sum * 0x1p32) : UINT32_MAX;
-    }
-}
-
-/* A round of darts. */
-typedef struct thrower {
-    const koksma__kernel_table *kernels;
-    koksma__disks *s;
-    double size, d2; /* of a square; of the distance */
-    uint32_t table[MOST], word[4 * WORDS];
-    size_t used; /* of the words, in fours */
-} thrower;
-
-static void start_round(thrower *t, koksma__disks *s, double mean)
-{
-    t->kernels = koksma__kernels();
-    t->s = s;
-    t->size = 1 / ((double)s->cells * (double)((size_t)1 << s->level));
-    t->d2 = s->d * s->d;
-    t->used = WORDS;
-    poisson_table(mean, t->table);
-}
-
-/* The darts at a square: those that no point is near to wait for the end of the round. */
-static koksma_status throw_at(thrower *t, koksma__square square, const around *points)
-{
-    koksma__disks *s = t->s;
-    if (t->used == WORDS) {
-        t->kernels->words(s->seed, KOKSMA__PURPOSE_DART, s->dart, 0, WORDS, t->word);
-        t->used = 0;
-    }
-    const uint32_t *w = t->word + 4 * t->used++, count = how_many(t->table, w[0]);
-    koksma__words more;
-    for (uint32_t k = 0; k < count; k++) {
-        const double x = (square.x + w[1] * 0x1p-32) * t->size, y = (square.y + w[2] * 0x1p-32) * t->size;
-        if (x < 1 && y < 1 && !t->kernels->near(points->count, points->xs, points->ys, x, y, t->d2)) {
-            const koksma__dart dart = {x, y, w[3], square.x >> s->level, square.y >> s->level, false, false};
-            const koksma_status status = koksma__darts_push(s, dart);
-            if (status) {
-                return status;
-            }
-        }
-        if (k + 1 < count) {
-            more = koksma__random(s->seed, KOKSMA__PURPOSE_DART, s->dart, k + 1);
-            w = more.w;
-        }
-    }
-    s->dart++;
-    return KOKSMA_OK;
-}
-
-/* Decides the round: its kept darts become points; of those only the first when there would be more than n. */
-static koksma_status keep_darts(koksma__disks *s, size_t n)
-{
-    size_t kept = koksma__darts_decide(s);
-    s->n_darts = 0;
-    if (s->n + kept > n) {
-        koksma__darts_sort(s, kept);
-        kept = n - s->n;
-    }
-    if (s->n + kept > s->room) {
-        const size_t room = 2 * (s->n + kept);
-        double *xs = realloc(s->xs, 2 * room * sizeof *xs);
-        if (!xs) {
-            return koksma__fail_memory(2 * room * sizeof *xs);
-        }
-        s->xs = xs;
-        s->room = room;
-    }
-    for (size_t i = 0; i < kept; i++, s->n++) {
-        const koksma__dart *d = &s->darts[i];
-        s->xs[2 * s->n] = d->x;
-        s->xs[2 * s->n + 1] = d->y;
-        put_into_grid(s, d->cell_x, d->cell_y, d->x, d->y);
-    }
-    return KOKSMA_OK;
-}
-
-static bool more_squares(koksma__square **squares, size_t *room)
-{
-    *room = *room * 2;
-    koksma__square *more = realloc(*squares, *room * sizeof *more);
-    if (!more) {
-        free(*squares);
-    }
-    *squares = more;
-    return more != NULL;
-}
-
-/* The next round: cuts the squares in four, keeps those with room and throws darts at them. Squares of a cell stay
-   neighbours in the list. */
-static koksma_status refine(koksma__disks *s, double mean)
-{
-    const double half = 0.5 / ((double)s->cells * (double)((size_t)2 << s->level));
-    const int level = s->level++;
-    size_t kept = 0, room = s->n_squares + s->n_squares / 2 + 64;
-    koksma__square *squares = malloc(room * sizeof *squares);
+    const koksma__disks *s = j->s;
+    const koksma__tile tile = koksma__disks_tile(s, number);
+    const int level = s->level - 1;
     uint32_t cell_x = NONE, cell_y = NONE;
     bool full = false;
-    around points;
-    thrower t;
-    start_round(&t, s, mean);
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < s->n_squares && squares && !status; i++) {
+    size_t kept = 0;
+    for (size_t i = first; i < end; i++) {
         const koksma__square square = s->squares[i];
         if (cell_x != square.x >> level || cell_y != square.y >> level) {
             cell_x = square.x >> level;
             cell_y = square.y >> level;
-            full = s->gx[place_of(s, cell_x, cell_y)] < far_away; /* its point covers it: it is smaller than d */
-            if (!full) {
-                look_around(s, cell_x, cell_y, &points);
+            const uint32_t x = cell_x - tile.x, y = cell_y - tile.y;
+            full = s->who[koksma__disks_own(s, number, x, y)] != NONE; /* its point covers it */
+            if (!full && j->exact) {
+                look_exactly(s, cell_x, cell_y, &j->points.all);
+            } else if (!full) {
+                look_around(s, number, x, y, &j->points.few);
             }
         }
-        if (full || (kept + 4 > room && !more_squares(&squares, &room))) {
+        if (full) {
             continue;
         }
-        const unsigned covered = t.kernels->covers(points.count, points.xs, points.ys, (4 * square.x + 2) * half,
-                                                   (4 * square.y + 2) * half, half, half, t.d2);
-        for (uint32_t q = 0; q < 4 && !status; q++) {
-            if (!(covered >> q & 1)) {
-                squares[kept] = (koksma__square){2 * square.x + (q & 1), 2 * square.y + (q >> 1)};
-                status = throw_at(&t, squares[kept++], &points);
+        const unsigned without = ~covered(j, square);
+        for (uint32_t q = 0; q < 4; q++) {
+            out[kept] = (koksma__square){2 * square.x + (q & 1), 2 * square.y + (q >> 1)};
+            kept += without >> q & 1;
+        }
+    }
+    return kept;
+}
+
+koksma_status koksma__disks_refine(koksma__disks *s)
+{
+    enum { EXACT = 10 }; /* the first level where it matters */
+    s->level++;
+    const float h = 0.5F / (float)((uint32_t)1 << s->level);
+    judge j = {.s = s, .exact = s->level >= EXACT, .h = h, .half = (double)h / s->cells};
+    size_t kept = 0, first = 0;
+    for (uint32_t t = 0; t < s->tiles * s->tiles; t++) {
+        const size_t end = s->first[t + 1], most = kept + 4 * (end - first);
+        if (most + 1 > s->spare_room) {
+            const size_t room = most + most / 2 + s->n_squares + 1;
+            koksma__square *spare = realloc(s->spare, room * sizeof *spare);
+            if (!spare) {
+                return koksma__fail_memory(room * sizeof *spare);
+            }
+            s->spare = spare;
+            s->spare_room = room;
+        }
+        s->first[t] = kept;
+        kept += refine_tile(&j, t, first, end, s->spare + kept);
+        first = end;
+    }
+    koksma__square *squares = s->squares;
+    s->squares = s->spare;
+    s->spare = squares;
+    const size_t room = s->square_room;
+    s->square_room = s->spare_room;
+    s->spare_room = room;
+    s->first[(size_t)s->tiles * s->tiles] = s->n_squares = kept;
+    return KOKSMA_OK;
+}
+
+/* The list of whole cells: all, or those that points do not cover. */
+static void list_cells(koksma__disks *s, bool all)
+{
+    around points;
+    for (uint32_t i = 0; i < s->tiles * s->tiles; i++) {
+        const koksma__tile t = koksma__disks_tile(s, i);
+        s->first[i] = s->n_squares;
+        for (uint32_t y = 0; y < t.ny; y++) {
+            for (uint32_t x = 0; x < t.nx; x++) {
+                s->squares[s->n_squares] = (koksma__square){t.x + x, t.y + y};
+                if (all) {
+                    s->n_squares++;
+                } else if (s->who[koksma__disks_own(s, i, x, y)] == NONE) {
+                    look_around(s, i, x, y, &points);
+                    s->n_squares +=
+                        !s->kernels->covers_roughly(points.count, points.xs, points.ys, 0.5F, 0.5F, 0, 0.5F, s->low);
+                }
             }
         }
     }
-    free(s->squares);
-    s->squares = squares;
-    s->square_room = room;
-    s->n_squares = kept;
-    return squares ? status : koksma__fail_memory(room * sizeof *squares);
-}
-
-/* The first round, at whole cells. */
-static koksma_status throw_first(koksma__disks *s, double mean)
-{
-    koksma_status status = KOKSMA_OK;
-    around points = {0};
-    thrower t;
-    start_round(&t, s, mean);
-    for (size_t i = 0; i < s->n_squares && !status; i++) {
-        if (s->n) {
-            look_around(s, s->squares[i].x, s->squares[i].y, &points);
-        }
-        status = throw_at(&t, s->squares[i], &points);
-    }
-    return status;
+    s->first[(size_t)s->tiles * s->tiles] = s->n_squares;
 }
 
 koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *run)
 {
     koksma_status status = KOKSMA_OK;
-    for (bool first = true; s->n < n && s->n_squares && (uint64_t)s->cells << s->level < FINEST / 2 && !status;
-         first = false) {
+    if (!s->n) {
+        list_cells(s, true);
+    }
+    while (s->n < n && s->n_squares && !status) {
         const double enough = n == SIZE_MAX ? 1 : 1.5 * (double)(n - s->n) / (double)s->n_squares + 0.01;
-        const double mean = fmin(enough, 0.5);
-        status = first ? throw_first(s, mean) : refine(s, mean);
-        if (!status) {
-            status = keep_darts(s, n);
+        status = koksma__darts_throw(s, fmin(enough, 0.75), n, run);
+        if (!status && s->n < n) {
+            status = koksma__disks_refine(s);
+        }
+        if ((uint64_t)s->cells << s->level >= FINEST / 2) {
+            break;
         }
         if (!status && !koksma__keep_going(run, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n)) {
             status = koksma__fail_interrupted();
@@ -302,26 +332,17 @@ koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *r
 
 koksma_status koksma__disks_shrink(koksma__disks *s, size_t n, double d)
 {
-    const koksma__kernel_table *kernels = koksma__kernels();
     const koksma_status status = make_grid(s, d);
     s->n = n;
     for (size_t i = 0; i < n && !status; i++) {
-        const double x = s->xs[2 * i], y = s->xs[2 * i + 1];
-        const uint32_t cell_x = (uint32_t)(x * s->cells), cell_y = (uint32_t)(y * s->cells);
-        put_into_grid(s, cell_x < s->cells ? cell_x : s->cells - 1, cell_y < s->cells ? cell_y : s->cells - 1, x, y);
+        const double x = s->xs[2 * i] * s->cells, y = s->xs[2 * i + 1] * s->cells;
+        const uint32_t cell_x = (uint32_t)fmin(x, s->cells - 1.0), cell_y = (uint32_t)fmin(y, s->cells - 1.0);
+        const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);
+        const koksma__tile t = koksma__disks_tile(s, ty * s->tiles + tx);
+        koksma__disks_put(s, &t, cell_x - t.x, cell_y - t.y, (float)(x - cell_x), (float)(y - cell_y), i);
     }
-    const double half = 0.5 / s->cells;
-    around points;
-    for (uint32_t y = 0; y < s->cells && !status; y++) {
-        for (uint32_t x = 0; x < s->cells; x++) {
-            if (s->gx[place_of(s, x, y)] < far_away) {
-                continue;
-            }
-            look_around(s, x, y, &points);
-            s->squares[s->n_squares] = (koksma__square){x, y};
-            s->n_squares += !kernels->covers(points.count, points.xs, points.ys, (2 * x + 1) * half,
-                                             (2 * y + 1) * half, 0, half, d * d);
-        }
+    if (!status) {
+        list_cells(s, false);
     }
     return status;
 }

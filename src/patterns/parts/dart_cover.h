@@ -4,46 +4,69 @@
  * keeping those no closer than d to the kept ones: darts are thrown at a shrinking cover of the room, made of squares
  * of equal size, so a dart that lands in the room is uniform there. The cover is the flat quadtree of Ebeida,
  * Mitchell, Patney, Davidson & Owens (2012): after each round of darts its squares are cut in four, and those without
- * room left out. In a round every square gets a Poisson number of darts, each at a random time: a Poisson process
- * over the cover. What became of a dart depends on the earlier ones near it only, so it can be asked for in any
- * order, and the order of the memory is the fastest.
+ * room left out.
+ *
+ * A grid that fits into a cache is thrown at as a whole. A larger one is cut into tiles that do, and the darts of a
+ * round come to each tile as a Poisson process in time, which together are one over the cover. What becomes of a dart
+ * depends on the earlier ones near it only, so a tile decides, in order of time, those that are far from its border;
+ * those that another tile has a say in, and the later ones near to such, wait for the end of the round and are
+ * decided in order of time then. So the law is the same, and most darts find what they need in the cache.
+ *
+ * Places in a cell are also kept as floats, in cells: enough to decide all but the closest cases, which are decided
+ * by the doubles.
  */
 #ifndef KOKSMA_PATTERNS_PARTS_DART_COVER_H
 #define KOKSMA_PATTERNS_PARTS_DART_COVER_H
 
 #include <koksma/koksma.h>
 
+#include "kernels/kernels.h"
+
 typedef struct koksma__square {
     uint32_t x, y; /* in units of the squares' size */
 } koksma__square;
 
-/* A dart that no point of earlier rounds is near to. */
+/* A dart that is not decided in its tile. */
 typedef struct koksma__dart {
-    double x, y;
-    uint64_t time; /* no two are equal */
-    uint32_t cell_x, cell_y;
-    bool decided, kept;
+    double x, y, time;
+    float in_x, in_y; /* place in its cell */
+    uint32_t cell_x, cell_y, tile, next;
 } koksma__dart;
 
+/* A tile: cells x .. x + nx - 1, y .. y + ny - 1. */
+typedef struct koksma__tile {
+    uint32_t number, x, y, nx, ny;
+} koksma__tile;
+
+enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BEFORE = 2, KOKSMA__DART_AFTER = 5 };
+
 typedef struct koksma__disks {
+    const koksma__kernel_table *kernels;
     double d;
     size_t n, room; /* points, and places for them */
     double *xs;     /* pairs */
+    double *times;  /* of the points of this round, where there are several tiles */
     uint32_t cells; /* a side; none holds two points */
-    size_t stride;  /* of the rows of gx and gy, which have a border of copies, 2 wide */
-    size_t places;
-    double *gx, *gy;
-    int level; /* squares are cells / 2^level wide */
-    size_t n_squares, square_room;
-    koksma__square *squares;
-    koksma__dart *darts; /* of this round, by cell */
-    size_t n_darts, dart_room;
-    uint32_t *starts; /* the first dart of each cell or of those after it, row by row */
-    size_t start_room;
+    uint32_t tiles; /* a side */
+    size_t wide;    /* cells a side of the largest tile */
+    size_t stride;  /* of the rows of gx and gy, where each tile has a border of copies: 5 after, else 2 */
+    size_t block;   /* from tile to tile in gx and gy */
+    size_t grid_room, who_room;
+    float *gx, *gy;
+    uint32_t *who;   /* the point of each cell, by tile, without border; UINT32_MAX: none */
+    float low, high; /* squares of distances in cells: below is near, above is not, between the doubles tell */
+    int level;       /* squares are cells / 2^level wide */
+    size_t n_squares, square_room, spare_room, first_room;
+    koksma__square *squares, *spare; /* by tile */
+    size_t *first;                   /* square of each tile, and the number of squares */
+    koksma__dart *waiting;
+    size_t n_waiting, waiting_room;
     uint64_t seed, dart; /* the stream of darts */
+    uint32_t words[4 * (KOKSMA__DART_WORDS + 8)];
+    size_t used, drawn; /* of the words, in fours */
 } koksma__disks;
 
-/* No points yet, for distance d in (0, 0.5]; fini frees what init and the others got. */
+/* No points yet, for distance d in (0, 0.75]; fini frees what init and the others got. */
 koksma_status koksma__disks_init(koksma__disks *disks, uint64_t seed, double d);
 void koksma__disks_fini(koksma__disks *disks);
 
@@ -54,10 +77,60 @@ koksma_status koksma__disks_fill(koksma__disks *disks, size_t n, const koksma_ru
 /* Keeps the first n points and looks for room again with the smaller distance d. */
 koksma_status koksma__disks_shrink(koksma__disks *disks, size_t n, double d);
 
-/* Inside a round. push: a dart of the same cell as the last, or of one after it row by row, with the upper half of
-   its time. decide: the number of darts that are kept; they are moved to the front of the list. sort: by time. */
-koksma_status koksma__darts_push(koksma__disks *disks, koksma__dart dart);
-size_t koksma__darts_decide(koksma__disks *disks);
-void koksma__darts_sort(koksma__disks *disks, size_t count);
+/* Inside. A round of darts, on average `mean` at each square; no more than n points afterwards. */
+koksma_status koksma__darts_throw(koksma__disks *disks, double mean, size_t n, const koksma_run *run);
+
+/* Point number i goes into its cell and into the copies of the cell in borders. */
+void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t cell_x, uint32_t cell_y, float in_x,
+                       float in_y, size_t i);
+
+/* Cuts the squares in four and keeps those with room. */
+koksma_status koksma__disks_refine(koksma__disks *disks);
+
+/* The first cell of a row of tiles, and the tile in the row that a cell is of. */
+static inline uint32_t koksma__disks_start(const koksma__disks *s, uint32_t tile)
+{
+    return (uint32_t)((uint64_t)tile * s->cells / s->tiles);
+}
+
+static inline uint32_t koksma__disks_tile_of(const koksma__disks *s, uint32_t cell)
+{
+    return (uint32_t)((((uint64_t)cell + 1) * s->tiles - 1) / s->cells);
+}
+
+static inline koksma__tile koksma__disks_tile(const koksma__disks *s, uint32_t number)
+{
+    const uint32_t tx = number % s->tiles, ty = number / s->tiles;
+    koksma__tile t = {number, koksma__disks_start(s, tx), koksma__disks_start(s, ty), 0, 0};
+    t.nx = koksma__disks_start(s, tx + 1) - t.x;
+    t.ny = koksma__disks_start(s, ty + 1) - t.y;
+    return t;
+}
+
+/* Where the 5 x 8 cells about a cell of a tile begin in gx and gy. */
+static inline size_t koksma__disks_corner(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
+{
+    return tile * s->block + cell_y * s->stride + cell_x;
+}
+
+static inline size_t koksma__disks_place(const koksma__disks *s, uint32_t tile, int cell_x, int cell_y)
+{
+    return tile * s->block + (size_t)(cell_y + KOKSMA__DART_BEFORE) * s->stride +
+           (size_t)(cell_x + KOKSMA__DART_BEFORE);
+}
+
+/* The place in who. */
+static inline size_t koksma__disks_own(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
+{
+    return (tile * s->wide + cell_y) * s->wide + cell_x;
+}
+
+/* The point of a cell of the grid; UINT32_MAX: none. */
+static inline uint32_t koksma__disks_who(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y)
+{
+    const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);
+    return s->who[koksma__disks_own(s, ty * s->tiles + tx, cell_x - koksma__disks_start(s, tx),
+                                    cell_y - koksma__disks_start(s, ty))];
+}
 
 #endif

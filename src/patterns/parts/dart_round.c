@@ -1,68 +1,260 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The darts of one round of koksma__disks_fill (dart_cover.h): which of them are kept. */
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "core/parallel.h"
+#include "core/random.h"
 #include "core/status.h"
 #include "patterns/parts/dart_cover.h"
 
-koksma_status koksma__darts_push(koksma__disks *s, koksma__dart new)
+enum {
+    MOST_CELLS = 64, /* a side of a tile */
+    AHEAD = 4        /* darts */
+};
+
+#define NONE UINT32_MAX
+
+/* The darts of this round that wait in a tile, by cell. */
+typedef struct queue {
+    uint64_t rows[MOST_CELLS];
+    uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
+} queue;
+
+/* The next 128 random bits of the stream. Few are drawn at first: small sets need few. */
+static const uint32_t *draw(koksma__disks *s)
 {
-    if (s->n_darts == s->dart_room) {
-        const size_t room = 2 * s->dart_room + 64;
-        koksma__dart *darts = realloc(s->darts, room * sizeof *darts);
-        if (!darts) {
-            return koksma__fail_memory(room * sizeof *darts);
-        }
-        s->darts = darts;
-        s->dart_room = room;
+    if (s->used == s->drawn) {
+        s->drawn = s->drawn ? KOKSMA__DART_WORDS : KOKSMA__DART_WORDS / 8;
+        s->kernels->words(s->seed, KOKSMA__PURPOSE_DART, s->dart, 0, s->drawn, s->words);
+        s->dart += s->drawn;
+        s->used = 0;
     }
-    new.time = new.time << 32 | s->n_darts;
-    s->darts[s->n_darts++] = new;
+    return s->words + 4 * s->used++;
+}
+
+static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
+{
+    const koksma__tile t = koksma__disks_tile(s, d->tile);
+    for (uint32_t r = 0; r < 5; r++) {
+        const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
+        for (uint32_t c = 0; c < 5; c++) {
+            const uint32_t x = (t.x + d->cell_x + c + 2 * s->cells - 2) % s->cells;
+            const size_t who = koksma__disks_who(s, x, y);
+            if (who != NONE) {
+                double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
+                a = fmin(a, 1 - a);
+                b = fmin(b, 1 - b);
+                if (a * a + b * b < s->d * s->d) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+/* Whether there is a point nearer than d. */
+static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
+{
+    const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
+    const unsigned found =
+        s->kernels->near_rows(s->gx + corner, s->gy + corner, s->stride, d->in_x, d->in_y, s->low, s->high);
+    return found && (found & 1 || near_in_doubles(s, d));
+}
+
+/* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
+static inline bool aim(koksma__disks *s, const koksma__tile *t, const koksma__square *squares, uint32_t count,
+                       const uint32_t *w, koksma__dart *d)
+{
+    const koksma__square square = squares[koksma__below(w[0], count)];
+    const uint32_t inside = ((uint32_t)1 << s->level) - 1;
+    const double in_cell = 1 / (double)((uint32_t)1 << s->level), whole = in_cell / s->cells;
+    const double u = w[1] * 0x1p-32, v = w[2] * 0x1p-32;
+    d->in_x = (float)(((square.x & inside) + u) * in_cell);
+    d->in_y = (float)(((square.y & inside) + v) * in_cell);
+    d->cell_x = (square.x >> s->level) - t->x;
+    d->cell_y = (square.y >> s->level) - t->y;
+    d->tile = t->number;
+    d->x = (square.x + u) * whole;
+    d->y = (square.y + v) * whole;
+    return (d->x < 1) & (d->y < 1);
+}
+
+static koksma_status more_points(koksma__disks *s)
+{
+    const size_t room = 2 * s->room;
+    double *xs = realloc(s->xs, 2 * room * sizeof *xs);
+    s->xs = xs ? xs : s->xs;
+    double *times = xs && s->times ? realloc(s->times, room * sizeof *times) : s->times;
+    s->times = times ? times : s->times;
+    if (!xs || (s->times && !times)) {
+        return koksma__fail_memory(2 * room * sizeof *xs);
+    }
+    s->room = room;
     return KOKSMA_OK;
 }
 
-static bool keep(koksma__disks *s, koksma__dart *d);
-
-/* Whether one of the darts first .. end-1 was there before d, is near to it, and was kept; (u, v) is added to their
-   places. */
-static inline bool stopped_by(koksma__disks *s, const koksma__dart *d, size_t first, size_t end, double u, double v)
+static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const koksma__dart *d)
 {
-    const double d2 = s->d * s->d, x = d->x - u, y = d->y - v;
-    for (koksma__dart *e = s->darts + first; e < s->darts + end; e++) {
-        const double a = e->x - x, b = e->y - y;
-        if (((a * a + b * b < d2) & (e->time < d->time)) && keep(s, e)) {
-            return true;
+    if (s->n == s->room) {
+        const koksma_status status = more_points(s);
+        if (status) {
+            return status;
+        }
+    }
+    s->xs[2 * s->n] = d->x;
+    s->xs[2 * s->n + 1] = d->y;
+    if (s->times) {
+        s->times[s->n] = d->time;
+    }
+    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->in_x, d->in_y, s->n++);
+    return KOKSMA_OK;
+}
+
+/* Asks the cache for what the darts after this one will need. Past the words that are drawn, these are of no dart. */
+static inline void look_ahead(const koksma__disks *s, const koksma__tile *t, const koksma__square *squares,
+                              uint32_t count, const uint32_t *w, bool grid)
+{
+    __builtin_prefetch(squares + koksma__below(w[4 * 2 * AHEAD], count));
+    if (grid) {
+        const koksma__square next = squares[koksma__below(w[4 * AHEAD], count)];
+        const size_t corner =
+            koksma__disks_corner(s, t->number, (next.x >> s->level) - t->x, (next.y >> s->level) - t->y);
+        for (size_t r = 0; r < 5; r++) {
+            __builtin_prefetch(s->gx + corner + r * s->stride);
+            __builtin_prefetch(s->gy + corner + r * s->stride);
+        }
+    }
+}
+
+/* The only tile: its darts are in order of time, and decided at once. */
+static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
+{
+    const koksma__tile t = koksma__disks_tile(s, 0);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < darts && s->n < n && !status; i++) {
+        koksma__dart d = {.time = 0};
+        if (aim(s, &t, s->squares, (uint32_t)s->n_squares, draw(s), &d) && !is_near(s, &d)) {
+            status = keep(s, &t, &d);
+        }
+    }
+    return status;
+}
+
+/* Whether the dart has to wait: its reach leaves the tile, or an earlier dart near it waits. */
+static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, const queue *q, const koksma__dart *d)
+{
+    const uint32_t x = d->cell_x, y = d->cell_y;
+    if ((x < 2) | (y < 2) | (x + 2 >= t->nx) | (y + 2 >= t->ny)) {
+        return true;
+    }
+    for (uint32_t r = y - 2; r <= y + 2; r++) {
+        for (uint64_t some = q->rows[r] >> (x - 2) & 31; some; some &= some - 1) {
+            const uint32_t c = x - 2 + (uint32_t)__builtin_ctzll(some);
+            for (uint32_t i = q->last[r * MOST_CELLS + c]; i != NONE; i = s->waiting[i].next) {
+                const double a = s->waiting[i].x - d->x, b = s->waiting[i].y - d->y;
+                if (a * a + b * b < s->d * s->d) {
+                    return true;
+                }
+            }
         }
     }
     return false;
 }
 
-/* The darts of neighbouring cells of a row are neighbours in the list. */
-static bool stopped(koksma__disks *s, const koksma__dart *d)
+static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
 {
-    const int cells = (int)s->cells, cell_x = (int)d->cell_x;
-    for (int r = -2; r <= 2; r++) {
-        const int reach = r == -2 || r == 2 ? 1 : 2, y = (int)d->cell_y + r, v = y < 0 ? -1 : y >= cells;
-        const uint32_t *row = s->starts + (size_t)(y - v * cells) * s->cells;
-        const int low = cell_x - reach, high = cell_x + reach;
-        if ((low < 0 && stopped_by(s, d, row[low + cells], row[cells], -1, v)) ||
-            (high >= cells && stopped_by(s, d, row[0], row[high + 1 - cells], 1, v)) ||
-            stopped_by(s, d, row[low < 0 ? 0 : low], row[high < cells ? high + 1 : cells], 0, v)) {
-            return true;
+    if (s->n_waiting == s->waiting_room) {
+        const size_t room = 2 * s->waiting_room + 256;
+        koksma__dart *waiting = realloc(s->waiting, room * sizeof *waiting);
+        if (!waiting) {
+            return koksma__fail_memory(room * sizeof *waiting);
         }
+        s->waiting = waiting;
+        s->waiting_room = room;
     }
-    return false;
+    const uint32_t x = d->cell_x, y = d->cell_y;
+    uint32_t *last = &q->last[y * MOST_CELLS + x];
+    s->waiting[s->n_waiting] = *d;
+    s->waiting[s->n_waiting].next = q->rows[y] >> x & 1 ? *last : NONE;
+    *last = (uint32_t)s->n_waiting++;
+    q->rows[y] |= (uint64_t)1 << x;
+    return KOKSMA_OK;
 }
 
-/* A dart is kept unless one that came before it, is near to it and is kept itself. The darts that this asks for come
-   ever earlier, so it ends; and chains of near darts in order of time are short. */
-static bool keep(koksma__disks *s, koksma__dart *d)
+/* The time in a Poisson process with events at the given rate in [0, 1): times its rate, it is -log of a product of
+   uniform numbers, of which the logarithm is taken when it is asked for. */
+typedef struct stopwatch {
+    double rate, before, product;
+    int factors;
+    double last; /* product at which the process ends */
+} stopwatch;
+
+static bool tick(stopwatch *c, uint32_t word)
 {
-    if (!d->decided) {
-        d->kept = !stopped(s, d);
-        d->decided = true;
+    if (!c->factors) {
+        c->before -= log(c->product);
+        c->product = 1;
+        c->factors = 16; /* of at least 2^-33: exp(-366) together */
+        c->last = c->rate - c->before > 400 ? 0 : exp(c->before - c->rate);
     }
-    return d->kept;
+    c->factors--;
+    c->product *= (word + 0.5) * 0x1p-32;
+    return c->product > c->last;
+}
+
+static double time_of(const stopwatch *c)
+{
+    return fmin((c->before - log(c->product)) / c->rate, 1 - 0x1p-53);
+}
+
+/* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
+static void fetch(const koksma__disks *s, size_t tile, size_t first, size_t count)
+{
+    for (size_t i = 0; i < s->block; i += 16) {
+        __builtin_prefetch(s->gx + tile * s->block + i, 1);
+        __builtin_prefetch(s->gy + tile * s->block + i, 1);
+    }
+    for (size_t i = 0; i < s->wide * s->wide; i += 16) {
+        __builtin_prefetch(s->who + tile * s->wide * s->wide + i, 1);
+    }
+    for (size_t i = 0; i < count; i += 8) {
+        __builtin_prefetch(s->squares + first + i);
+    }
+}
+
+/* One of several tiles. Times of points are written down if asked for. */
+static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
+{
+    const size_t first = s->first[number];
+    const uint32_t count = (uint32_t)(s->first[number + 1] - first);
+    const koksma__tile t = koksma__disks_tile(s, number);
+    if (!count) {
+        return KOKSMA_OK;
+    }
+    memset(q->rows, 0, sizeof q->rows);
+    const bool many = mean * count > 256;
+    if (many) {
+        fetch(s, number, first, count);
+    }
+    stopwatch clock = {.rate = mean * count, .product = 1};
+    koksma_status status = KOKSMA_OK;
+    while (!status) {
+        const uint32_t *w = draw(s);
+        koksma__dart d;
+        if (!tick(&clock, w[3])) {
+            break;
+        }
+        look_ahead(s, &t, s->squares + first, count, w, !many);
+        if (aim(s, &t, s->squares + first, count, w, &d) && !is_near(s, &d)) {
+            const bool waits = must_wait(s, &t, q, &d);
+            d.time = waits || timed ? time_of(&clock) : 0;
+            status = waits ? wait(s, q, &d) : keep(s, &t, &d);
+        }
+    }
+    return status;
 }
 
 static int earlier(const void *a, const void *b)
@@ -71,29 +263,90 @@ static int earlier(const void *a, const void *b)
     return (d->time > e->time) - (d->time < e->time);
 }
 
-void koksma__darts_sort(koksma__disks *s, size_t count)
+/* The points of the round from number `before` on become so few that there are n. */
+static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
-    qsort(s->darts, count, sizeof *s->darts, earlier);
+    const size_t count = s->n - before;
+    koksma__dart *darts = malloc(count * sizeof *darts);
+    if (!darts) {
+        return koksma__fail_memory(count * sizeof *darts);
+    }
+    for (size_t i = 0; i < count; i++) {
+        darts[i] = (koksma__dart){
+            .x = s->xs[2 * (before + i)], .y = s->xs[2 * (before + i) + 1], .time = s->times[before + i]};
+    }
+    qsort(darts, count, sizeof *darts, earlier);
+    for (s->n = before; s->n < n; s->n++) {
+        s->xs[2 * s->n] = darts[s->n - before].x;
+        s->xs[2 * s->n + 1] = darts[s->n - before].y;
+    }
+    free(darts);
+    return KOKSMA_OK;
 }
 
-size_t koksma__darts_decide(koksma__disks *s)
+/* Puts the waiting darts in order of time: n uniform numbers are nearly in order when their n-ths are. */
+static koksma_status sort_waiting(koksma__disks *s)
 {
-    size_t kept = 0, cell = 0;
-    for (size_t i = 0; i < s->n_darts; i++) {
-        while (cell <= (size_t)s->darts[i].cell_y * s->cells + s->darts[i].cell_x) {
-            s->starts[cell++] = (uint32_t)i;
+    const size_t n = s->n_waiting;
+    if (!n) {
+        return KOKSMA_OK;
+    }
+    if (2 * n > s->waiting_room) {
+        koksma__dart *waiting = realloc(s->waiting, 2 * n * sizeof *waiting);
+        if (!waiting) {
+            return koksma__fail_memory(2 * n * sizeof *waiting);
+        }
+        s->waiting = waiting;
+        s->waiting_room = 2 * n;
+    }
+    size_t *starts = calloc(n + 1, sizeof *starts);
+    if (!starts) {
+        return koksma__fail_memory((n + 1) * sizeof *starts);
+    }
+    koksma__dart *to = s->waiting, *from = s->waiting + n;
+    for (size_t i = 0; i < n; i++) {
+        from[i] = to[i];
+        starts[(size_t)(to[i].time * (double)n) + 1]++;
+    }
+    for (size_t i = 0; i < n; i++) {
+        starts[i + 1] += starts[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        to[starts[(size_t)(from[i].time * (double)n)]++] = from[i];
+    }
+    for (size_t i = 1; i < n; i++) {
+        const koksma__dart d = to[i];
+        size_t at = i;
+        for (; at && to[at - 1].time > d.time; at--) {
+            to[at] = to[at - 1];
+        }
+        to[at] = d;
+    }
+    free(starts);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__darts_throw(koksma__disks *s, double mean, size_t n, const koksma_run *run)
+{
+    if (s->tiles == 1) {
+        return throw_at_all(s, (size_t)ceil(mean * (double)s->n_squares) + 4, n);
+    }
+    const size_t before = s->n;
+    koksma_status status = KOKSMA_OK;
+    queue q;
+    s->n_waiting = 0;
+    for (uint32_t i = 0; i < s->tiles * s->tiles && !status; i++) {
+        status = throw_at_tile(s, i, &q, mean, n < SIZE_MAX);
+        if (!status && i % 4096 == 4095 && !koksma__keep_going(run, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n)) {
+            status = koksma__fail_interrupted();
         }
     }
-    while (cell <= (size_t)s->cells * s->cells) {
-        s->starts[cell++] = (uint32_t)s->n_darts;
+    status = status ? status : sort_waiting(s);
+    for (size_t i = 0; i < s->n_waiting && !status; i++) {
+        if (!is_near(s, &s->waiting[i])) {
+            const koksma__tile t = koksma__disks_tile(s, s->waiting[i].tile);
+            status = keep(s, &t, &s->waiting[i]);
+        }
     }
-    for (size_t i = 0; i < s->n_darts; i++) {
-        keep(s, &s->darts[i]);
-    }
-    for (size_t i = 0; i < s->n_darts; i++) {
-        const koksma__dart d = s->darts[i];
-        s->darts[kept] = d;
-        kept += d.kept;
-    }
-    return kept;
+    return !status && s->n > n ? drop_last(s, before, n) : status;
 }
