@@ -51,7 +51,9 @@ CREATE TABLE IF NOT EXISTS run (           -- when, where and how long somebody 
   workers INTEGER NOT NULL,                -- threads, or MPI ranks
   jobs INTEGER NOT NULL,                   -- done in this run
   seconds REAL NOT NULL,
-  store_seconds REAL NOT NULL              -- of these, in this database
+  idle_seconds REAL NOT NULL,              -- of all workers together, without a job in hand
+  processor_seconds REAL NOT NULL,         -- of all threads and ranks
+  store_seconds REAL NOT NULL              -- of processor_seconds, in this database
 );
 
 CREATE VIEW IF NOT EXISTS rows AS

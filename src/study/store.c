@@ -8,15 +8,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <sqlite3.h>
 
 #include "core/status.h"
+#include "study/clocks.h"
 #include "study/schema.h"
 
-#define SCHEMA_VERSION "2"
+#define SCHEMA_VERSION "3"
 #define SERIES_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what"
 
 enum {
@@ -47,11 +47,12 @@ static const char *const statements[N_STATEMENTS] = {
                       "AND height=? AND reference=?",
     [PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
     [GET_TEXT] = "SELECT value FROM meta WHERE key=?",
-    [PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, store_seconds) VALUES "
-                "(?,?,?,?,?,?,?)",
-    [GET_RUN] =
-        "SELECT started, machine, version, workers, jobs, seconds, store_seconds FROM run ORDER BY id LIMIT 1 "
-        "OFFSET ?",
+    [PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, idle_seconds, "
+                "processor_seconds, store_seconds) VALUES "
+                "(?,?,?,?,?,?,?,?,?)",
+    [GET_RUN] = "SELECT started, machine, version, workers, jobs, seconds, idle_seconds, processor_seconds, "
+                "store_seconds FROM run ORDER BY id LIMIT 1 "
+                "OFFSET ?",
 };
 
 /* Writes are gathered into transactions of at most COMMIT_AFTER_S, so that neither a million small rows cost a
@@ -67,22 +68,15 @@ struct koksma__store {
     double began_s, entered_s, seconds;
 };
 
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void enter(koksma__store *store)
 {
     pthread_mutex_lock(&store->lock);
-    store->entered_s = now_s();
+    store->entered_s = koksma__thread_s();
 }
 
 static koksma_status leave(koksma__store *store, koksma_status status)
 {
-    store->seconds += now_s() - store->entered_s;
+    store->seconds += koksma__thread_s() - store->entered_s;
     pthread_mutex_unlock(&store->lock);
     return status;
 }
@@ -124,7 +118,7 @@ static koksma_status begin(koksma__store *store)
     }
     const koksma_status status = execute(store, "BEGIN IMMEDIATE");
     store->in_transaction = !status;
-    store->began_s = now_s();
+    store->began_s = koksma__now_s();
     return status;
 }
 
@@ -162,7 +156,7 @@ static koksma_status step_put(koksma__store *store, sqlite3_stmt *s)
         status = fail(store);
     }
     sqlite3_reset(s);
-    if (!status && now_s() - store->began_s > COMMIT_AFTER_S) {
+    if (!status && koksma__now_s() - store->began_s > COMMIT_AFTER_S) {
         status = commit(store);
     }
     return status;
@@ -498,6 +492,8 @@ koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_reco
     bind_whole(s, &column, record->workers);
     bind_whole(s, &column, record->jobs);
     sqlite3_bind_double(s, column++, record->seconds);
+    sqlite3_bind_double(s, column++, record->idle_seconds);
+    sqlite3_bind_double(s, column++, record->processor_seconds);
     sqlite3_bind_double(s, column, record->store_seconds);
     return leave(store, step_put(store, s));
 }
@@ -516,7 +512,9 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
         record->workers = sqlite3_column_int64(s, 3);
         record->jobs = sqlite3_column_int64(s, 4);
         record->seconds = sqlite3_column_double(s, 5);
-        record->store_seconds = sqlite3_column_double(s, 6);
+        record->idle_seconds = sqlite3_column_double(s, 6);
+        record->processor_seconds = sqlite3_column_double(s, 7);
+        record->store_seconds = sqlite3_column_double(s, 8);
     }
     sqlite3_reset(s);
     return leave(store, status);

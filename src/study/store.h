@@ -27,7 +27,7 @@ typedef struct koksma__result {
 typedef struct koksma__run_record {
     char started[24], machine[256], version[32];
     long long workers, jobs;
-    double seconds, store_seconds;
+    double seconds, idle_seconds, processor_seconds, store_seconds;
 } koksma__run_record;
 
 typedef enum koksma__store_mode {
@@ -44,7 +44,7 @@ koksma_status koksma__store_close(koksma__store *store);
 /* Puts everything so far on disk. */
 koksma_status koksma__store_commit(koksma__store *store);
 
-/* Seconds spent in calls of this store so far. */
+/* Processor time spent in calls of this store so far. */
 double koksma__store_seconds(koksma__store *store);
 
 /* A text of table meta; set replaces. *value is the caller's, NULL when there is none. */
