@@ -269,26 +269,6 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
 
 /* ---- The public functions ------------------------------------------------------------------------------ */
 
-#define NAME_AT(names, i) ((unsigned)(i) < sizeof(names) / sizeof *(names) ? (names)[i] : NULL)
-
-const char *koksma_pairing_name(koksma_pairing pairing)
-{
-    static const char *const names[] = {"shuffled", "aligned", "native"};
-    return NAME_AT(names, pairing);
-}
-
-const char *koksma_scope_name(koksma_scope scope)
-{
-    static const char *const names[] = {"pixel", "image"};
-    return NAME_AT(names, scope);
-}
-
-const char *koksma_light_selection_name(koksma_light_selection selection)
-{
-    static const char *const names[] = {"all", "one", "power", "uniform"};
-    return NAME_AT(names, selection);
-}
-
 void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene)
 {
     *options = (koksma_render_options){.spp = 16,
@@ -298,18 +278,6 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
                                        .depth = -1,
                                        .filter = koksma_filter_find("box")};
     koksma_pattern_spec("n-rooks", &options->pattern);
-}
-
-void koksma_layers_fini(koksma_layers *layers)
-{
-    if (layers) {
-        koksma_image_fini(&layers->image);
-        koksma_image_fini(&layers->albedo);
-        koksma_image_fini(&layers->normal);
-        koksma_image_fini(&layers->depth);
-        koksma_image_fini(&layers->samples);
-        koksma_image_fini(&layers->variance);
-    }
 }
 
 static koksma_status check(const koksma_render_options *o)
