@@ -71,6 +71,11 @@ static int say_interrupted(const cli_arguments *arguments, koksma_status status,
     return koksma_status_exit_code(status);
 }
 
+static double percent(double part, double of)
+{
+    return of > 0 ? 100 * part / of : 0;
+}
+
 static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
 {
     koksma_study *study;
@@ -94,12 +99,14 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
         return cli_fail(arguments, status);
     }
     if (options->folder && !cli_flag(arguments, "quiet")) {
-        fprintf(stderr,
-                "%zu jobs, %zu of them done before, %zu now in %.1f s (%.1f %% of it in the database)%s; report: "
-                "%s/report.html\n",
-                summary.jobs, summary.done_before, summary.done_now, summary.seconds,
-                100 * summary.store_seconds / (summary.seconds > 0 ? summary.seconds : 1),
-                summary.complete ? "" : "; the time is up, and the same command goes on", options->folder);
+        fprintf(
+            stderr,
+            "%zu jobs, %zu of them done before, %zu now in %.1f s (workers idle %.1f %% of the time, in the database "
+            "%.1f %% of the processor time)%s; report: %s/report.html\n",
+            summary.jobs, summary.done_before, summary.done_now, summary.seconds,
+            percent(summary.idle_seconds, summary.workers * summary.seconds),
+            percent(summary.store_seconds, summary.processor_seconds),
+            summary.complete ? "" : "; the time is up, and the same command goes on", options->folder);
     }
     return !options->folder || summary.complete ? CLI_YES : CLI_NO;
 }

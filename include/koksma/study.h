@@ -52,9 +52,12 @@ KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
 typedef struct koksma_study_summary {
     size_t jobs, done_before, done_now; /* a job is one point set or one render */
-    double seconds, store_seconds;      /* store_seconds: of them in the database */
     int workers;                        /* threads, or MPI ranks */
-    bool complete;                      /* false when the time was up */
+    double seconds;
+    double idle_seconds;      /* of all workers together, without a job in hand */
+    double processor_seconds; /* of all threads and ranks */
+    double store_seconds;     /* of processor_seconds in the database */
+    bool complete;            /* false when the time was up */
 } koksma_study_summary;
 
 /* Does the jobs that are not done, until run->time_limit_s. run and summary may be NULL.

@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "render/film.h"
+#include "render/rows.h"
 
 enum { SAMPLES_A_TASK = 1 << 15 };
 
@@ -18,6 +19,7 @@ typedef struct job {
     koksma__frame *frame;
     koksma__film film;
     const koksma__pipeline *pipeline;
+    int first_row, end_row; /* what is rendered of the image */
     int rows_a_task;
     size_t capacity; /* samples of a group */
     atomic_ullong rays;
@@ -104,7 +106,7 @@ static koksma_status render_rows(void *context, size_t task)
 {
     job *j = context;
     const koksma__frame *f = j->frame;
-    const int first_row = (int)task * j->rows_a_task, left = f->options->height - first_row;
+    const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
     room r;
@@ -132,7 +134,7 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     const size_t spp = (size_t)f->options->spp, width = (size_t)f->options->width;
     const size_t rows = SAMPLES_A_TASK / (width * spp);
     j->rows_a_task = rows ? (int)rows : 1;
-    const size_t tasks = (size_t)((f->options->height + j->rows_a_task - 1) / j->rows_a_task);
+    const size_t tasks = (size_t)((j->end_row - j->first_row + j->rows_a_task - 1) / j->rows_a_task);
     j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
     j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
@@ -148,26 +150,6 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
 
 /* ---- The public functions ------------------------------------------------------------------------------ */
 
-#define NAME_AT(names, i) ((unsigned)(i) < sizeof(names) / sizeof *(names) ? (names)[i] : NULL)
-
-const char *koksma_pairing_name(koksma_pairing pairing)
-{
-    static const char *const names[] = {"shuffled", "aligned", "native"};
-    return NAME_AT(names, pairing);
-}
-
-const char *koksma_scope_name(koksma_scope scope)
-{
-    static const char *const names[] = {"pixel", "image"};
-    return NAME_AT(names, scope);
-}
-
-const char *koksma_light_selection_name(koksma_light_selection selection)
-{
-    static const char *const names[] = {"all", "one", "power", "uniform"};
-    return NAME_AT(names, selection);
-}
-
 void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene)
 {
     *options = (koksma_render_options){.spp = 16,
@@ -179,23 +161,11 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
     koksma_pattern_spec("n-rooks", &options->pattern);
 }
 
-void koksma_layers_fini(koksma_layers *layers)
-{
-    if (layers) {
-        koksma_image_fini(&layers->image);
-        koksma_image_fini(&layers->albedo);
-        koksma_image_fini(&layers->normal);
-        koksma_image_fini(&layers->depth);
-        koksma_image_fini(&layers->samples);
-        koksma_image_fini(&layers->variance);
-    }
-}
-
 static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
                             bool all_layers, koksma_layers *out)
 {
     koksma__frame f;
-    job j = {.frame = &f};
+    job j = {.frame = &f, .end_row = options->height};
     *out = (koksma_layers){0};
     koksma_status status = koksma__frame_open(scene, options, run, &f);
     status = status ? status : render_image(&j, run, all_layers, out);
@@ -229,6 +199,31 @@ koksma_status koksma_render(const koksma_scene *scene, const koksma_render_optio
         *out = layers.image;
         layers.image = (koksma_image){0};
     }
+    koksma_layers_fini(&layers);
+    return status;
+}
+
+bool koksma__rows_stand_alone(const koksma_render_options *options)
+{
+    const koksma__rules *rules = options->integrator->rules;
+    return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat && !rules->open;
+}
+
+koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render_options *options, int first_row,
+                                  int rows, const koksma_run *run, koksma_image *out)
+{
+    koksma__frame f;
+    koksma_layers layers = {0};
+    job j = {.frame = &f, .first_row = first_row, .end_row = first_row + rows};
+    koksma_status status = koksma__frame_open(scene, options, run, &f);
+    status = status ? status : render_image(&j, run, false, &layers);
+    *out = (koksma_image){0};
+    status = status ? status : koksma_image_init(out, options->width, rows, layers.image.channels);
+    if (!status) {
+        const size_t row = (size_t)options->width * (size_t)layers.image.channels;
+        memcpy(out->pixels, layers.image.pixels + (size_t)first_row * row, (size_t)rows * row * sizeof *out->pixels);
+    }
+    koksma__frame_close(&f);
     koksma_layers_fini(&layers);
     return status;
 }

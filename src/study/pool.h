@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Who does the jobs: the threads of this process (run.c), or the ranks of an MPI run (pool_ranks.c). Of several ranks
- * the first holds the store, deals jobs out and does some itself; the others open the plan without a folder, ask for
- * work and send results back.
+ * Who does the jobs: the threads of this process (pool_threads.c), or the ranks of an MPI run (ranks.h). Of several
+ * ranks the first holds the store, deals jobs out and does some itself; the others open the plan without a folder,
+ * ask for work and send results back.
  */
 #ifndef KOKSMA_STUDY_POOL_H
 #define KOKSMA_STUDY_POOL_H
@@ -15,13 +15,15 @@ typedef struct koksma__pool {
     koksma__tasks *tasks;
     bool last; /* no other kind of jobs comes after */
     atomic_size_t done;
+    atomic_ullong busy_ns; /* of all workers, on parts of references and on jobs */
+    double others_s;       /* processor time of the other ranks */
 } koksma__pool;
 
 /* Does all jobs that are not done on run's threads. */
 koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run);
 
-/* Makes or reads every reference that a job needs. */
-koksma_status koksma__pool_references(koksma__pool *pool, const koksma_run *run);
+/* Adds the time since start_s to what the workers were busy. */
+void koksma__pool_was_busy(koksma__pool *pool, double start_s);
 
 /* Ranks of this run; 1 without MPI. */
 int koksma__pool_size(void);

@@ -16,6 +16,7 @@
 
 #include "core/hash.h"
 #include "core/status.h"
+#include "render/rows.h"
 #include "study/study.h"
 
 uint64_t koksma__job_seed(const char *format, ...)
@@ -40,20 +41,27 @@ void koksma__block_size(const koksma__image_block *block, const koksma__study_sc
     *height = block->height ? block->height : scene->height;
 }
 
-koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
-                                   const koksma_run *run, koksma_image *out)
+static koksma_status set_variant(const koksma__study_scene *scene, const koksma__picture *picture,
+                                 koksma__variant *variant)
 {
-    koksma__variant variant;
-    koksma_render_options *options = &variant.render;
+    koksma_render_options *options = &variant->render;
     koksma_render_options_init(options, scene->scene);
     koksma_status status = koksma_pattern_spec(picture->pattern, &options->pattern);
     if (!status) {
-        status = koksma__variant_apply(picture->variant, picture->of_reference, &variant);
+        status = koksma__variant_apply(picture->variant, picture->of_reference, variant);
     }
     options->spp = (int)picture->spp;
     options->seed = picture->seed;
     options->width = picture->width;
     options->height = picture->height;
+    return status;
+}
+
+koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
+                                   const koksma_run *run, koksma_image *out)
+{
+    koksma__variant variant;
+    const koksma_status status = set_variant(scene, picture, &variant);
     return status ? status : koksma__variant_render(scene->scene, &variant, run, out);
 }
 
@@ -95,19 +103,38 @@ koksma__series koksma__reference_key(const koksma__reference_image *reference, c
                             .height = reference->height};
 }
 
-koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
-                                          const koksma_run *run, koksma_image *out)
+static koksma__picture picture_of(const koksma__reference_image *reference, long long replicate)
 {
     const koksma__reference *r = reference->reference;
-    const koksma__picture picture = {.pattern = r->pattern,
-                                     .variant = reference->options,
-                                     .of_reference = true,
-                                     .spp = r->spp,
-                                     .width = reference->width,
-                                     .height = reference->height,
-                                     .seed = koksma__job_seed("reference|%s|%s|%s|%lld|%lld", reference->scene->name,
-                                                              reference->scene->hash, r->pattern, r->spp, replicate)};
-    return koksma__study_render(reference->scene, &picture, run, out);
+    return (koksma__picture){.pattern = r->pattern,
+                             .variant = reference->options,
+                             .of_reference = true,
+                             .spp = r->spp,
+                             .width = reference->width,
+                             .height = reference->height,
+                             .seed = koksma__job_seed("reference|%s|%s|%s|%lld|%lld", reference->scene->name,
+                                                      reference->scene->hash, r->pattern, r->spp, replicate)};
+}
+
+koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone)
+{
+    koksma__variant variant;
+    const koksma__picture picture = picture_of(reference, 0);
+    const koksma_status status = set_variant(reference->scene, &picture, &variant);
+    *alone = !status && koksma__rows_stand_alone(&variant.render);
+    return status;
+}
+
+/* An adaptive method never makes a reference (variants.c), so that the renderer itself can be asked for rows. */
+koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
+                                          int first_row, int rows, koksma_image *out)
+{
+    static const koksma_run single = {.threads = 1};
+    koksma__variant variant;
+    const koksma__picture picture = picture_of(reference, replicate);
+    const koksma_status status = set_variant(reference->scene, &picture, &variant);
+    return status ? status
+                  : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, &single, out);
 }
 
 koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)
@@ -196,29 +223,12 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     return status;
 }
 
-koksma_status koksma__reference_load(koksma_study *study, koksma__reference_image *reference, const koksma_run *run)
+koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference)
 {
     char path[KOKSMA__PATH];
-    koksma__replicates sums = {0};
-    koksma_status status = KOKSMA_OK;
     if (reference->image.pixels) {
-        return status;
+        return KOKSMA_OK;
     }
-    if (koksma__reference_exists(study, reference)) {
-        koksma__reference_path(study, reference, path, sizeof path);
-        return koksma_image_read(path, &reference->image);
-    }
-    for (long long r = 0; !status && r < reference->reference->replicates; r++) {
-        koksma_image image;
-        status = koksma__reference_replicate(reference, r, run, &image);
-        if (!status) {
-            status = koksma__replicates_add(&sums, &image);
-            koksma_image_fini(&image);
-        }
-    }
-    if (status) {
-        free(sums.sum);
-        return status;
-    }
-    return koksma__replicates_finish(&sums, study, reference);
+    koksma__reference_path(study, reference, path, sizeof path);
+    return koksma_image_read(path, &reference->image);
 }

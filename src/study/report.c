@@ -311,26 +311,6 @@ static bool has_tables(const koksma_study *study, bool images)
     return false;
 }
 
-/* When, where and how long. One element, so that reports of the same rows differ in it alone. */
-static koksma_status add_runs(koksma_study *study, koksma__html *h)
-{
-    bool found = true;
-    koksma__run_record run;
-    koksma_status status = KOKSMA_OK;
-    koksma__html_add(h, "<ul id=\"runs\">");
-    for (long long i = 0; !status && found; i++) {
-        status = koksma__store_run(study->store, i, &run, &found);
-        if (!status && found) {
-            koksma__html_add(h, "<li>%s: %lld jobs in %.1f s with %lld workers on ", run.started, run.jobs,
-                             run.seconds, run.workers);
-            koksma__html_text(h, run.machine);
-            koksma__html_add(h, ", koksma %s</li>", run.version);
-        }
-    }
-    koksma__html_add(h, "</ul>\n");
-    return status;
-}
-
 static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma_run *run)
 {
     koksma__tally tally = {0};
@@ -372,7 +352,7 @@ static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma
     koksma__html_add(
         h, "</code>. The rows are in <code>results.sqlite</code> beside this file; every one can be made again "
            "from its key. Results do not depend on the number of threads or on interruptions.</p>\n");
-    status = status ? status : add_runs(study, h);
+    status = status ? status : koksma__report_runs(study, h);
     koksma__html_add(h, "</main>\n</body>\n</html>\n");
     return status;
 }

@@ -17,4 +17,7 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
  */
 koksma_status koksma__report_pictures(koksma_study *study, koksma__html *html, const koksma_run *run);
 
+/* When, where and how long. One element, so that reports of the same rows differ in it alone. */
+koksma_status koksma__report_runs(koksma_study *study, koksma__html *h);
+
 #endif

@@ -77,7 +77,7 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
     if (!koksma__reference_exists(study, reference) || b->used + 4 * pixels * (shown + 1) > MOST_BYTES) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__reference_load(study, reference, run);
+    koksma_status status = koksma__reference_read(study, reference);
     koksma__html floats = {0};
     if (!b->shown) {
         koksma__html_add(

@@ -3,62 +3,14 @@
    seed is a hash of its key. */
 #include <stdatomic.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 #include <time.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "study/clocks.h"
 #include "study/pool.h"
-
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* ---- Threads ------------------------------------------------------------------------------------------- */
-
-static koksma_status do_job(void *context, size_t i)
-{
-    koksma__pool *pool = context;
-    long long trial;
-    const koksma__task *task = koksma__tasks_job(pool->tasks, i, &trial);
-    if (koksma__task_is_done(task, trial)) {
-        return KOKSMA_OK;
-    }
-    koksma__result *results = calloc(task->n_series, sizeof *results);
-    if (!results) {
-        return koksma__fail_memory(task->n_series * sizeof *results);
-    }
-    koksma_status status = koksma__task_do(pool->tasks->study, task, trial, results);
-    status = status ? status : koksma__task_put(pool->tasks->study->store, task, results);
-    free(results);
-    atomic_fetch_add(&pool->done, !status);
-    return status;
-}
-
-/* Every reference that a job needs. */
-koksma_status koksma__pool_references(koksma__pool *pool, const koksma_run *run)
-{
-    koksma_study *study = pool->tasks->study;
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < pool->tasks->n; i++) {
-        const koksma__task *task = &pool->tasks->at[i];
-        for (size_t r = 0; task->image && !status && r < task->n_series && task->done_before < task->trials; r++) {
-            status = koksma__reference_load(study, &study->references[task->references[r]], run);
-        }
-    }
-    return status;
-}
-
-koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run)
-{
-    const koksma_status status = koksma__pool_references(pool, run);
-    return status ? status : koksma__parallel(run, pool->tasks->n_jobs, do_job, pool);
-}
 
 /* ---- The time limit ------------------------------------------------------------------------------------ */
 
@@ -71,7 +23,7 @@ typedef struct watch {
 static bool keep_going(void *context, double fraction)
 {
     watch *w = context;
-    if (w->end_s > 0 && now_s() > w->end_s) {
+    if (w->end_s > 0 && koksma__now_s() > w->end_s) {
         w->is_up = true;
         return false;
     }
@@ -103,6 +55,8 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
     koksma__run_record record = {.workers = summary->workers,
                                  .jobs = (long long)summary->done_now,
                                  .seconds = summary->seconds,
+                                 .idle_seconds = summary->idle_seconds,
+                                 .processor_seconds = summary->processor_seconds,
                                  .store_seconds = summary->store_seconds};
     if (summary->done_now == 0) {
         return KOKSMA_OK;
@@ -137,6 +91,8 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
         status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool, run) : koksma__pool_threads(&pool, run);
     }
     summary->done_now += atomic_load(&pool.done);
+    summary->idle_seconds -= 1e-9 * (double)atomic_load(&pool.busy_ns);
+    summary->processor_seconds += pool.others_s;
     koksma__tasks_close(&tasks);
     return before ? before : status;
 }
@@ -153,13 +109,15 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     if (!study->store) {
         return koksma__pool_work(study);
     }
-    const double start_s = now_s();
+    const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     watch w = {.run = run, .end_s = run && run->time_limit_s > 0 ? start_s + run->time_limit_s : 0};
     const koksma_run inner = {.threads = koksma__threads(run), .keep_going = keep_going, .context = &w};
     koksma_status status = run_kind(study, false, &inner, KOKSMA_OK, summary);
     status = run_kind(study, true, &inner, status, summary);
     summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : inner.threads;
-    summary->seconds = now_s() - start_s;
+    summary->seconds = koksma__now_s() - start_s;
+    summary->idle_seconds += summary->workers * summary->seconds;
+    summary->processor_seconds += koksma__processor_s() - processor_s;
     summary->store_seconds = koksma__store_seconds(study->store);
     summary->complete = !status;
     if (!status || status == KOKSMA_INTERRUPTED) {

@@ -22,15 +22,13 @@ CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the tria
 );
 
 CREATE TABLE IF NOT EXISTS result (        -- one measure of one point set, or one render compared with one reference
-  series INTEGER NOT NULL,
-  trial INTEGER NOT NULL,
+  id INTEGER PRIMARY KEY,                  -- 2^32 trial + series: rows are appended as they are made
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
   value REAL NOT NULL,                     -- the measure, or the mean of the absolute error in luminance over the pixels
   sd REAL,                                 -- of an image: of the absolute error over the pixels
   max REAL,
-  rmse REAL,
-  PRIMARY KEY (series, trial)
-) WITHOUT ROWID;
+  rmse REAL
+);
 
 CREATE TABLE IF NOT EXISTS reference (     -- how good a reference image is
   scene TEXT NOT NULL,
@@ -51,9 +49,12 @@ CREATE TABLE IF NOT EXISTS run (           -- when, where and how long somebody 
   workers INTEGER NOT NULL,                -- threads, or MPI ranks
   jobs INTEGER NOT NULL,                   -- done in this run
   seconds REAL NOT NULL,
-  store_seconds REAL NOT NULL              -- of these, in this database
+  idle_seconds REAL NOT NULL,              -- of all workers together, without a job in hand
+  processor_seconds REAL NOT NULL,         -- of all threads and ranks
+  store_seconds REAL NOT NULL              -- of processor_seconds, in this database
 );
 
 CREATE VIEW IF NOT EXISTS rows AS
-  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, trial, seed, value, sd, max, rmse
-  FROM series JOIN result ON result.series = series.id;
+  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, result.id >> 32 AS trial, seed, value,
+         sd, max, rmse
+  FROM result JOIN series ON series.id = result.id & 4294967295;

@@ -8,24 +8,34 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <sqlite3.h>
 
 #include "core/status.h"
+#include "study/clocks.h"
 #include "study/schema.h"
 
-#define SCHEMA_VERSION "2"
+#define SCHEMA_VERSION "3"
 #define SERIES_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what"
+
+#define ROW "(?,?,?,?,?,?)"
+#define PLAIN_ROW "(?,?,?,NULL,NULL,NULL)"
+#define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
+#define TIMES_MANY(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
+
+/* Rows of a statement that puts many, and columns of a row; of a plain one, which has the value only. */
+enum { MANY = 32, ROW_COLUMNS = 6, PLAIN_COLUMNS = 3 };
 
 enum {
     FIND_SERIES,
     ADD_SERIES,
     PUT,
-    GET_TRIALS,
+    PUT_MANY,
+    PUT_MANY_PLAIN,
     GET_RESULTS,
-    GET_ALL,
+    GET_IDS,
+    GET_SERIES,
     PUT_REFERENCE,
     GET_REFERENCE,
     PUT_TEXT,
@@ -38,51 +48,73 @@ enum {
 static const char *const statements[N_STATEMENTS] = {
     [FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?)",
     [ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ") VALUES (?,?,?,?,?,?,?,?,?,?)",
-    [PUT] = "INSERT OR IGNORE INTO result VALUES (?,?,?,?,?,?,?)",
-    [GET_TRIALS] = "SELECT trial FROM result WHERE series=? AND trial<?",
-    [GET_RESULTS] = "SELECT trial, seed, value, sd, max, rmse FROM result WHERE series=? AND trial<? ORDER BY trial",
-    [GET_ALL] = "SELECT * FROM rows ORDER BY " SERIES_KEY ", trial",
+    [PUT] = "INSERT OR IGNORE INTO result VALUES " ROW,
+    [PUT_MANY] = "INSERT OR IGNORE INTO result VALUES " TIMES_MANY(ROW),
+    [PUT_MANY_PLAIN] = "INSERT OR IGNORE INTO result VALUES " TIMES_MANY(PLAIN_ROW),
+    [GET_RESULTS] =
+        "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
+        "SELECT trial, seed, value, sd, max, rmse FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
+    [GET_IDS] = "SELECT id FROM result",
+    [GET_SERIES] = "SELECT " SERIES_KEY ", id FROM series ORDER BY " SERIES_KEY,
     [PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?)",
     [GET_REFERENCE] = "SELECT standard_error FROM reference WHERE scene=? AND scene_hash=? AND options=? AND width=? "
                       "AND height=? AND reference=?",
     [PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
     [GET_TEXT] = "SELECT value FROM meta WHERE key=?",
-    [PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, store_seconds) VALUES "
-                "(?,?,?,?,?,?,?)",
-    [GET_RUN] =
-        "SELECT started, machine, version, workers, jobs, seconds, store_seconds FROM run ORDER BY id LIMIT 1 "
-        "OFFSET ?",
+    [PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, idle_seconds, "
+                "processor_seconds, store_seconds) VALUES "
+                "(?,?,?,?,?,?,?,?,?)",
+    [GET_RUN] = "SELECT started, machine, version, workers, jobs, seconds, idle_seconds, processor_seconds, "
+                "store_seconds FROM run ORDER BY id LIMIT 1 "
+                "OFFSET ?",
 };
 
-/* Writes are gathered into transactions of at most COMMIT_AFTER_S, so that neither a million small rows cost a
-   million commits nor a killed run loses more than that. */
-static const double COMMIT_AFTER_S = 0.2;
+/* Rows are gathered in memory and written together: a statement a row would take most of the time of small jobs. A
+   killed run loses what was gathered in this time, or in one job if that takes longer. */
+static const double WRITE_AFTER_S = 0.2;
+enum { MOST_GATHERED = 1 << 14 };
+
+typedef struct row {
+    long long id;
+    uint64_t seed;
+    double values[KOKSMA__RESULT_VALUES];
+} row;
+
+typedef struct rows {
+    size_t n;
+    row *at;
+} rows;
 
 struct koksma__store {
     sqlite3 *database;
     sqlite3_stmt *prepared[N_STATEMENTS];
     char *path;
-    pthread_mutex_t lock;
+    pthread_mutex_t lock; /* guards the database, and what follows */
     bool in_transaction;
     double began_s, entered_s, seconds;
+    rows spare;
+    size_t n_ends;               /* of `ends`, which is filled when it is first wanted */
+    long long *ends;             /* of a series, by its id: all its trials are below */
+    pthread_mutex_t gather_lock; /* taken within the other; guards what follows */
+    rows gathered;
+    double written_s; /* when something was last written */
 };
 
-static double now_s(void)
+/* The id of a row: in the order in which a run makes rows, so that they are appended to the table. */
+static long long row_id(long long series, long long trial)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+    return (long long)((unsigned long long)trial << 32 | (unsigned long long)series);
 }
 
 static void enter(koksma__store *store)
 {
     pthread_mutex_lock(&store->lock);
-    store->entered_s = now_s();
+    store->entered_s = koksma__thread_s();
 }
 
 static koksma_status leave(koksma__store *store, koksma_status status)
 {
-    store->seconds += now_s() - store->entered_s;
+    store->seconds += koksma__thread_s() - store->entered_s;
     pthread_mutex_unlock(&store->lock);
     return status;
 }
@@ -96,6 +128,9 @@ static koksma_status fail(koksma__store *store)
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", store->path,
                             sqlite3_errmsg(store->database));
+    }
+    if (code == SQLITE_READONLY || code == SQLITE_CANTOPEN) {
+        return koksma__fail(KOKSMA_IO, "%s: can't be written; its folder must be writable, too", store->path);
     }
     if (code == SQLITE_NOMEM) {
         return koksma__fail(KOKSMA_MEMORY, "%s: out of memory", store->path);
@@ -124,7 +159,7 @@ static koksma_status begin(koksma__store *store)
     }
     const koksma_status status = execute(store, "BEGIN IMMEDIATE");
     store->in_transaction = !status;
-    store->began_s = now_s();
+    store->began_s = koksma__now_s();
     return status;
 }
 
@@ -162,10 +197,71 @@ static koksma_status step_put(koksma__store *store, sqlite3_stmt *s)
         status = fail(store);
     }
     sqlite3_reset(s);
-    if (!status && now_s() - store->began_s > COMMIT_AFTER_S) {
+    if (!status && koksma__now_s() - store->began_s > WRITE_AFTER_S) {
         status = commit(store);
     }
     return status;
+}
+
+static bool is_plain(const row *r)
+{
+    return isnan(r->values[1]) && isnan(r->values[2]) && isnan(r->values[3]);
+}
+
+static void bind_row(sqlite3_stmt *s, int column, const row *from, bool plain)
+{
+    sqlite3_bind_int64(s, column++, from->id);
+    sqlite3_bind_int64(s, column++, (long long)from->seed);
+    for (int k = 0; k < (plain ? 1 : KOKSMA__RESULT_VALUES); k++) {
+        sqlite3_bind_double(s, column++, from->values[k]); /* NaN is stored as NULL */
+    }
+}
+
+static koksma_status step_rows(koksma__store *store, sqlite3_stmt *s)
+{
+    const bool done = sqlite3_step(s) == SQLITE_DONE;
+    const koksma_status status = done ? KOKSMA_OK : fail(store);
+    sqlite3_reset(s);
+    return status;
+}
+
+static koksma_status put_many(koksma__store *store, const row *from)
+{
+    bool plain = true;
+    for (int k = 0; k < MANY; k++) {
+        plain &= is_plain(&from[k]);
+    }
+    sqlite3_stmt *s = store->prepared[plain ? PUT_MANY_PLAIN : PUT_MANY];
+    for (int k = 0; k < MANY; k++) {
+        bind_row(s, 1 + (plain ? PLAIN_COLUMNS : ROW_COLUMNS) * k, &from[k], plain);
+    }
+    return step_rows(store, s);
+}
+
+/* Writes and commits all rows that were gathered. The lock must be held, so that the spare room is free. */
+static koksma_status write_gathered(koksma__store *store)
+{
+    pthread_mutex_lock(&store->gather_lock);
+    const rows taken = store->gathered;
+    store->gathered = (rows){0, store->spare.at};
+    store->spare.at = taken.at;
+    store->written_s = koksma__now_s();
+    pthread_mutex_unlock(&store->gather_lock);
+    if (taken.n) { /* what is known of the rows is known no more */
+        free(store->ends);
+        store->ends = NULL;
+        store->n_ends = 0;
+    }
+    size_t i = 0;
+    koksma_status status = taken.n || store->in_transaction ? begin(store) : KOKSMA_OK;
+    for (; !status && taken.n - i >= MANY; i += MANY) {
+        status = put_many(store, &taken.at[i]);
+    }
+    for (; !status && i < taken.n; i++) {
+        bind_row(store->prepared[PUT], 1, &taken.at[i], false);
+        status = step_rows(store, store->prepared[PUT]);
+    }
+    return status ? status : commit(store);
 }
 
 /* One row, or none: *found says so. The caller reads the columns and resets. */
@@ -176,14 +272,13 @@ static koksma_status step_get(koksma__store *store, sqlite3_stmt *s, bool *found
     return code == SQLITE_ROW || code == SQLITE_DONE ? KOKSMA_OK : fail(store);
 }
 
-static void read_result(sqlite3_stmt *s, int column, koksma__result *result)
+static void read_result(sqlite3_stmt *s, koksma__result *result)
 {
-    result->trial = sqlite3_column_int64(s, column);
-    result->seed = (uint64_t)sqlite3_column_int64(s, column + 1);
+    result->trial = sqlite3_column_int64(s, 0);
+    result->seed = (uint64_t)sqlite3_column_int64(s, 1);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        result->values[k] = sqlite3_column_type(s, column + 2 + k) == SQLITE_NULL
-                                ? (double)NAN
-                                : sqlite3_column_double(s, column + 2 + k);
+        result->values[k] =
+            sqlite3_column_type(s, 2 + k) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, 2 + k);
     }
 }
 
@@ -239,8 +334,10 @@ static koksma_status prepare_statement(koksma__store *store, int i)
    schema is known by its `meta`, before anything is made in it. */
 static koksma_status prepare(koksma__store *store, bool write, const char *plan_name)
 {
-    koksma_status status =
-        execute(store, "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL;");
+    koksma_status status = execute(
+        store,
+        "PRAGMA page_size=16384; PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
+        "PRAGMA cache_size=-32768;");
     status = status ? status : begin(store);
     if (!status && write) {
         status = execute(store, "CREATE TABLE IF NOT EXISTS meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT "
@@ -276,10 +373,16 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
         return koksma__fail_memory(sizeof *store);
     }
     pthread_mutex_init(&store->lock, NULL);
-    koksma_status status = KOKSMA_OK;
-    if (!write && access(path, F_OK)) {
+    pthread_mutex_init(&store->gather_lock, NULL);
+    store->gathered.at = malloc(MOST_GATHERED * sizeof *store->gathered.at);
+    store->spare.at = malloc(MOST_GATHERED * sizeof *store->spare.at);
+    koksma_status status = store->gathered.at && store->spare.at
+                               ? KOKSMA_OK
+                               : koksma__fail_memory(2 * MOST_GATHERED * sizeof *store->spare.at);
+    if (!status && !write && access(path, F_OK)) {
         status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(errno));
-    } else if (access(path, W_OK) && errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
+    } else if (!status && access(path, W_OK) &&
+               errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
         status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
     }
     const int flags = SQLITE_OPEN_READWRITE | (write ? SQLITE_OPEN_CREATE : 0);
@@ -303,12 +406,16 @@ koksma_status koksma__store_close(koksma__store *store)
     if (!store) {
         return KOKSMA_OK;
     }
-    const koksma_status status = commit(store);
+    const koksma_status status = write_gathered(store);
     for (int i = 0; i < N_STATEMENTS; i++) {
         sqlite3_finalize(store->prepared[i]);
     }
     sqlite3_close(store->database);
     pthread_mutex_destroy(&store->lock);
+    pthread_mutex_destroy(&store->gather_lock);
+    free(store->gathered.at);
+    free(store->spare.at);
+    free(store->ends);
     free(store->path);
     free(store);
     return status;
@@ -317,7 +424,7 @@ koksma_status koksma__store_close(koksma__store *store)
 koksma_status koksma__store_commit(koksma__store *store)
 {
     enter(store);
-    return leave(store, commit(store));
+    return leave(store, write_gathered(store));
 }
 
 double koksma__store_seconds(koksma__store *store)
@@ -358,75 +465,146 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
     return leave(store, status);
 }
 
-koksma_status koksma__store_put(koksma__store *store, long long series, const koksma__result *result)
+koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
+                                size_t n)
 {
-    sqlite3_stmt *s = store->prepared[PUT];
-    int column = 1;
-    enter(store);
-    bind_whole(s, &column, series);
-    bind_whole(s, &column, result->trial);
-    bind_whole(s, &column, (long long)result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        sqlite3_bind_double(s, column++, result->values[k]); /* NaN is stored as NULL */
-    }
-    return leave(store, step_put(store, s));
-}
-
-koksma_status koksma__store_done(koksma__store *store, long long series, long long trials, unsigned char *bits)
-{
-    sqlite3_stmt *s = store->prepared[GET_TRIALS];
-    int column = 1, code;
-    enter(store);
-    bind_whole(s, &column, series);
-    bind_whole(s, &column, trials);
-    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
-        const long long t = sqlite3_column_int64(s, 0);
-        if (t >= 0) {
-            bits[t / 8] |= (unsigned char)(1u << t % 8);
-        }
-    }
-    const koksma_status status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
-    sqlite3_reset(s);
-    return leave(store, status);
-}
-
-koksma_status koksma__store_results(koksma__store *store, long long series, long long trials,
-                                    koksma__result **results, size_t *n)
-{
-    sqlite3_stmt *s = store->prepared[GET_RESULTS];
-    size_t room = 0;
-    int column = 1, code = SQLITE_DONE;
     koksma_status status = KOKSMA_OK;
-    *results = NULL;
-    *n = 0;
-    enter(store);
-    bind_whole(s, &column, series);
-    bind_whole(s, &column, trials);
-    while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
-        if (*n == room) {
-            room = room ? 2 * room : 128;
-            koksma__result *more = realloc(*results, room * sizeof *more);
-            if (!more) {
-                status = koksma__fail_memory(room * sizeof *more);
-                break;
-            }
-            *results = more;
+    for (size_t i = 0; !status && i < n;) {
+        pthread_mutex_lock(&store->gather_lock);
+        rows *to = &store->gathered;
+        for (; i < n && to->n < MOST_GATHERED; i++) {
+            row *r = &to->at[to->n++];
+            r->id = row_id(series[i], results[i].trial);
+            r->seed = results[i].seed;
+            memcpy(r->values, results[i].values, sizeof r->values);
         }
-        read_result(s, 0, &(*results)[(*n)++]);
+        const bool write = i < n || koksma__now_s() - store->written_s > WRITE_AFTER_S;
+        pthread_mutex_unlock(&store->gather_lock);
+        if (write) {
+            enter(store);
+            status = leave(store, write_gathered(store));
+        }
+    }
+    return status;
+}
+
+/* Reads the ids of all rows, in their order. */
+static koksma_status scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
+                          void *context)
+{
+    sqlite3_stmt *s = store->prepared[GET_IDS];
+    koksma_status status = write_gathered(store);
+    int code = SQLITE_DONE;
+    while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        const long long id = sqlite3_column_int64(s, 0);
+        if (id >= 0) {
+            see(context, id & 0xffffffff, id >> 32);
+        }
     }
     if (!status && code != SQLITE_DONE) {
         status = fail(store);
     }
     sqlite3_reset(s);
+    return status;
+}
+
+koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
+                                 void *context)
+{
+    enter(store);
+    return leave(store, scan(store, see, context));
+}
+
+static void see_end(void *context, long long series, long long trial)
+{
+    koksma__store *store = context;
+    if ((size_t)series < store->n_ends && trial >= store->ends[series]) {
+        store->ends[series] = trial + 1;
+    }
+}
+
+/* How far the trials of every series go. */
+static koksma_status find_ends(koksma__store *store)
+{
+    sqlite3_stmt *s = store->prepared[GET_SERIES];
+    const koksma_status written = write_gathered(store);
+    if (written || store->ends) {
+        return written;
+    }
+    int code;
+    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
+        const long long id = sqlite3_column_int64(s, 10);
+        store->n_ends = id >= 0 && (size_t)id >= store->n_ends ? (size_t)id + 1 : store->n_ends;
+    }
+    koksma_status status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
+    sqlite3_reset(s);
+    if (!status && !(store->ends = calloc(store->n_ends + 1, sizeof *store->ends))) {
+        status = koksma__fail_memory(store->n_ends * sizeof *store->ends);
+    }
+    return status ? status : scan(store, see_end, store);
+}
+
+static long long end_of(const koksma__store *store, long long series)
+{
+    return series >= 0 && (size_t)series < store->n_ends ? store->ends[series] : 0;
+}
+
+/* Shows a series' results with trials below `end`. */
+static koksma_status each_result(koksma__store *store, long long series, long long end, const koksma__series *key,
+                                 koksma__row_visitor visit, void *context)
+{
+    sqlite3_stmt *s = store->prepared[GET_RESULTS];
+    koksma_status status = KOKSMA_OK;
+    int code = SQLITE_DONE;
+    sqlite3_bind_int64(s, 1, series);
+    sqlite3_bind_int64(s, 2, end);
+    while (end > 0 && !status && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        koksma__result result;
+        read_result(s, &result);
+        status = visit(context, key, &result);
+    }
+    if (!status && code != SQLITE_DONE) {
+        status = fail(store);
+    }
+    sqlite3_reset(s);
+    return status;
+}
+
+typedef struct results {
+    koksma__result *at;
+    size_t n;
+} results;
+
+static koksma_status keep_result(void *context, const koksma__series *series, const koksma__result *result)
+{
+    results *to = context;
+    (void)series;
+    to->at[to->n++] = *result;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__store_results(koksma__store *store, long long series, long long trials, koksma__result **out,
+                                    size_t *n)
+{
+    results to = {0};
+    enter(store);
+    koksma_status status = find_ends(store);
+    const long long all = status ? 0 : end_of(store, series), end = all < trials ? all : trials;
+    if (end > 0 && !(to.at = calloc((size_t)end, sizeof *to.at))) {
+        status = koksma__fail_memory((size_t)end * sizeof *to.at);
+    }
+    status = status ? status : each_result(store, series, end, NULL, keep_result, &to);
+    *out = to.at;
+    *n = to.n;
     return leave(store, status);
 }
 
 koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visit, void *context)
 {
-    sqlite3_stmt *s = store->prepared[GET_ALL];
+    sqlite3_stmt *s = store->prepared[GET_SERIES];
     int code = SQLITE_DONE;
-    koksma_status status = KOKSMA_OK;
     enter(store);
+    koksma_status status = find_ends(store);
     while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
         const char *texts[10];
         for (int k = 0; k < 10; k++) {
@@ -442,9 +620,8 @@ koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visi
                                        sqlite3_column_int64(s, 6),
                                        sqlite3_column_int64(s, 7),
                                        sqlite3_column_int64(s, 8)};
-        koksma__result result;
-        read_result(s, 10, &result);
-        status = visit(context, &series, &result);
+        const long long id = sqlite3_column_int64(s, 10);
+        status = each_result(store, id, end_of(store, id), &series, visit, context);
     }
     if (!status && code != SQLITE_DONE) {
         status = fail(store);
@@ -498,6 +675,8 @@ koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_reco
     bind_whole(s, &column, record->workers);
     bind_whole(s, &column, record->jobs);
     sqlite3_bind_double(s, column++, record->seconds);
+    sqlite3_bind_double(s, column++, record->idle_seconds);
+    sqlite3_bind_double(s, column++, record->processor_seconds);
     sqlite3_bind_double(s, column, record->store_seconds);
     return leave(store, step_put(store, s));
 }
@@ -516,7 +695,9 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
         record->workers = sqlite3_column_int64(s, 3);
         record->jobs = sqlite3_column_int64(s, 4);
         record->seconds = sqlite3_column_double(s, 5);
-        record->store_seconds = sqlite3_column_double(s, 6);
+        record->idle_seconds = sqlite3_column_double(s, 6);
+        record->processor_seconds = sqlite3_column_double(s, 7);
+        record->store_seconds = sqlite3_column_double(s, 8);
     }
     sqlite3_reset(s);
     return leave(store, status);

@@ -27,7 +27,7 @@ typedef struct koksma__result {
 typedef struct koksma__run_record {
     char started[24], machine[256], version[32];
     long long workers, jobs;
-    double seconds, store_seconds;
+    double seconds, idle_seconds, processor_seconds, store_seconds;
 } koksma__run_record;
 
 typedef enum koksma__store_mode {
@@ -44,7 +44,7 @@ koksma_status koksma__store_close(koksma__store *store);
 /* Puts everything so far on disk. */
 koksma_status koksma__store_commit(koksma__store *store);
 
-/* Seconds spent in calls of this store so far. */
+/* Processor time spent in calls of this store so far; gathering rows is a copy and not counted. */
 double koksma__store_seconds(koksma__store *store);
 
 /* A text of table meta; set replaces. *value is the caller's, NULL when there is none. */
@@ -54,11 +54,14 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
 /* The id of a series; with `add` it is made when it does not exist, else *id is 0 then. */
 koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id);
 
-/* Writes the result of one trial, unless there is one. */
-koksma_status koksma__store_put(koksma__store *store, long long series, const koksma__result *result);
+/* Writes results, each of its series, unless there is one of that trial. They are gathered: a later call may be the
+   one that fails. */
+koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
+                                size_t n);
 
-/* Sets bit t (of byte t / 8) for every trial t < trials that has a result. */
-koksma_status koksma__store_done(koksma__store *store, long long series, long long trials, unsigned char *bits);
+/* Shows every row that there is. */
+koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
+                                 void *context);
 
 /* The results of trials below `trials` in their order; *results is the caller's. series 0 has none. */
 koksma_status koksma__store_results(koksma__store *store, long long series, long long trials,

@@ -61,9 +61,13 @@ koksma__series koksma__reference_key(const koksma__reference_image *reference, c
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size);
 
-/* Renders one replicate of a reference. Allocates out. */
+/* Whether its rows can be rendered one by one. */
+koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone);
+
+/* Renders rows of one replicate of a reference on this thread; all of them where they don't stand alone. Allocates
+   out, as high as `rows`. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
-                                          const koksma_run *run, koksma_image *out);
+                                          int first_row, int rows, koksma_image *out);
 
 /* Sums of replicates, added in their order. */
 typedef struct koksma__replicates {
@@ -82,8 +86,8 @@ koksma_status koksma__replicates_mean(const koksma__replicates *sums, int width,
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);
 
-/* Reads DIR/references/…, or renders it and writes it there, with its standard error into the store. */
-koksma_status koksma__reference_load(koksma_study *study, koksma__reference_image *reference, const koksma_run *run);
+/* Reads DIR/references/…, unless the pixels are there. */
+koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference);
 
 /* Whether the file is there already. */
 bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference);

@@ -186,46 +186,89 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
     return s;
 }
 
-static koksma_status look_up(koksma__store *store, koksma__task *t)
+/* Who has a series. */
+typedef struct owner {
+    koksma__task *task;
+    unsigned char *bits; /* a bit a trial of that series */
+} owner;
+
+typedef struct owners {
+    size_t n;
+    owner *at; /* by the series' id */
+} owners;
+
+static void see_row(void *context, long long series, long long trial)
+{
+    const owners *o = context;
+    if ((size_t)series < o->n && o->at[series].task && trial < o->at[series].task->trials) {
+        o->at[series].bits[trial / 8] |= (unsigned char)(1u << trial % 8);
+    }
+}
+
+static koksma_status find_series(koksma__tasks *tasks, owners *o)
+{
+    koksma_status status = KOKSMA_OK;
+    long long most = 0;
+    for (size_t i = 0; i < tasks->n; i++) {
+        koksma__task *t = &tasks->at[i];
+        for (size_t k = 0; !status && k < t->n_series; k++) {
+            char name[KOKSMA__REFERENCE_NAME];
+            const koksma__series series = koksma__task_series(t, k, name);
+            status = koksma__store_series(tasks->study->store, &series, true, &t->series[k]);
+            most = t->series[k] > most ? t->series[k] : most;
+        }
+    }
+    o->n = (size_t)most + 1;
+    o->at = calloc(o->n, sizeof *o->at);
+    status = status || o->at ? status : koksma__fail_memory(o->n * sizeof *o->at);
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        koksma__task *t = &tasks->at[i];
+        for (size_t k = 0; !status && k < t->n_series; k++) {
+            owner *own = &o->at[t->series[k]];
+            if (!own->task) { /* blocks of a plan may share one; the first task has the most trials */
+                own->bits = calloc(((size_t)t->trials + 7) / 8, 1);
+                status = own->bits ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
+                own->task = t;
+            }
+        }
+    }
+    return status;
+}
+
+/* A trial is done when every series has it. */
+static void mark_done(koksma__task *t, const owners *o)
 {
     const size_t bytes = ((size_t)t->trials + 7) / 8;
-    unsigned char *bits = malloc(bytes);
-    koksma_status status = bits ? KOKSMA_OK : koksma__fail_memory(bytes);
-    memset(t->done, 0xff, bytes); /* done is what every series has */
-    for (size_t k = 0; !status && k < t->n_series; k++) {
-        char name[KOKSMA__REFERENCE_NAME];
-        const koksma__series series = koksma__task_series(t, k, name);
-        memset(bits, 0, bytes);
-        status = koksma__store_series(store, &series, true, &t->series[k]);
-        status = status ? status : koksma__store_done(store, t->series[k], t->trials, bits);
+    memset(t->done, 0xff, bytes);
+    for (size_t k = 0; k < t->n_series; k++) {
         for (size_t i = 0; i < bytes; i++) {
-            t->done[i] &= bits[i];
+            t->done[i] &= o->at[t->series[k]].bits[i];
         }
     }
     t->done_before = 0;
-    for (long long trial = 0; !status && trial < t->trials; trial++) {
+    for (long long trial = 0; trial < t->trials; trial++) {
         t->done_before += koksma__task_is_done(t, trial);
     }
-    free(bits);
-    return status;
 }
 
 koksma_status koksma__tasks_look_up(koksma__tasks *tasks)
 {
-    koksma_status status = KOKSMA_OK;
+    owners o = {0};
+    koksma_status status = find_series(tasks, &o);
+    status = status ? status : koksma__store_scan(tasks->study->store, see_row, &o);
     for (size_t i = 0; !status && i < tasks->n; i++) {
-        status = look_up(tasks->study->store, &tasks->at[i]);
+        mark_done(&tasks->at[i], &o);
     }
+    for (size_t i = 0; o.at && i < o.n; i++) {
+        free(o.at[i].bits);
+    }
+    free(o.at);
     return status;
 }
 
 koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t k = 0; !status && k < task->n_series; k++) {
-        status = koksma__store_put(store, task->series[k], &results[k]);
-    }
-    return status;
+    return koksma__store_put(store, task->series, results, task->n_series);
 }
 
 /* ---- One job ------------------------------------------------------------------------------------------- */

@@ -94,6 +94,12 @@ static void shipped_plans_parse(void **state)
     }
 }
 
+static void see_bit(void *context, long long series, long long trial)
+{
+    assert_int_equal(series, 1);
+    *(unsigned char *)context |= (unsigned char)(1u << trial);
+}
+
 static void store_keeps_rows(void **state)
 {
     (void)state;
@@ -111,8 +117,8 @@ static void store_keeps_rows(void **state)
     assert_ok(koksma__store_series(store, &series, false, &id));
     assert_int_equal(id, 0);
     assert_ok(koksma__store_series(store, &series, true, &id));
-    assert_ok(koksma__store_put(store, id, &first));
-    assert_ok(koksma__store_put(store, id, &again)); /* a row that exists stays */
+    assert_ok(koksma__store_put(store, &id, &first, 1));
+    assert_ok(koksma__store_put(store, &id, &again, 1)); /* a row that exists stays */
     assert_int_equal(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &second), KOKSMA_IO);
     assert_non_null(strstr(koksma_error_text(), "another run"));
     assert_ok(koksma__store_close(store));
@@ -120,7 +126,7 @@ static void store_keeps_rows(void **state)
     assert_ok(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
     assert_ok(koksma__store_series(store, &series, true, &same));
     assert_int_equal(same, id);
-    assert_ok(koksma__store_done(store, id, 8, &bits));
+    assert_ok(koksma__store_scan(store, see_bit, &bits));
     assert_int_equal(bits, 1 << 3);
     assert_ok(koksma__store_results(store, id, 5, &results, &n));
     assert_int_equal(n, 1);
@@ -137,11 +143,63 @@ static void store_keeps_rows(void **state)
     rmdir(folder);
 }
 
+static koksma_status count_row(void *context, const koksma__series *series, const koksma__result *result)
+{
+    long long *seen = context; /* how many, and the trial that comes */
+    const bool second = !strcmp(series->what, "star");
+    assert_int_equal(result->trial, second ? seen[0] - 40001 : seen[0] * 2);
+    assert_near(result->values[0], (double)result->trial + (second ? 0.5 : 0), 0);
+    seen[0]++;
+    return KOKSMA_OK;
+}
+
+/* More rows than are gathered at a time, of two series, the first with every second trial and out of order. */
+static void store_keeps_many_rows(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/koksma-store-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/r.sqlite", folder);
+    koksma__store *store;
+    koksma__series series = {"discrepancy", "", "", "", "random", "l2-star", 16, 2, 0, 0};
+    koksma__result *results;
+    long long ids[2], seen = 0;
+    size_t n;
+    assert_ok(koksma__store_open(path, KOKSMA__STORE_WRITE, "plan", &store));
+    assert_ok(koksma__store_series(store, &series, true, &ids[0]));
+    series.what = "star";
+    assert_ok(koksma__store_series(store, &series, true, &ids[1]));
+    for (long long i = 0; i < 40000; i++) {
+        const long long trial = i ^ 1;
+        const koksma__result both[2] = {{2 * trial, 1, {2 * (double)trial, NAN, NAN, NAN}},
+                                        {trial, 1, {(double)trial + 0.5, NAN, NAN, NAN}}};
+        assert_ok(koksma__store_put(store, ids, both, 2));
+    }
+    assert_ok(koksma__store_results(store, ids[0], 40001, &results, &n));
+    assert_int_equal(n, 20001);
+    free(results);
+    const koksma__result late = {80000, 1, {80000, NAN, NAN, NAN}};
+    assert_ok(koksma__store_put(store, ids, &late, 1));
+    assert_ok(koksma__store_results(store, ids[0], 100000, &results, &n)); /* also what has come since */
+    assert_int_equal(n, 40001);
+    free(results);
+    assert_ok(koksma__store_close(store));
+    assert_ok(koksma__store_open(path, KOKSMA__STORE_READ, NULL, &store));
+    seen = 0;
+    assert_ok(koksma__store_visit(store, count_row, &seen));
+    assert_int_equal(seen, 80001);
+    assert_ok(koksma__store_close(store));
+    unlink(path);
+    rmdir(folder);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand), cmocka_unit_test(student_table),       cmocka_unit_test(largest_of_blocks),
-        cmocka_unit_test(wrong_plans),     cmocka_unit_test(shipped_plans_parse), cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(summary_by_hand),       cmocka_unit_test(student_table),
+        cmocka_unit_test(largest_of_blocks),     cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(shipped_plans_parse),   cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(store_keeps_many_rows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

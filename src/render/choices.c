@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The words for what a render can be told to do, and the end of what it gives. */
+#include <stddef.h>
+
+#include <koksma/render.h>
+
+#define NAME_AT(names, i) ((unsigned)(i) < sizeof(names) / sizeof *(names) ? (names)[i] : NULL)
+
+const char *koksma_pairing_name(koksma_pairing pairing)
+{
+    static const char *const names[] = {"shuffled", "aligned", "native"};
+    return NAME_AT(names, pairing);
+}
+
+const char *koksma_scope_name(koksma_scope scope)
+{
+    static const char *const names[] = {"pixel", "image"};
+    return NAME_AT(names, scope);
+}
+
+const char *koksma_light_selection_name(koksma_light_selection selection)
+{
+    static const char *const names[] = {"all", "one", "power", "uniform"};
+    return NAME_AT(names, selection);
+}
+
+void koksma_layers_fini(koksma_layers *layers)
+{
+    if (layers) {
+        koksma_image_fini(&layers->image);
+        koksma_image_fini(&layers->albedo);
+        koksma_image_fini(&layers->normal);
+        koksma_image_fini(&layers->depth);
+        koksma_image_fini(&layers->samples);
+        koksma_image_fini(&layers->variance);
+    }
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_STUDY_CLOCKS_H
+#define KOKSMA_STUDY_CLOCKS_H
+
+#include <time.h>
+
+static inline double koksma__clock_s(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static inline double koksma__now_s(void)
+{
+    return koksma__clock_s(CLOCK_MONOTONIC);
+}
+
+/* Processor time of this process, and of this thread. */
+static inline double koksma__processor_s(void)
+{
+    return koksma__clock_s(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+static inline double koksma__thread_s(void)
+{
+    return koksma__clock_s(CLOCK_THREAD_CPUTIME_ID);
+}
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+/* About 20 ms of a plain scene, so that those who wait for the last part don't wait long. */
+static const double SAMPLES_A_PART = 1 << 19;
+
+static koksma_status add_part(koksma__parts *parts, size_t reference, int first_row, int rows)
+{
+    if (parts->n == parts->room) {
+        const size_t room = parts->room ? 2 * parts->room : 64;
+        koksma__part *more = realloc(parts->at, room * sizeof *more);
+        if (!more) {
+            return koksma__fail_memory(room * sizeof *more);
+        }
+        parts->at = more;
+        parts->room = room;
+    }
+    parts->at[parts->n++] = (koksma__part){reference, first_row, rows};
+    return KOKSMA_OK;
+}
+
+static koksma_status add_parts(koksma__parts *parts, size_t reference)
+{
+    const koksma__reference_image *r = &parts->study->references[reference];
+    const double row = (double)r->width * (double)r->reference->spp * (double)r->reference->replicates;
+    bool alone;
+    koksma_status status = koksma__reference_rows_stand_alone(r, &alone);
+    int rows = r->height;
+    if (alone && row * rows > SAMPLES_A_PART) {
+        rows = row < SAMPLES_A_PART ? (int)(SAMPLES_A_PART / row) : 1;
+    }
+    for (int y = 0; !status && y < r->height; y += rows) {
+        status = add_part(parts, reference, y, r->height - y < rows ? r->height - y : rows);
+    }
+    parts->rows_left[reference] = r->height;
+    return status;
+}
+
+koksma_status koksma__parts_open(const koksma__tasks *tasks, koksma__parts *parts)
+{
+    koksma_study *study = tasks->study;
+    koksma_status status = KOKSMA_OK;
+    *parts = (koksma__parts){.study = study};
+    parts->sums = calloc(study->n_references + 1, sizeof *parts->sums);
+    parts->rows_left = calloc(study->n_references + 1, sizeof *parts->rows_left);
+    if (!parts->sums || !parts->rows_left) {
+        status = koksma__fail_memory((study->n_references + 1) * sizeof *parts->sums);
+    }
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        const koksma__task *task = &tasks->at[i];
+        for (size_t r = 0; task->image && !status && r < task->n_series && task->done_before < task->trials; r++) {
+            const size_t index = task->references[r];
+            if (study->references[index].image.pixels || parts->rows_left[index]) {
+                continue;
+            }
+            status = koksma__reference_exists(study, &study->references[index])
+                         ? koksma__reference_read(study, &study->references[index])
+                         : add_parts(parts, index);
+        }
+    }
+    if (status) {
+        koksma__parts_close(parts);
+    }
+    return status;
+}
+
+void koksma__parts_close(koksma__parts *parts)
+{
+    for (size_t i = 0; parts->sums && i < parts->study->n_references; i++) {
+        free(parts->sums[i].sum);
+    }
+    free(parts->sums);
+    free(parts->rows_left);
+    free(parts->at);
+    *parts = (koksma__parts){0};
+}
+
+koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, koksma__replicates *out)
+{
+    const koksma__reference_image *r = &study->references[part->reference];
+    koksma_status status = KOKSMA_OK;
+    *out = (koksma__replicates){0};
+    for (long long i = 0; !status && i < r->reference->replicates; i++) {
+        koksma_image image;
+        status = koksma__reference_replicate(r, i, (int)part->first_row, (int)part->rows, &image);
+        if (!status) {
+            status = koksma__replicates_add(out, &image);
+            koksma_image_fini(&image);
+        }
+    }
+    if (status) {
+        free(out->sum);
+        *out = (koksma__replicates){0};
+    }
+    return status;
+}
+
+koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, const koksma__replicates *from,
+                                bool *complete)
+{
+    const koksma__reference_image *r = &parts->study->references[part->reference];
+    koksma__replicates *all = &parts->sums[part->reference];
+    const size_t row = from->count / (size_t)part->rows, first = (size_t)part->first_row * row;
+    if (!all->sum) {
+        all->count = row * (size_t)r->height;
+        all->sum = calloc(2 * all->count, sizeof *all->sum);
+        if (!all->sum) {
+            return koksma__fail_memory(2 * all->count * sizeof *all->sum);
+        }
+        all->squares = all->sum + all->count;
+        all->n = r->reference->replicates;
+    }
+    memcpy(all->sum + first, from->sum, from->count * sizeof *from->sum);
+    memcpy(all->squares + first, from->squares, from->count * sizeof *from->sum);
+    parts->rows_left[part->reference] -= part->rows;
+    *complete = parts->rows_left[part->reference] == 0;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__parts_finish(koksma__parts *parts, size_t reference)
+{
+    return koksma__replicates_finish(&parts->sums[reference], parts->study, &parts->study->references[reference]);
+}
