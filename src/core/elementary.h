@@ -48,6 +48,24 @@ static inline double koksma__exp(double x)
     return (first + (lost + (low + sum * (r * r)))) * koksma__power_of_two((int)k);
 }
 
+/* log(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)), x = 2^e m, m from sqrt(1/2) to sqrt(2), of finite x > 0: the series
+   in odd powers up to the 23rd, which leaves out less than 1e-18 of it. Within two units in the last place. */
+static inline double koksma__log(double x)
+{
+    int e;
+    double m = frexp(x, &e);
+    if (m < 0x1.6a09e667f3bcdp-1) {
+        m *= 2;
+        e--;
+    }
+    const double f = (m - 1) / (m + 1), square = f * f;
+    double sum = 0;
+    for (int i = 23; i >= 3; i -= 2) {
+        sum = sum * square + 1.0 / i;
+    }
+    return e * 0x1.62e42feep-1 + (2 * f + (2 * f * square * sum + e * 0x1.a39ef35793c76p-33));
+}
+
 /* erf(x) = 2/sqrt(pi) exp(-x^2) sum over i of 2^i x^(2i+1) / (1 3 .. (2i+1)) for |x| < 2, and beyond 1 - erfc(x) by
    Laplace's continued fraction (Abramowitz & Stegun 1964, 7.1.6 and 7.1.14). Relative error below 2e-15. */
 static inline double koksma__erf(double x)

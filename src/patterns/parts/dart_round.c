@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -195,10 +196,10 @@ typedef struct stopwatch {
 static bool tick(stopwatch *c, uint32_t word)
 {
     if (!c->factors) {
-        c->before -= log(c->product);
+        c->before -= koksma__log(c->product);
         c->product = 1;
         c->factors = 16; /* of at least 2^-33: exp(-366) together */
-        c->last = c->rate - c->before > 400 ? 0 : exp(c->before - c->rate);
+        c->last = c->rate - c->before > 400 ? 0 : koksma__exp(c->before - c->rate);
     }
     c->factors--;
     c->product *= (word + 0.5) * 0x1p-32;
@@ -207,7 +208,7 @@ static bool tick(stopwatch *c, uint32_t word)
 
 static double time_of(const stopwatch *c)
 {
-    return fmin((c->before - log(c->product)) / c->rate, 1 - 0x1p-53);
+    return fmin((c->before - koksma__log(c->product)) / c->rate, 1 - 0x1p-53);
 }
 
 /* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
