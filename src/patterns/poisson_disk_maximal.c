@@ -21,6 +21,8 @@
 
 enum { TRIES = 100 };
 
+#define PER_AREA 0.6965 /* points times d^2, on average */
+
 /* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there would be more,
    and disks->d. */
 static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
@@ -55,7 +57,7 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
 static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, koksma__disks *disks)
 {
     const double few = fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9);
-    double d = fmin(sqrt(0.6965 / few), 0.72);
+    double d = fmin(sqrt(PER_AREA / few), 0.72);
     koksma_status status = KOKSMA_OK;
     for (uint32_t try = 0; try < TRIES && !status; try++) {
         status = koksma__disks_init(disks, koksma__random_seed(seed, try, KOKSMA__PURPOSE_DART), d);
@@ -73,6 +75,11 @@ static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, k
 
 static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run, koksma__disks *disks)
 {
+    const double most = (double)(KOKSMA_MAX_COORDINATES / 2), expected = PER_AREA / d / d;
+    if (expected > most) {
+        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d,
+                            expected, 1.01 * sqrt(PER_AREA / most));
+    }
     koksma_status status = koksma__disks_init(disks, seed, d);
     return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
 }

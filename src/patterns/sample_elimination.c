@@ -87,6 +87,9 @@ static koksma_status eliminate(heap *h, koksma__torus_grid *grid, const double *
         h->weight[i] = 0;
         koksma__torus_grid_each(grid, xs[2 * (size_t)i], xs[2 * (size_t)i + 1], h->radius, weigh, &v);
         put(h, i, i);
+        if (i % 4096 == 0 && !koksma__keep_going(run, 0)) {
+            return koksma__fail_interrupted();
+        }
     }
     for (size_t at = all / 2; at-- > 0;) {
         sink(h, at);
