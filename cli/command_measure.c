@@ -64,11 +64,16 @@ static void put_row(measuring *j, const char *source, const koksma_points *point
         cli_row_text(j->rows, "warp", j->warp->name);
     }
     cli_row_number(j->rows, "value", value->value);
-    if (cli_flag(j->arguments, "json")) {
+    const bool json = cli_flag(j->arguments, "json");
+    if (json) {
         cli_row_number(j->rows, "square", value->square);
         cli_row_flag(j->rows, "exact", value->exact);
+    }
+    if (json || j->time_limit_s > 0) {
         cli_row_number(j->rows, "lower", value->lower);
         cli_row_number(j->rows, "upper", value->upper);
+    }
+    if (json) {
         cli_row_number(j->rows, "standard_error", value->standard_error);
     }
     put_witness(j->rows, &value->witness);
@@ -165,8 +170,23 @@ static bool parse_warps(measuring *j)
     return true;
 }
 
+/* Lists that are too long are refused, not cut. */
+static bool check_list(const measuring *j, const char *option, size_t most)
+{
+    const char *list = cli_text(j->arguments, option, NULL);
+    char item[KOKSMA_MAX_SPEC];
+    if (list && cli_list_item(list, most, item, sizeof item)) {
+        cli_usage_error(j->arguments, "--%s: it takes up to %zu", option, most);
+        return false;
+    }
+    return true;
+}
+
 static bool parse_options(measuring *j)
 {
+    if (!check_list(j, "measures", MAX_MEASURES) || !check_list(j, "warp", MAX_WARPS)) {
+        return false;
+    }
     j->paired = cli_flag(j->arguments, "paired");
     if (!parse_warps(j) || !cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &j->seed) ||
         !cli_whole(j->arguments, "trials", 1, 1, 1000000000, &j->trials) ||
@@ -202,6 +222,9 @@ static koksma_status choose_measures(measuring *j, const char *list)
         while (j->n_measures < MAX_MEASURES && koksma_measure_at(j->n_measures)) {
             koksma_measure_spec(koksma_measure_at(j->n_measures)->name, &j->measures[j->n_measures]);
             j->n_measures++;
+        }
+        if (j->warp && j->n_measures < MAX_MEASURES) { /* what hemispheres take */
+            koksma_measure_spec("l2-disk:law=area", &j->measures[j->n_measures++]);
         }
         return KOKSMA_OK;
     }
@@ -265,7 +288,9 @@ const cli_command cli_command_measure = {
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
         "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
         "points\n"
-        "can have, powers of logarithms aside.",
+        "can have, powers of logarithms aside. With --time-limit, rows say lower and upper, bounds that hold for "
+        "certain;\n"
+        "those of trials say for how many of them the value is exact.",
     .options = options,
     .run = run,
 };

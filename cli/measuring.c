@@ -11,13 +11,15 @@
 bool measuring_open(measuring *j)
 {
     j->tallies = calloc(2 * MAX_PREFIXES * (j->n_measures + 1), sizeof *j->tallies);
+    j->n_exact = calloc(MAX_PREFIXES * (j->n_measures + 1), sizeof *j->n_exact);
     j->differences = j->tallies ? j->tallies + MAX_PREFIXES * (j->n_measures + 1) : NULL;
-    return j->tallies != NULL;
+    return j->tallies && j->n_exact;
 }
 
 void measuring_close(measuring *j)
 {
     free(j->tallies);
+    free(j->n_exact);
     free(j->firsts);
 }
 
@@ -39,9 +41,13 @@ static void put_head(measuring *j, const char *source, size_t n, int dim, const 
     }
 }
 
-/* The columns that only some rows have something for: the 95 % interval of the mean, and theory. */
-static void put_tail(measuring *j, double low, double high, double theory, double best)
+/* The columns that only some rows have something for: of how many trials the value is exact and no bound, the 95 %
+   interval of the mean, and theory. */
+static void put_tail(measuring *j, double n_exact, double low, double high, double theory, double best)
 {
+    if (j->time_limit_s > 0) {
+        cli_row_number(j->rows, "exact", n_exact);
+    }
     if (j->paired) {
         cli_row_number(j->rows, "low", low);
         cli_row_number(j->rows, "high", high);
@@ -53,7 +59,7 @@ static void put_tail(measuring *j, double low, double high, double theory, doubl
     cli_row_end(j->rows);
 }
 
-static void put_tally(measuring *j, const koksma_tally *t)
+static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
 {
     cli_row_number(j->rows, "value", t->mean);
     cli_row_whole(j->rows, "trials", (uint64_t)t->count);
@@ -61,7 +67,7 @@ static void put_tally(measuring *j, const koksma_tally *t)
     cli_row_number(j->rows, "min", t->min);
     cli_row_number(j->rows, "max", t->max);
     cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
-    put_tail(j, t->mean - koksma_tally_interval(t), t->mean + koksma_tally_interval(t), NAN, NAN);
+    put_tail(j, n_exact, t->mean - koksma_tally_interval(t), t->mean + koksma_tally_interval(t), NAN, NAN);
 }
 
 /* The slope of log value over log n, beside the exponents of theory. */
@@ -90,7 +96,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     cli_row_number(j->rows, "min", NAN);
     cli_row_number(j->rows, "max", NAN);
     cli_row_number(j->rows, "standard_error", line.slope_error);
-    put_tail(j, NAN, NAN, known ? -koksma_rate(parts.spec.pattern, m, dim) : (double)NAN,
+    put_tail(j, NAN, NAN, NAN, known ? -koksma_rate(parts.spec.pattern, m, dim) : (double)NAN,
              j->warp ? (double)NAN : -koksma_best_rate(m, dim));
 }
 
@@ -104,7 +110,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
             for (size_t i = 0; i < j->n_prefixes; i++) {
                 if (tallies[i * j->n_measures + m].count > 0) {
                     put_head(j, source, j->prefixes[i], dim, name, which == 1);
-                    put_tally(j, &tallies[i * j->n_measures + m]);
+                    const size_t at = i * j->n_measures + m;
+                    put_tally(j, &tallies[at], which ? (double)NAN : (double)j->n_exact[at]);
                 }
             }
         }
@@ -159,6 +166,7 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, uin
             status = prefix.n <= points->n ? measuring_forgive(j, status) : KOKSMA_OK;
             if (measured) {
                 koksma_tally_add(&j->tallies[at], value.value);
+                j->n_exact[at] += value.exact;
             }
             if (kept && first) {
                 *kept = measured ? value.value : (double)NAN;
@@ -175,6 +183,7 @@ int measuring_trials(measuring *j, const char *source)
     int code = CLI_YES, dim = 0;
     const bool first = !j->firsts;
     memset(j->tallies, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->tallies);
+    memset(j->n_exact, 0, MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->n_exact);
     for (uint64_t t = 0; t < j->trials && !code; t++) {
         koksma_points points = {0};
         code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);

@@ -24,6 +24,7 @@ typedef struct measuring {
     cli_work work;
     cli_rows *rows;
     koksma_tally *tallies; /* [prefix][measure] */
+    size_t *n_exact;       /* likewise: of how many trials the value is exact */
     /* --paired: the first source's values by trial, [prefix][measure] each, and tallies of what others have more */
     bool paired;
     double *firsts;

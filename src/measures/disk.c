@@ -10,7 +10,9 @@
  * Source: derived; the critical disks are those of smallest enclosing circles (Megiddo 1983) and of an arrangement of
  * circles of equal radius. Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
  * Limits: a point closer than 4e-15 (as a squared distance) to a rim counts as on it, so that cocircular points count
- * together in spite of rounding; the value is good to 1e-14. n^3 work at worst: up to 512 points.
+ * together in spite of rounding; the value is good to 1e-14. All pairs are tried up to 64 points, above by branch and
+ * bound (parts/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points, the value is a
+ * lower bound, with an upper one beside it.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,16 +20,25 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
+#include "measures/parts/clock.h"
 #include "measures/parts/disk_pencil.h"
 
-enum { MAX_N = 512 };
+enum { PAIRS_TO = 64 };
 
 typedef struct search {
     koksma__disk_set set;
-    koksma__disk_best start, *blocks; /* what single points give; by first point of the pair */
+    koksma__disk_best start, *blocks; /* what is known before; by first point of the pair */
 } search;
 
-/* Disks with one point: at its centre, or on the rim of a disk of the largest radius. */
+/* Points as disks of radius 0. */
+static void try_points(search *s)
+{
+    for (size_t i = 0; i < s->set.m; i++) {
+        koksma__disk_try(&s->set, &s->start, true, s->set.weights[i], (double[]){s->set.xs[i], s->set.ys[i]}, 0);
+    }
+}
+
+/* Disks of the largest radius with one point on the rim. */
 static void try_singles(search *s)
 {
     const koksma__disk_set *set = &s->set;
@@ -35,7 +46,6 @@ static void try_singles(search *s)
     for (size_t i = 0; i < set->m; i++) {
         const double centre[2] = {set->xs[i] + r, set->ys[i]};
         size_t inside = 0;
-        koksma__disk_try(set, &s->start, true, set->weights[i], (double[]){set->xs[i], set->ys[i]}, 0);
         for (size_t k = 0; k < set->m; k++) {
             const double dx = set->xs[k] - centre[0], dy = set->ys[k] - centre[1], a = dx - round(dx),
                          b = dy - round(dy);
@@ -92,32 +102,33 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     if (!s->blocks) {
         return koksma__fail_memory(s->set.m * sizeof *s->blocks);
     }
-    s->start.value = -1;
     try_singles(s);
     /* A first value for all blocks to prune with, the same whatever the threads. */
-    const koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
-    return status ? status : koksma__parallel(run, s->set.m, block, s);
+    koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
+    status = status ? status : koksma__parallel(run, s->set.m, block, s);
+    for (size_t i = 0; !status && i < s->set.m; i++) {
+        s->start = s->blocks[i].value > s->start.value ? s->blocks[i] : s->start;
+    }
+    free(s->blocks);
+    return status;
 }
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    if (points->n > MAX_N) {
-        return koksma__fail(KOKSMA_N, "disk: n = %zu: up to %d points; l2-disk and disk-sampled take more", points->n,
-                            MAX_N);
-    }
-    search s = {.set = {.n = points->n, .r = args->params[0]}};
+    search s = {.set = {.n = points->n, .r = args->params[0]}, .start.value = -1};
+    const double end_s = koksma__deadline_s(args->run, 0.95);
     koksma_status status = fill_set(&s.set, points);
     if (!status) {
-        status = search_pairs(&s, args->run);
-    }
-    for (size_t i = 0; !status && i < s.set.m; i++) {
-        s.start = s.blocks[i].value > s.start.value ? s.blocks[i] : s.start;
+        try_points(&s);
+        out->upper = -1;
+        status = points->n <= PAIRS_TO ? search_pairs(&s, args->run)
+                                       : koksma__disk_cover(&s.set, args->run, end_s, &s.start, &out->upper);
     }
     if (!status) {
-        out->value = s.start.value;
+        out->exact = out->upper <= s.start.value;
+        out->value = out->lower = s.start.value;
         out->witness = s.start.witness;
     }
-    free(s.blocks);
     free(s.set.weights);
     free(s.set.xs);
     return status;
@@ -132,7 +143,7 @@ const koksma_measure koksma__measure_disk = {
     .name = "disk",
     .title = "discrepancy of disks on the torus, up to a radius",
     .cite = "mitchell1992 megiddo1983",
-    .cost = "n^3",
+    .cost = "n^3 to 64 points, then about n^2.5; bounds if cut short",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,

@@ -45,14 +45,10 @@ koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
 
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
 {
-    koksma__sum sum = {0}, squares = {0};
-    const size_t blocks = n / block;
-    for (size_t b = 0; b < blocks; b++) {
-        const koksma__summary s = koksma__summarize(values + b * block * stride, block, stride);
-        koksma__sum_add(&sum, s.max);
-        koksma__sum_add(&squares, s.max * s.max);
+    koksma_tally largest = {0};
+    for (size_t b = 0; b < n / block; b++) {
+        koksma_tally_add(&largest, koksma__summarize(values + b * block * stride, block, stride).max);
     }
-    *mean = blocks ? koksma__sum_value(&sum) / (double)blocks : (double)NAN;
-    const double variance = koksma__sum_value(&squares) - (double)blocks * *mean * *mean;
-    *sd = blocks > 1 ? sqrt(fmax(variance, 0) / (double)(blocks - 1)) : (double)NAN;
+    *mean = largest.count > 0 ? largest.mean : (double)NAN;
+    *sd = koksma_tally_sd(&largest);
 }

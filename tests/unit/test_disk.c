@@ -172,24 +172,56 @@ static void lattices(void **state)
     koksma_points_fini(&p);
 }
 
-static void refuses_many_points(void **state)
+/* Points that are there several times do not change the value, but the method: branch and bound against all pairs. */
+static void branch_and_bound_agrees_with_all_pairs(void **state)
+{
+    (void)state;
+    static const double radii[] = {0.25, 0.1, 0.375, 0.499};
+    for (int s = 0; s < 160; s++) {
+        char spec[32];
+        snprintf(spec, sizeof spec, "disk:r=%.17g", radii[s % 4]);
+        koksma_points few = sets_points(22 + (size_t)s / 4, 2, s / 4 % SETS_KINDS, (uint64_t)s), many;
+        assert_ok(koksma_points_init(&many, 3 * few.n, 2));
+        for (size_t i = 0; i < 2 * many.n; i++) {
+            many.xs[i] = few.xs[i % (2 * few.n)];
+        }
+        const koksma_value v = test_measure(spec, &many);
+        const double all_pairs = test_measure(spec, &few).value;
+        if (!(v.exact ? fabs(v.value - all_pairs) <= 1e-13 : v.lower <= all_pairs && all_pairs <= v.upper)) {
+            sets_print(&few);
+            fail_msg("%s of set %d: %.17g to %.17g, all pairs %.17g", spec, s, v.lower, v.upper, all_pairs);
+        }
+        koksma_points_fini(&few);
+        koksma_points_fini(&many);
+    }
+}
+
+static void bounds_when_cut_short(void **state)
 {
     (void)state;
     koksma_spec spec;
-    koksma_value v;
-    koksma_points p = test_points("random", 513, 2, 0);
-    assert_ok(koksma_measure_spec("disk", &spec));
-    assert_int_equal(koksma_evaluate(&spec, &p, NULL, &v), KOKSMA_N);
-    assert_string_equal(koksma_error_text(), "disk: n = 513: up to 512 points; l2-disk and disk-sampled take more");
+    koksma_value v, one, three;
+    koksma_points p = test_points("jittered", 900, 2, 1);
+    assert_ok(koksma_measure_spec("disk:r=0.1", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &one));
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 3}, &three));
+    assert_true(one.exact);
+    assert_memory_equal(&one.witness, &three.witness, sizeof one.witness);
+    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 0.003}, &v));
+    assert_true(v.lower <= one.value && one.value <= v.upper);
+    assert_true(v.exact == (v.lower == v.upper));
     koksma_points_fini(&p);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_brute_force),      cmocka_unit_test(agrees_with_a_dense_search),
-        cmocka_unit_test(witness_shows_the_value), cmocka_unit_test(lattices),
-        cmocka_unit_test(refuses_many_points),
+        cmocka_unit_test(equals_brute_force),
+        cmocka_unit_test(agrees_with_a_dense_search),
+        cmocka_unit_test(witness_shows_the_value),
+        cmocka_unit_test(lattices),
+        cmocka_unit_test(branch_and_bound_agrees_with_all_pairs),
+        cmocka_unit_test(bounds_when_cut_short),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,6 +42,10 @@ static void largest_of_blocks(void **state)
     assert_near(sd, sqrt(8), 1e-14);
     koksma__largest_of(values, 2, 1, 3, &mean, &sd);
     assert_true(isnan(mean));
+    const double close[] = {1e9 + 1, 1e9 + 2, 1e9 + 3}; /* a difference of squares keeps no digit of this SD */
+    koksma__largest_of(close, 3, 1, 1, &mean, &sd);
+    assert_near(mean, 1e9 + 2, 0);
+    assert_near(sd, 1, 1e-14);
 }
 
 static void wrong_plan(const char *text, const char *reason)

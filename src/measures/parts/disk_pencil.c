@@ -168,12 +168,31 @@ static void try_pair(pencil *p, size_t i, size_t j, double dx, double dy)
     }
 }
 
-koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best)
+static koksma_status open_pencil(pencil *p, const koksma__disk_set *set, koksma__disk_best *best)
 {
     const size_t bytes = (4 * set->m + 2) * sizeof(event);
-    pencil p = {.set = set, .best = best, .events = malloc(bytes)};
-    if (!p.events) {
-        return koksma__fail_memory(bytes);
+    *p = (pencil){.set = set, .best = best, .events = malloc(bytes)};
+    return p->events ? KOKSMA_OK : koksma__fail_memory(bytes);
+}
+
+koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j, double dx, double dy,
+                                koksma__disk_best *best)
+{
+    pencil p;
+    const koksma_status status = open_pencil(&p, set, best);
+    if (!status) {
+        try_pair(&p, i, j, dx, dy);
+        free(p.events);
+    }
+    return status;
+}
+
+koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best)
+{
+    pencil p;
+    const koksma_status status = open_pencil(&p, set, best);
+    if (status) {
+        return status;
     }
     for (size_t j = i + 1; j < set->m; j++) {
         const double dx = set->xs[j] - set->xs[i], dy = set->ys[j] - set->ys[i];

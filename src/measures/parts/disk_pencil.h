@@ -27,4 +27,13 @@ void koksma__disk_try(const koksma__disk_set *set, koksma__disk_best *best, bool
 /* Tries the critical disks with points i and any j > i on their rim. Errors: MEMORY. */
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best);
 
+/* The same for point j seen at (dx, dy) from point i. */
+koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j, double dx, double dy,
+                                koksma__disk_best *best);
+
+/* Raises *best to the best of all disks; or stops at the deadline or, without one, when enough work is done, and then
+ *upper, a bound of all disks, is larger. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__disk_cover(const koksma__disk_set *set, const koksma_run *run, double deadline_s,
+                                 koksma__disk_best *best, double *upper);
+
 #endif

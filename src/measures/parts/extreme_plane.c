@@ -281,9 +281,9 @@ static void find_witness(const plane *p, const best_strip *best, koksma_value *o
 }
 
 /* Places in order of y, in order of x, and where in these each level begins. */
-static koksma_status prepare_sweep(plane *p, uint32_t *by_x, uint32_t *first)
+static koksma_status prepare_sweep(plane *p, const koksma_run *run, uint32_t *by_x, uint32_t *first)
 {
-    const koksma_status status = koksma__order(p->n, p->x, 1, by_x);
+    const koksma_status status = koksma__order(run, p->n, p->x, 1, by_x);
     size_t i = 0;
     for (size_t level = 0; level < p->n_levels && !status; level++) {
         first[level] = (uint32_t)i;
@@ -296,9 +296,9 @@ static koksma_status prepare_sweep(plane *p, uint32_t *by_x, uint32_t *first)
     return status;
 }
 
-static koksma_status prepare(plane *p, const koksma_points *points, uint32_t *order)
+static koksma_status prepare(plane *p, const koksma_points *points, const koksma_run *run, uint32_t *order)
 {
-    koksma_status status = koksma__order(p->n, points->xs, 2, order);
+    koksma_status status = koksma__order(run, p->n, points->xs, 2, order);
     double *levels = p->levels;
     size_t count = 0;
     levels[count++] = 0;
@@ -313,13 +313,13 @@ static koksma_status prepare(plane *p, const koksma_points *points, uint32_t *or
     }
     p->n_levels = count;
     if (!status) {
-        status = koksma__order(p->n, points->xs + 1, 2, order);
+        status = koksma__order(run, p->n, points->xs + 1, 2, order);
     }
     for (size_t i = 0; i < p->n && !status; i++) {
         p->x[i] = points->xs[2 * (size_t)order[i]];
         p->y[i] = points->xs[2 * (size_t)order[i] + 1];
     }
-    return status ? status : prepare_sweep(p, order, order + p->n);
+    return status ? status : prepare_sweep(p, run, order, order + p->n);
 }
 
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out)
@@ -341,7 +341,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
     p.levels = p.upper + max_blocks;
     p.x = p.levels + n + 2;
     p.y = p.x + n;
-    koksma_status status = prepare(&p, points, (uint32_t *)(p.y + n));
+    koksma_status status = prepare(&p, points, run, (uint32_t *)(p.y + n));
     if (!status) {
         status = first_value(&p);
     }

@@ -292,12 +292,12 @@ static koksma_status divide(divider *d, const koksma_run *run)
 }
 
 /* Fills the items in order of the first coordinate; the sums over points alone. */
-static koksma_status prepare(divider *d, const koksma_points *points, uint32_t *order, koksma__dd *linear,
-                             koksma__sum *self)
+static koksma_status prepare(divider *d, const koksma_points *points, const koksma_run *run, uint32_t *order,
+                             koksma__dd *linear, koksma__sum *self)
 {
     const size_t dim = (size_t)points->dim;
     const double big_g[4] = {d->row->g[0], d->row->g[1], d->row->g[2] + d->row->r, d->row->g[3]};
-    const koksma_status status = koksma__order(d->n, points->xs, dim, order);
+    const koksma_status status = koksma__order(run, d->n, points->xs, dim, order);
     for (size_t i = 0; i < d->n && !status; i++) {
         const double *x = points->xs + order[i] * dim;
         item *it = &d->items[i];
@@ -327,7 +327,7 @@ koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_poi
     memset(d.sums, 0, n_blocks * sizeof *d.sums);
     koksma__dd linear = {0, 0};
     koksma__sum both = {0};
-    koksma_status status = prepare(&d, points, (uint32_t *)(d.sums + n_blocks), &linear, &both);
+    koksma_status status = prepare(&d, points, run, (uint32_t *)(d.sums + n_blocks), &linear, &both);
     status = status ? status : divide(&d, run);
     for (size_t block = 0; block < n_blocks; block++) {
         koksma__sum_add(&both, 2 * d.sums[block].total);

@@ -19,7 +19,7 @@
 #include "measures/parts/l2.h"
 #include "measures/parts/order.h"
 
-enum { POINTS_PER_BLOCK = 4096, LEAF = 1 << 14 };
+enum { POINTS_PER_BLOCK = 4096, LEAF = 1 << 14, SEGMENTS = 8 };
 
 typedef koksma__int128 wide;
 typedef koksma__dd dd;
@@ -30,14 +30,25 @@ typedef struct item {
     wide sum_below;       /* the sum of their y */
 } item;
 
-/* What the sums need of a point, from prefix sums in x order and in y order; whole numbers. */
+/* A point, and what the sums need of those before and after it in x order; whole numbers. A line of the cache. */
 typedef struct place {
     int64_t x, y;
-    wide cross;    /* sum over the other points of +-(y - y') that makes sum_ij t_x t_y = sum x cross */
-    wide t_x, t_y; /* sum_j |x - x_j|, sum_j |y - y_j| */
-    wide moment_x; /* sum over j before in x order of (x - x_j) y_j */
-    wide moment_y; /* sum over j before in y order of (y - y_j) x_j */
+    wide t_x;      /* sum_j |x - x_j| */
+    wide moment_x; /* sum over j before of (x - x_j) y_j */
+    wide before;   /* sum over j before of y_j */
 } place;
+
+/* The same in y order, and both together. */
+typedef struct point {
+    int64_t x, y;
+    wide t_x, t_y, moment_x, moment_y;
+    wide cross; /* sum over the other points of +-(y - y') that makes sum_ij t_x t_y = sum x cross */
+} point;
+
+/* Over the points of a block, and once added up over those before it. */
+typedef struct partial {
+    wide x, y, xy;
+} partial;
 
 enum { LINEAR, G, H, GH, G_TY, H_TX, CROSS, T_X, T_Y, Z, W, ZW, GW, HZ, Y_MOMENT, X_MOMENT, SUMS };
 
@@ -46,19 +57,22 @@ typedef struct plane {
     size_t n;
     int dim;
     double unit;
+    const double *xs;
+    const uint32_t *order;
     int64_t *x; /* in x order */
     item *items, *spare;
-    place *places; /* in y order */
-    size_t width, segments;
-    dd (*sums)[SUMS]; /* one a block */
+    place *places;        /* in x order */
+    partial *by_x, *by_y; /* one a block, in either order */
+    wide total_x, total_y;
+    size_t width, segments; /* of merges: how many each is cut into */
+    dd (*sums)[SUMS];       /* one a block */
 } plane;
 
-/* Merges [0, middle) and [middle, n), of lower and of higher x, by y; what lies below the right ones grows. */
-static void merge(const item *from, size_t middle, size_t n, item *to)
+/* Merges l .. l_end and r .. r_end, of lower and of higher x, by y; what lies below the right ones grows: count
+   points with sum as their y lie before l. */
+static void merge(const item *l, const item *l_end, const item *r, const item *r_end, uint32_t count, wide sum,
+                  item *to)
 {
-    const item *l = from, *const l_end = from + middle, *r = l_end, *const r_end = from + n;
-    uint32_t count = 0;
-    wide sum = 0;
     while (l < l_end && r < r_end) {
         if (l->y <= r->y) {
             count++;
@@ -103,7 +117,7 @@ static void sort(item *items, item *spare, size_t n)
     sort(items, spare, middle);
     sort(items + middle, spare + middle, n - middle);
     memcpy(spare, items, n * sizeof *items);
-    merge(spare, middle, n, items);
+    merge(spare, spare + middle, spare + middle, spare + n, 0, 0, items);
 }
 
 static koksma_status sort_leaf(void *context, size_t block)
@@ -114,12 +128,36 @@ static koksma_status sort_leaf(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-static koksma_status merge_pair(void *context, size_t block)
+/* How many of the first k of the merged lists come from the left one. */
+static size_t split(const item *l, size_t n_l, const item *r, size_t n_r, size_t k)
+{
+    size_t low = k > n_r ? k - n_r : 0, high = k < n_l ? k : n_l;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (l[middle].y <= r[k - middle - 1].y) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+/* One segment of the merge of one pair of runs. */
+static koksma_status merge_segment(void *context, size_t block)
 {
     const plane *p = context;
-    const size_t first = 2 * block * p->width, rest = p->n - first;
-    merge(p->items + first, rest < p->width ? rest : p->width, rest < 2 * p->width ? rest : 2 * p->width,
-          p->spare + first);
+    const size_t first = 2 * (block / p->segments) * p->width, rest = p->n - first, segment = block % p->segments;
+    const size_t n_l = rest < p->width ? rest : p->width, count = rest < 2 * p->width ? rest : 2 * p->width;
+    const item *l = p->items + first, *r = l + n_l;
+    const size_t from = count * segment / p->segments, end = count * (segment + 1) / p->segments;
+    const size_t l_from = split(l, n_l, r, count - n_l, from), l_end = split(l, n_l, r, count - n_l, end);
+    wide sum = 0;
+    for (size_t i = 0; i < l_from; i++) {
+        sum += l[i].y;
+    }
+    merge(l + l_from, l + l_end, r + (from - l_from), r + (end - l_end), (uint32_t)l_from, sum,
+          p->spare + first + from);
     return KOKSMA_OK;
 }
 
@@ -127,7 +165,9 @@ static koksma_status sort_all(plane *p, const koksma_run *run)
 {
     koksma_status status = koksma__parallel(run, (p->n + LEAF - 1) / LEAF, sort_leaf, p);
     for (p->width = LEAF; p->width < p->n && !status; p->width *= 2) {
-        status = koksma__parallel(run, (p->n + 2 * p->width - 1) / (2 * p->width), merge_pair, p);
+        const size_t merges = (p->n + 2 * p->width - 1) / (2 * p->width);
+        p->segments = merges < SEGMENTS ? SEGMENTS : 1;
+        status = koksma__parallel(run, merges * p->segments, merge_segment, p);
         item *const other = p->items;
         p->items = p->spare;
         p->spare = other;
@@ -135,56 +175,100 @@ static koksma_status sort_all(plane *p, const koksma_run *run)
     return status;
 }
 
-/* The prefix sums in both orders. */
-static void find_places(plane *p, wide *before_x)
+static size_t end_of(const plane *p, size_t block)
 {
-    const size_t n = p->n;
-    wide total_x = 0, total_y = 0, sum_y = 0, sum_x = 0, sum_xy = 0;
-    uint32_t *at_y = (uint32_t *)p->spare; /* by place in x order: the place in y order */
-    for (size_t j = 0; j < n; j++) {
-        at_y[p->items[j].at_x] = (uint32_t)j;
-        total_y += p->items[j].y;
-        total_x += p->x[j];
+    return p->n - block * POINTS_PER_BLOCK < POINTS_PER_BLOCK ? p->n : (block + 1) * POINTS_PER_BLOCK;
+}
+
+static void add_point(partial *sum, int64_t x, int64_t y)
+{
+    sum->x += x;
+    sum->y += y;
+    sum->xy += (wide)x * y;
+}
+
+static koksma_status load(void *context, size_t block)
+{
+    const plane *p = context;
+    partial sum = {0, 0, 0};
+    for (size_t i = block * POINTS_PER_BLOCK; i < end_of(p, block); i++) {
+        const double *at = p->xs + p->order[i] * (size_t)p->dim;
+        p->x[i] = llrint((at[0] - 0.5) / p->unit);
+        p->items[i] = (item){.y = p->dim == 2 ? llrint((at[1] - 0.5) / p->unit) : 0, .at_x = (uint32_t)i};
+        p->places[i].x = p->x[i];
+        p->places[i].y = p->items[i].y;
+        add_point(&sum, p->x[i], p->items[i].y);
     }
-    for (size_t i = 0; i < n; i++) { /* in x order: sums of x, y and xy before */
-        place *at = &p->places[at_y[i]];
-        const int64_t x = p->x[i], y = p->items[at_y[i]].y;
-        before_x[i] = sum_y;
-        at->t_x = x * ((wide)2 * (wide)i + 1 - (wide)n) - 2 * sum_x + total_x - x;
-        at->moment_x = x * sum_y - sum_xy;
-        sum_x += x;
-        sum_y += y;
-        sum_xy += (wide)x * y;
+    p->by_x[block] = sum;
+    return KOKSMA_OK;
+}
+
+static koksma_status sum_block_by_y(void *context, size_t block)
+{
+    const plane *p = context;
+    partial sum = {0, 0, 0};
+    for (size_t j = block * POINTS_PER_BLOCK; j < end_of(p, block); j++) {
+        add_point(&sum, p->x[p->items[j].at_x], p->items[j].y);
     }
-    sum_x = sum_y = sum_xy = 0;
-    for (size_t j = 0; j < n; j++) { /* in y order */
-        const item *it = &p->items[j];
-        place *at = &p->places[j];
-        const wide i = it->at_x, above = (wide)n - 1 - i - ((wide)j - it->below);
-        at->x = p->x[it->at_x];
-        at->y = it->y;
-        at->t_y = it->y * ((wide)2 * (wide)j + 1 - (wide)n) - 2 * sum_y + total_y - it->y;
-        at->moment_y = it->y * sum_x - sum_xy;
-        at->cross = it->y * (it->below + above) - 2 * it->sum_below - (total_y - sum_y - it->y) + before_x[it->at_x];
-        sum_y += it->y;
-        sum_x += at->x;
-        sum_xy += (wide)at->x * it->y;
+    p->by_y[block] = sum;
+    return KOKSMA_OK;
+}
+
+/* Sums over blocks become sums over all before; the sum of all. */
+static partial add_up(partial *sums, size_t n_blocks)
+{
+    partial total = {0, 0, 0};
+    for (size_t block = 0; block < n_blocks; block++) {
+        const partial sum = sums[block];
+        sums[block] = total;
+        total = (partial){total.x + sum.x, total.y + sum.y, total.xy + sum.xy};
     }
+    return total;
+}
+
+static koksma_status find_places(void *context, size_t block)
+{
+    const plane *p = context;
+    partial sum = p->by_x[block];
+    for (size_t i = block * POINTS_PER_BLOCK; i < end_of(p, block); i++) {
+        const int64_t x = p->places[i].x;
+        p->places[i].t_x = x * ((wide)2 * (wide)i + 1 - (wide)p->n) - 2 * sum.x + p->total_x - x;
+        p->places[i].moment_x = x * sum.y - sum.xy;
+        p->places[i].before = sum.y;
+        add_point(&sum, x, p->places[i].y);
+    }
+    return KOKSMA_OK;
+}
+
+/* Point j in y order; sum: over the points before it in that order. */
+static point find_point(const plane *p, size_t j, const partial *sum)
+{
+    const item *it = &p->items[j];
+    const place *at = &p->places[it->at_x];
+    const int64_t y = it->y;
+    const wide n = (wide)p->n, rank = (wide)j, above = n - 1 - (wide)it->at_x - (rank - it->below);
+    return (point){.x = at->x,
+                   .y = y,
+                   .t_x = at->t_x,
+                   .t_y = y * (2 * rank + 1 - n) - 2 * sum->y + p->total_y - y,
+                   .moment_x = at->moment_x,
+                   .moment_y = y * sum->x - sum->xy,
+                   .cross = y * (it->below + above) - 2 * it->sum_below - (p->total_y - sum->y - y) + at->before};
 }
 
 static koksma_status sum_places(void *context, size_t block)
 {
     const plane *p = context;
     const koksma__l2_row *row = p->row;
-    const size_t first = block * POINTS_PER_BLOCK;
-    const size_t end = first + POINTS_PER_BLOCK < p->n ? first + POINTS_PER_BLOCK : p->n;
     const double big_g[4] = {row->g[0], row->g[1], row->g[2] + row->r, row->g[3]};
     dd *s = p->sums[block];
+    partial sum = p->by_y[block];
 #define ADD(sum, term) s[sum] = koksma__dd_add(s[sum], term)
-    for (size_t i = first; i < end; i++) {
-        const place *at = &p->places[i];
-        const double z = (double)at->x * p->unit, w = (double)at->y * p->unit;
-        const dd t_x = koksma__dd_of_int(at->t_x), t_y = koksma__dd_of_int(at->t_y);
+    for (size_t j = block * POINTS_PER_BLOCK; j < end_of(p, block); j++) {
+        const point at = find_point(p, j, &sum);
+        const double z = (double)at.x * p->unit, w = (double)at.y * p->unit;
+        const dd t_x = koksma__dd_of_int(at.t_x), t_y = koksma__dd_of_int(at.t_y);
+        add_point(&sum, at.x, at.y);
         const dd g = koksma__l2_polynomial_dd(big_g, z), h = koksma__l2_polynomial_dd(big_g, w);
         const dd a = koksma__l2_polynomial_dd(row->a24, z), b = koksma__l2_polynomial_dd(row->a24, w);
         ADD(LINEAR, p->dim == 2 ? koksma__dd_mul(a, b) : a);
@@ -200,13 +284,13 @@ static koksma_status sum_places(void *context, size_t block)
         ADD(GH, koksma__dd_mul(g, h));
         ADD(G_TY, koksma__dd_mul(g, t_y));
         ADD(H_TX, koksma__dd_mul(h, t_x));
-        ADD(CROSS, koksma__dd_scale(koksma__dd_of_int(at->cross), z));
+        ADD(CROSS, koksma__dd_scale(koksma__dd_of_int(at.cross), z));
         ADD(ZW, koksma__dd_product(z, w));
         if (row->r != 0) {
             ADD(GW, koksma__dd_scale(g, w));
             ADD(HZ, koksma__dd_scale(h, z));
-            ADD(Y_MOMENT, koksma__dd_scale(koksma__dd_of_int(at->moment_x), w));
-            ADD(X_MOMENT, koksma__dd_scale(koksma__dd_of_int(at->moment_y), z));
+            ADD(Y_MOMENT, koksma__dd_scale(koksma__dd_of_int(at.moment_x), w));
+            ADD(X_MOMENT, koksma__dd_scale(koksma__dd_of_int(at.moment_y), z));
         }
     }
 #undef ADD
@@ -259,15 +343,20 @@ static double finish(const plane *p, size_t n_blocks)
     return koksma__dd_add(square, koksma__dd_divide(koksma__dd_divide(pair_sum, n), n)).hi;
 }
 
-static koksma_status prepare(plane *p, const koksma_points *points, uint32_t *order)
+/* The points as whole numbers in x order, sorted by y, and what prefix sums in x order say of each. */
+static koksma_status prepare(plane *p, uint32_t *order, const koksma_run *run, size_t n_blocks)
 {
-    const size_t dim = (size_t)points->dim;
-    const koksma_status status = koksma__order(p->n, points->xs, dim, order);
-    for (size_t i = 0; i < p->n && !status; i++) {
-        const double *point = points->xs + order[i] * dim;
-        const double y = dim == 2 ? (point[1] - 0.5) / p->unit : 0;
-        p->x[i] = llrint((point[0] - 0.5) / p->unit);
-        p->items[i] = (item){.y = llrint(y), .at_x = (uint32_t)i};
+    koksma_status status = koksma__order(run, p->n, p->xs, (size_t)p->dim, order);
+    p->order = order;
+    status = status ? status : koksma__parallel(run, n_blocks, load, p);
+    status = status ? status : sort_all(p, run);
+    status = status ? status : koksma__parallel(run, n_blocks, sum_block_by_y, p);
+    if (!status) {
+        const partial total = add_up(p->by_x, n_blocks);
+        add_up(p->by_y, n_blocks);
+        p->total_x = total.x;
+        p->total_y = total.y;
+        status = koksma__parallel(run, n_blocks, find_places, p);
     }
     return status;
 }
@@ -280,25 +369,22 @@ koksma_status koksma__l2_by_merging(const koksma__l2_row *row, const koksma_poin
     while (ldexp((double)n, 2 * bits - 2) > 0x1p125) {
         bits--;
     }
-    plane p = {.row = row, .n = n, .dim = points->dim, .unit = ldexp(1, -bits)};
+    plane p = {.row = row, .n = n, .dim = points->dim, .unit = ldexp(1, -bits), .xs = points->xs};
     const size_t bytes =
-        n * (sizeof(place) + 2 * sizeof(item) + sizeof(wide) + sizeof(int64_t)) + n_blocks * sizeof *p.sums;
-    p.places = malloc(bytes);
+        n * (sizeof(place) + 2 * sizeof(item) + sizeof(int64_t)) + n_blocks * (sizeof *p.sums + 2 * sizeof(partial));
+    p.places = aligned_alloc(sizeof(place), (bytes + sizeof(place) - 1) / sizeof(place) * sizeof(place));
     if (!p.places) {
         return koksma__fail_memory(bytes);
     }
     p.items = (item *)(p.places + n);
     p.spare = p.items + n;
-    wide *before_x = (wide *)(p.spare + n);
-    p.sums = (dd(*)[SUMS])(before_x + n);
+    p.by_x = (partial *)(p.spare + n);
+    p.by_y = p.by_x + n_blocks;
+    p.sums = (dd(*)[SUMS])(p.by_y + n_blocks);
     p.x = (int64_t *)(p.sums + n_blocks);
     memset(p.sums, 0, n_blocks * sizeof *p.sums);
-    koksma_status status = prepare(&p, points, (uint32_t *)p.places);
+    koksma_status status = prepare(&p, (uint32_t *)p.spare, run, n_blocks);
     if (!status) {
-        status = sort_all(&p, run);
-    }
-    if (!status) {
-        find_places(&p, before_x);
         status = koksma__parallel(run, n_blocks, sum_places, &p);
     }
     if (!status) {

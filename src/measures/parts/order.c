@@ -5,39 +5,105 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 
-enum { DIGIT_BITS = 11, DIGITS = 6, VALUES = 1 << DIGIT_BITS };
+enum { DIGIT_BITS = 11, DIGITS = 6, VALUES = 1 << DIGIT_BITS, BLOCK = 1 << 16 };
 
 typedef struct item {
     uint64_t key;
     uint32_t index;
 } item;
 
-static size_t digit_of(const item *x, int digit)
+/* Blocks of items are counted and moved side by side: where each begins in `to` follows from the counts of all. */
+typedef struct sorter {
+    size_t n, stride, n_blocks;
+    const double *xs;
+    uint32_t *order;
+    item *from, *to;
+    uint32_t (*starts)[VALUES]; /* by block */
+    int digit;
+} sorter;
+
+static size_t end_of(const sorter *s, size_t block)
 {
-    return (x->key >> (digit * DIGIT_BITS)) & (VALUES - 1);
+    return block + 1 < s->n_blocks ? (block + 1) * BLOCK : s->n;
 }
 
-/* One stable pass over a digit; false if all have the same. */
-static bool pass(size_t n, int digit, const item *from, item *to)
+static size_t digit_of(const sorter *s, const item *x)
 {
-    size_t starts[VALUES] = {0}, total = 0;
-    for (size_t i = 0; i < n; i++) {
-        starts[digit_of(&from[i], digit)]++;
+    return (x->key >> (s->digit * DIGIT_BITS)) & (VALUES - 1);
+}
+
+static koksma_status load(void *context, size_t block)
+{
+    const sorter *s = context;
+    for (size_t i = block * BLOCK; i < end_of(s, block); i++) {
+        const double x = s->xs[i * s->stride] + 0.0; /* makes -0 a 0 */
+        memcpy(&s->from[i].key, &x, sizeof x);
+        s->from[i].index = (uint32_t)i;
     }
-    if (starts[digit_of(&from[0], digit)] == n) {
-        return false;
+    return KOKSMA_OK;
+}
+
+static koksma_status count(void *context, size_t block)
+{
+    const sorter *s = context;
+    uint32_t *counts = s->starts[block];
+    memset(counts, 0, sizeof s->starts[block]);
+    for (size_t i = block * BLOCK; i < end_of(s, block); i++) {
+        counts[digit_of(s, &s->from[i])]++;
     }
+    return KOKSMA_OK;
+}
+
+/* Counts become starts; false if all items have the same digit. */
+static bool find_starts(sorter *s)
+{
+    uint32_t total = 0;
+    bool moves = true;
     for (size_t v = 0; v < VALUES; v++) {
-        const size_t count = starts[v];
-        starts[v] = total;
-        total += count;
+        const uint32_t before = total;
+        for (size_t block = 0; block < s->n_blocks; block++) {
+            const uint32_t items = s->starts[block][v];
+            s->starts[block][v] = total;
+            total += items;
+        }
+        moves &= total - before < s->n;
     }
-    for (size_t i = 0; i < n; i++) {
-        to[starts[digit_of(&from[i], digit)]++] = from[i];
+    return moves;
+}
+
+static koksma_status move(void *context, size_t block)
+{
+    const sorter *s = context;
+    uint32_t *starts = s->starts[block];
+    for (size_t i = block * BLOCK; i < end_of(s, block); i++) {
+        s->to[starts[digit_of(s, &s->from[i])]++] = s->from[i];
     }
-    return true;
+    return KOKSMA_OK;
+}
+
+static koksma_status store(void *context, size_t block)
+{
+    const sorter *s = context;
+    for (size_t i = block * BLOCK; i < end_of(s, block); i++) {
+        s->order[i] = s->from[i].index;
+    }
+    return KOKSMA_OK;
+}
+
+/* One stable pass over a digit. */
+static koksma_status pass(sorter *s, const koksma_run *run)
+{
+    koksma_status status = koksma__parallel(run, s->n_blocks, count, s);
+    if (!status && find_starts(s)) {
+        status = koksma__parallel(run, s->n_blocks, move, s);
+        item *const other = s->from;
+        s->from = s->to;
+        s->to = other;
+    }
+    return status;
 }
 
 static int compare(const void *a, const void *b)
@@ -46,32 +112,28 @@ static int compare(const void *a, const void *b)
     return x->key != y->key ? (x->key > y->key) - (x->key < y->key) : (x->index > y->index) - (x->index < y->index);
 }
 
-koksma_status koksma__order(size_t n, const double *xs, size_t stride, uint32_t *order)
+koksma_status koksma__order(const koksma_run *run, size_t n, const double *xs, size_t stride, uint32_t *order)
 {
-    item *from = malloc(2 * n * sizeof *from);
-    if (!from) {
-        return koksma__fail_memory(2 * n * sizeof *from);
+    sorter s = {.n = n, .stride = stride, .n_blocks = (n + BLOCK - 1) / BLOCK, .xs = xs, .order = order};
+    const size_t bytes = 2 * n * sizeof *s.from + s.n_blocks * sizeof *s.starts;
+    s.from = malloc(bytes);
+    if (!s.from) {
+        return koksma__fail_memory(bytes);
     }
-    item *const memory = from, *to = from + n;
-    for (size_t i = 0; i < n; i++) {
-        const double x = xs[i * stride] + 0.0; /* makes -0 a 0 */
-        memcpy(&from[i].key, &x, sizeof x);
-        from[i].index = (uint32_t)i;
-    }
+    item *const memory = s.from;
+    s.to = s.from + n;
+    s.starts = (uint32_t(*)[VALUES])(s.to + n);
+    koksma_status status = koksma__parallel(run, s.n_blocks, load, &s);
     if (n < VALUES) {
-        qsort(from, n, sizeof *from, compare);
+        qsort(s.from, n, sizeof *s.from, compare);
     } else {
-        for (int digit = 0; digit < DIGITS; digit++) {
-            if (pass(n, digit, from, to)) {
-                item *const other = from;
-                from = to;
-                to = other;
-            }
+        for (s.digit = 0; s.digit < DIGITS && !status; s.digit++) {
+            status = pass(&s, run);
         }
     }
-    for (size_t i = 0; i < n; i++) {
-        order[i] = from[i].index;
+    if (!status) {
+        status = koksma__parallel(run, s.n_blocks, store, &s);
     }
     free(memory);
-    return KOKSMA_OK;
+    return status;
 }

@@ -71,12 +71,12 @@ static double best_y(size_t n, const sweep *s, size_t at, bool closed)
     return s->y[best_j];
 }
 
-static koksma_status prepare(const koksma_points *points, sweep *s)
+static koksma_status prepare(const koksma_points *points, const koksma_run *run, sweep *s)
 {
     const size_t n = points->n, dim = (size_t)points->dim;
     koksma_status status = KOKSMA_OK;
     if (dim == 2) {
-        status = koksma__order(n, points->xs + 1, dim, s->order);
+        status = koksma__order(run, n, points->xs + 1, dim, s->order);
     }
     for (size_t j = 0; j < n && !status; j++) {
         const size_t i = dim == 2 ? s->order[j] : j;
@@ -85,7 +85,7 @@ static koksma_status prepare(const koksma_points *points, sweep *s)
     }
     s->y[n] = 1;
     if (!status) {
-        status = koksma__order(n, points->xs, dim, s->order);
+        status = koksma__order(run, n, points->xs, dim, s->order);
     }
     for (size_t i = 0; i < n && !status; i++) {
         s->x[i] = points->xs[s->order[i] * dim];
@@ -106,7 +106,7 @@ koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, cons
     s.rank = s.order + n;
     double best[2];
     size_t at[2];
-    koksma_status status = prepare(points, &s);
+    koksma_status status = prepare(points, run, &s);
     if (!status && kinetic) {
         status = koksma__star_kinetic(n, s.x, s.rank, s.y, run, best, at);
     } else if (!status) {

@@ -7,6 +7,8 @@
  * scanned. Wins are decided in doubles: at a near tie either line has the value to the last bits.
  */
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
@@ -148,42 +150,59 @@ static void start(tree *t, size_t n, const double *y, double sign)
     }
 }
 
-/* sign 1: excess, evaluated after each insertion; -1: deficit, before. */
-static koksma_status walk(tree *t, size_t n, const double *x, const uint32_t *rank, const double *y, double sign,
-                          const koksma_run *run, double *best, size_t *best_at)
+/* The excesses and the deficits are walked side by side, each with a tree of its own. */
+typedef struct walks {
+    size_t n, n_blocks;
+    const double *x, *y;
+    const uint32_t *rank;
+    const koksma_run *run;
+    pthread_t caller; /* who alone may ask run */
+    atomic_bool stopped;
+    double *best;
+    size_t *best_at;
+} walks;
+
+static bool keeps_going(walks *w, double fraction_done)
 {
-    *best = -INFINITY;
-    *best_at = 0;
-    start(t, n, y, sign);
-    for (size_t i = 0; i < n + (sign < 0); i++) {
-        if (i % CHECK_EVERY == 0 && !koksma__keep_going(run, ((double)i / (double)n + (sign < 0)) / 2)) {
+    if (pthread_equal(pthread_self(), w->caller) && !koksma__keep_going(w->run, fraction_done)) {
+        atomic_store(&w->stopped, true);
+    }
+    return !atomic_load(&w->stopped);
+}
+
+/* sign 1: excess, evaluated after each insertion; -1: deficit, before. */
+static koksma_status walk(walks *w, tree *t, double sign)
+{
+    const size_t n = w->n, which = sign < 0;
+    w->best[which] = -INFINITY;
+    w->best_at[which] = 0;
+    start(t, n, w->y, sign);
+    for (size_t i = 0; i < n + which; i++) {
+        if (i % CHECK_EVERY == 0 && !keeps_going(w, (double)i / (double)n)) {
             return koksma__fail_interrupted();
         }
-        t->x = i < n ? x[i] : 1;
+        t->x = i < n ? w->x[i] : 1;
         if (sign > 0) {
-            add_from(t, rank[i], 1);
+            add_from(t, w->rank[i], 1);
         } else {
             advance(t, 1);
         }
         const double value = at(t->nodes[1].k, t->nodes[1].b, t->x);
-        if (value > *best) {
-            *best = value;
-            *best_at = i;
+        if (value > w->best[which]) {
+            w->best[which] = value;
+            w->best_at[which] = i;
         }
         if (sign < 0 && i < n) {
-            add_from(t, rank[i] + 1, -1);
+            add_from(t, w->rank[i] + 1, -1);
         }
     }
     return KOKSMA_OK;
 }
 
-koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *rank, const double *y,
-                                   const koksma_run *run, double best[2], size_t at_best[2])
+static koksma_status walk_one(void *context, size_t block)
 {
-    tree t = {.n_blocks = 1};
-    while (t.n_blocks * BLOCK < n + 2) {
-        t.n_blocks *= 2;
-    }
+    walks *w = context;
+    tree t = {.n_blocks = w->n_blocks};
     const size_t bytes = 2 * t.n_blocks * sizeof(node) + 2 * t.n_blocks * BLOCK * sizeof(double);
     t.nodes = malloc(bytes);
     if (!t.nodes) {
@@ -191,10 +210,25 @@ koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *ra
     }
     t.k = (double *)(t.nodes + 2 * t.n_blocks);
     t.b = t.k + t.n_blocks * BLOCK;
-    koksma_status status = walk(&t, n, x, rank, y, 1, run, &best[0], &at_best[0]);
-    if (!status) {
-        status = walk(&t, n, x, rank, y, -1, run, &best[1], &at_best[1]);
-    }
+    const koksma_status status = walk(w, &t, block == 0 ? 1 : -1);
     free(t.nodes);
     return status;
+}
+
+koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *rank, const double *y,
+                                   const koksma_run *run, double best[2], size_t at_best[2])
+{
+    walks w = {.n = n,
+               .n_blocks = 1,
+               .x = x,
+               .y = y,
+               .rank = rank,
+               .run = run,
+               .caller = pthread_self(),
+               .best = best,
+               .best_at = at_best};
+    while (w.n_blocks * BLOCK < n + 2) {
+        w.n_blocks *= 2;
+    }
+    return koksma__parallel(run, 2, walk_one, &w);
 }

@@ -341,7 +341,7 @@ koksma_status koksma__star_partition(const koksma_points *points, const koksma_r
     p.cut_short = (bool *)(p.orders + dim * (n + 2));
     koksma_status status = KOKSMA_OK;
     for (size_t k = 0; k < dim && !status; k++) {
-        status = koksma__order(n, points->xs + k, dim, p.orders + k * n);
+        status = koksma__order(run, n, points->xs + k, dim, p.orders + k * n);
     }
     if (!status) {
         const region all = {.n_inside = n, .first = (size_t[1]){0}};

@@ -163,8 +163,8 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
     uint32_t *order = (uint32_t *)(w.levels + dim * (n + 1));
     koksma_status status = KOKSMA_OK;
     for (size_t k = 0; k < dim && !status; k++) {
-        status = koksma__order(n, points->xs + k, dim, order);
-        for (size_t i = 0; i < n; i++) {
+        status = koksma__order(run, n, points->xs + k, dim, order);
+        for (size_t i = 0; i < n && !status; i++) {
             w.levels[k * (n + 1) + i] = points->xs[order[i] * dim + k];
         }
         w.levels[k * (n + 1) + n] = 1;
