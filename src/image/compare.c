@@ -13,7 +13,7 @@
 #include "core/sum.h"
 #include "image/formats.h"
 
-static double luminance(const koksma_image *image, size_t pixel)
+double koksma__luminance(const koksma_image *image, size_t pixel)
 {
     const float *p = image->pixels + pixel * (size_t)image->channels;
     return image->channels == 1 ? (double)p[0]
@@ -31,7 +31,7 @@ static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
 
 static double absolute_error(const koksma_image *image, const koksma_image *reference, size_t pixel)
 {
-    return fabs(luminance(image, pixel) - luminance(reference, pixel));
+    return fabs(koksma__luminance(image, pixel) - koksma__luminance(reference, pixel));
 }
 
 koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference, koksma_image_error *out)

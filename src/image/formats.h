@@ -43,4 +43,7 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out);
 
+/* Rec. 709's. */
+double koksma__luminance(const koksma_image *image, size_t pixel);
+
 #endif

@@ -86,6 +86,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
+    status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
     return status ? status : check_warps(node, b);
 }
 
@@ -99,7 +100,8 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__plan_text(node, "name", true, &r->name);
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
-    return status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
+    status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
+    return status ? status : koksma__plan_check_reference(node, r);
 }
 
 /* A scene that opens; its own errors are handed on with the plan's line. */
@@ -137,6 +139,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
+    status = status ? status : koksma__plan_check_spp(node, b);
     status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->width = (int)size[0];

@@ -69,7 +69,7 @@ typedef struct koksma__table {
     koksma__note *notes;
 } koksma__table;
 
-/* A figure: the points of a pattern, or a rendered scene. */
+/* A figure: the points of a pattern, a rendered scene, or random lines. */
 typedef struct koksma__figure {
     char *id, *title, *pattern, *scene;
     char *variant;       /* of a scene: variants.h */
@@ -79,6 +79,7 @@ typedef struct koksma__figure {
     long long detail[4]; /* x, y, width and height of what is shown; width 0: all */
     long long strata[2]; /* the pixel whose strata are shown; -1: none */
     bool cells;          /* draw the cells or rows and columns in */
+    bool lines, dual;    /* random lines; as points (slope, intercept) */
 } koksma__figure;
 
 /* Something that the report answers from blocks of the plan. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The figures of a plan: points, or a scene, or how a pixel of it was subdivided. */
+#include <stdlib.h>
 #include <string.h>
 
 #include <koksma/adaptive.h>
@@ -56,10 +57,27 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     return KOKSMA_OK;
 }
 
+/* "lines": random lines in the square, or their duals. */
+static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
+{
+    char *word = NULL;
+    koksma_status status = koksma__plan_text(node, "lines", false, &word);
+    f->lines = word != NULL;
+    f->dual = word && !strcmp(word, "dual");
+    if (!status && word && !f->dual && strcmp(word, "primal") != 0) {
+        status = koksma__json_fail(node, "lines '%s': it takes primal or dual", word);
+    }
+    if (!status && f->lines && (f->scene || f->warp || f->cells)) {
+        status = koksma__json_fail(node, "lines go with neither scene, warp nor cells");
+    }
+    free(word);
+    return status;
+}
+
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment",  "id",     "title",  "pattern", "scene",   "n", "cells",
-                                       "adaptive", "strata", "detail", "warp",    "options", NULL};
+    static const char *const keys[] = {"comment",  "id",     "title",  "pattern", "scene",   "n",     "cells",
+                                       "adaptive", "strata", "detail", "warp",    "options", "lines", NULL};
     koksma__figure *f = item;
     koksma__texts variants = {0};
     (void)trials;
@@ -73,6 +91,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
     status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
+    status = status ? status : get_lines(node, f);
     if (!status && koksma__json_has(node, "strata")) {
         status = get_wholes(node, "strata", 2, f->strata);
     }

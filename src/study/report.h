@@ -20,4 +20,7 @@ koksma_status koksma__report_pictures(koksma_study *study, koksma__html *html, c
 /* When, where and how long. One element, so that reports of the same rows differ in it alone. */
 koksma_status koksma__report_runs(koksma_study *study, koksma__html *h);
 
+/* A figure of random lines. */
+void koksma__report_lines(koksma__html *h, const koksma__figure *figure, uint64_t seed);
+
 #endif

@@ -79,7 +79,7 @@ static void add_ticks(koksma__html *h, const axis *a, bool horizontal)
     const double raw = (a->high - a->low) / 5, power = pow(10, floor(log10(raw)));
     const double step = raw / power < 1.5 ? power : raw / power < 3.5 ? 2 * power : 5 * power;
     for (double v = ceil(a->low / step); v * step <= a->high; v++) {
-        add_tick(h, a, horizontal, v * step);
+        add_tick(h, a, horizontal, v * step + 0.0); /* no -0 */
     }
 }
 

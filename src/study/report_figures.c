@@ -176,7 +176,11 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
         const koksma__figure *f = &study->plan.figures[i];
         char note[NOTE] = "";
         koksma__html_add(html, "<figure id=\"figure-%s\">", f->id);
-        status = f->scene ? add_scene(study, html, f, run, note) : add_points(html, f);
+        if (f->lines) {
+            koksma__report_lines(html, f, koksma__job_seed("figure|lines|%lld", f->n));
+        } else {
+            status = f->scene ? add_scene(study, html, f, run, note) : add_points(html, f);
+        }
         koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
         koksma__html_text(html, f->title);
         koksma__html_text(html, note);

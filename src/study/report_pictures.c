@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Pictures: of every scene of the image blocks the first trial of each pattern, beside the reference, with maps of
- * the error. They are shown as they are for readers and printers, and as floats for the comparer (report.js). The
- * picture is the one whose error stands in the store: it is made again from its key.
+ * the error and its spectrum. They are shown as they are for readers and printers, and as floats for the comparer
+ * (report.js). The picture is the one whose error stands in the store: it is made again from its key.
  */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
+#include "study/error_spectrum.h"
 #include "study/report.h"
+#include "study/report_chart.h"
 #include "study/report_script.h"
 #include "study/tasks.h"
 
 /* What the floats of one file may take before their base64, and how much brighter an error is shown. */
 enum { MOST_BYTES = 24 << 20, GAIN = 8, MAX_SHOWN = 24 };
+
+/* Trials whose errors' spectra are averaged, and pixels up to which: the transform takes W H (W + H) steps. */
+enum { SPECTRUM_TRIALS = 4, SPECTRUM_PIXELS = 1 << 16 };
 
 typedef struct budget {
     size_t used;
@@ -55,16 +60,69 @@ static void add_floats(koksma__html *h, const koksma_image *image, const char *n
     koksma__html_add(h, "</template>");
 }
 
-/* The picture of trial 0 of a task. */
-static koksma_status render(const koksma__task *t, const koksma_run *run, koksma_image *out)
+/* The picture of a trial of a task. */
+static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
 {
     const koksma__picture picture = {.pattern = t->pattern,
                                      .variant = t->variant,
                                      .spp = t->n,
                                      .width = t->width,
                                      .height = t->height,
-                                     .seed = koksma__task_seed(t, 0)};
+                                     .seed = koksma__task_seed(t, trial)};
     return koksma__study_render(t->scene, &picture, run, out);
+}
+
+/* The mean spectrum of the first trials' errors. */
+static koksma_status find_spectrum(const koksma__task *t, const koksma_image *reference, const koksma_run *run,
+                                   koksma__chart_series *to)
+{
+    koksma__error_spectrum spectrum = {0};
+    koksma_status status = KOKSMA_OK;
+    for (long long trial = 0; !status && trial < t->trials && trial < SPECTRUM_TRIALS; trial++) {
+        koksma_image image;
+        status = render(t, trial, run, &image);
+        if (!status) {
+            status = koksma__spectrum_add(&spectrum, &image, reference);
+            koksma_image_fini(&image);
+        }
+    }
+    *to = (koksma__chart_series){.line = true, .n = spectrum.n};
+    snprintf(to->label, sizeof to->label, "%s", t->pattern);
+    for (size_t r = 0; r < spectrum.n; r++) {
+        to->x[r] = ((double)r + 0.5) / (2 * (double)spectrum.n);
+        to->y[r] = to->low[r] = to->high[r] = spectrum.power[r];
+    }
+    return status;
+}
+
+static koksma_status add_spectra(koksma__html *h, const koksma__task *first, const koksma_image *reference,
+                                 const koksma_run *run)
+{
+    const koksma__texts *patterns = &first->image->patterns;
+    const size_t n = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
+    if ((size_t)first->width * (size_t)first->height > SPECTRUM_PIXELS) {
+        koksma__html_add(h, "<p>No spectrum of the errors: the pictures have more than %d pixels.</p>\n",
+                         SPECTRUM_PIXELS);
+        return KOKSMA_OK;
+    }
+    koksma__chart_series *series = calloc(KOKSMA__CHART_SERIES, sizeof *series);
+    koksma_status status = series ? KOKSMA_OK : koksma__fail_memory(KOKSMA__CHART_SERIES * sizeof *series);
+    for (size_t p = 0; !status && p < n; p++) {
+        koksma__task task = *first;
+        task.pattern = patterns->at[p];
+        status = find_spectrum(&task, reference, run, &series[p]);
+    }
+    if (!status) {
+        char title[512];
+        snprintf(title, sizeof title,
+                 "Spectrum of the image error: %.200s, %lld samples a pixel, mean over rings and %d trials",
+                 first->scene->name, first->n,
+                 first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS);
+        const koksma__chart chart = {title, "cycles a pixel", "power", false, true, n, series};
+        koksma__html_chart(h, &chart);
+    }
+    free(series);
+    return status;
 }
 
 static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksma__task *first, budget *b,
@@ -98,7 +156,7 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
         koksma__task task = *first;
         koksma_image image;
         task.pattern = block->patterns.at[p];
-        status = render(&task, run, &image);
+        status = render(&task, 0, run, &image);
         if (!status) {
             status = add_thumbnail(h, &image, &reference->image, task.pattern, task.scene->name);
             add_floats(&floats, &image, task.pattern, false);
@@ -112,7 +170,7 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
     koksma__html_add(h, "\">%s</div>\n", floats.text ? floats.text : "");
     h->failed |= floats.failed;
     free(floats.text);
-    return status;
+    return status ? status : add_spectra(h, first, &reference->image, run);
 }
 
 koksma_status koksma__report_pictures(koksma_study *study, koksma__html *h, const koksma_run *run)

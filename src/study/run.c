@@ -110,6 +110,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
         return koksma__pool_work(study);
     }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
+    const double store_s = koksma__store_seconds(study->store);
     watch w = {.run = run, .end_s = run && run->time_limit_s > 0 ? start_s + run->time_limit_s : 0};
     const koksma_run inner = {.threads = koksma__threads(run), .keep_going = keep_going, .context = &w};
     koksma_status status = run_kind(study, false, &inner, KOKSMA_OK, summary);
@@ -118,7 +119,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary->seconds = koksma__now_s() - start_s;
     summary->idle_seconds += summary->workers * summary->seconds;
     summary->processor_seconds += koksma__processor_s() - processor_s;
-    summary->store_seconds = koksma__store_seconds(study->store);
+    summary->store_seconds = koksma__store_seconds(study->store) - store_s;
     summary->complete = !status;
     if (!status || status == KOKSMA_INTERRUPTED) {
         const koksma_status recorded = record_run(study, started, summary);

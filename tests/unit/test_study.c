@@ -69,6 +69,16 @@ static void wrong_plans(void **state)
     wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
                "[\"star\"],\n\"n\": [0], \"trials\": 1}]}",
                "plan 'p': line 2: discrepancies[0].n[0]: 0 is not in 1 to 268435456");
+    wrong_plan(
+        "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\", \"jittered\"], "
+        "\"measures\": [\"star\"],\n\"n\": [4, 5], \"trials\": 1}]}",
+        "plan 'p': line 2: discrepancies[0].n[1]: jittered: n = 5 is not m^2; n = 4 or 9 would do, or columns=C "
+        "with C a divisor of n");
+    wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"images\": [{\"scenes\": [\"ball\"], \"patterns\": "
+               "[\"jittered\"],\n\"spp\": [16, 12], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": "
+               "\"random\", \"spp\": 4}]}]}",
+               "plan 'p': line 2: images[0].spp[1]: jittered: n = 12 is not m^2; n = 9 or 16 would do, or columns=C "
+               "with C a divisor of n");
     wrong_plan("[1, 2", "plan 'p': line 1: ']' expected near end of file");
     wrong_plan(
         "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "

@@ -5,6 +5,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* The law of a random line that hits the square. ISOTROPIC: the measure that moving and turning does not change.
    MITCHELL: the second paper's recipe, y = m x + b with m = (r1 - 1/2)/(r2 - 1/2) and b uniform over the square's
    range, which its text takes for the same; its angles are not (up to 1.84 to 1 at 45 degrees, where it should
@@ -27,6 +29,7 @@ double koksma__line_potential(koksma__line_law law, const double p[2]);
 double koksma__line_constant(koksma__line_law law);
 
 /* Line `index` of a seed: a x + b y = c. */
-void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, double *a, double *b, double *c);
+KOKSMA__LAB void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, double *a, double *b,
+                                     double *c);
 
 #endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Whether patterns can make the numbers of points that a plan asks of them: a study must not fail in its middle. */
+#include "core/status.h"
+#include "study/plan_parts.h"
+#include "study/variants.h"
+
+/* Larger sets are not tried: they would take time, and the rules for n show at small ones. */
+enum { MOST_TRIED = 1 << 16 };
+
+/* Patterns look at their arguments before they begin; who asks whether to go on has begun. */
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+static koksma_status try_set(const char *pattern, long long n, int dim)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma_spec spec;
+    koksma_points points;
+    koksma_status status = koksma_pattern_spec(pattern, &spec);
+    status = status ? status : koksma_points_init(&points, (size_t)n, dim);
+    if (!status) {
+        status = koksma_generate(&spec, 0, &briefly, &points);
+        koksma_points_fini(&points);
+    }
+    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
+}
+
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__texts *patterns,
+                                      const char *counts, const koksma__wholes *n, int dim)
+{
+    koksma__json_node list;
+    koksma_status status = koksma__json_member(node, counts, &list);
+    for (size_t k = 0; !status && k < n->n; k++) {
+        for (size_t p = 0; !status && p < patterns->n && n->at[k] <= MOST_TRIED; p++) {
+            if (try_set(patterns->at[p], n->at[k], dim)) {
+                const koksma__json_node item = koksma__json_item(&list, k);
+                status = koksma__json_fail(&item, "%s", koksma_error_text());
+            }
+        }
+    }
+    return status;
+}
+
+/* With other options the pattern has other numbers of points, or of dimensions. */
+static bool takes_spp_points(const char *variant)
+{
+    koksma__variant v = {0};
+    return !koksma__variant_apply(variant, false, &v) && v.render.scope == KOKSMA_SCOPE_PIXEL &&
+           v.render.pairing != KOKSMA_PAIRING_NATIVE && !v.adaptive.method;
+}
+
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block)
+{
+    for (size_t v = 0; v < block->variants.n; v++) {
+        if (takes_spp_points(block->variants.at[v])) {
+            return koksma__plan_check_sets(node, &block->patterns, "spp", &block->spp, 2);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)
+{
+    if (reference->spp > MOST_TRIED || !try_set(reference->pattern, reference->spp, 2)) {
+        return KOKSMA_OK;
+    }
+    return koksma__json_fail(node, "%s", koksma_error_text());
+}
