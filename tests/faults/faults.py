@@ -14,6 +14,7 @@ import argparse
 import concurrent.futures
 import os
 import re
+import resource
 import shutil
 import sqlite3
 import subprocess
@@ -24,7 +25,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 KINDS = ["memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory"]
 MODES = {kind: ["once", "on"] for kind in KINDS} | {
     "write": ["once", "on", "end"], "sync": ["once", "end"], "rename": ["once", "end"], "db": ["once", "on", "end"]}
-SECONDS = 60
+SECONDS = 200  # a run takes tenths of one; this is for machines under load
 ENDED = 99
 OLD = b"what was there before\n"
 
@@ -215,6 +216,7 @@ def main():
     parser.add_argument("--kind", choices=KINDS)
     options = parser.parse_args()
     bad, n = 0, {}
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with tempfile.TemporaryDirectory() as shared:
         runner = Runner(options.program, shared)
         make_inputs(runner, shared)

@@ -8,7 +8,11 @@
 #include "measures/parts/orientation.h"
 #include "sets.h"
 
+#if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 quad;
+#else
+typedef long double quad; /* it has 113 bits on aarch64 and s390x */
+#endif
 
 /* Coordinates of sets are multiples of 2^-53: products of differences fit into 113 bits. */
 static int quad_side(const double *p, quad dx, quad dy, const double *x)

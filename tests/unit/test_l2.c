@@ -7,7 +7,11 @@
 #include "measures/parts/l2.h"
 #include "sets.h"
 
+#if defined(__SIZEOF_FLOAT128__)
 __extension__ typedef __float128 quad;
+#else
+typedef long double quad; /* it has 113 bits on aarch64 and s390x */
+#endif
 
 static const char *const names[KOKSMA__L2_KINDS] = {
     [KOKSMA__L2_STAR] = "l2-star",         [KOKSMA__L2_EXTREME] = "l2-extreme",

@@ -1,0 +1,14 @@
+# The tests of a build without all optional parts, or for another machine: those of libkoksma, and of the files that the
+# leanest program reads and writes.
+file(GLOB tests CONFIGURE_DEPENDS unit/test_*.c claims/test_*.c kernels/test_*.c golden/test_*.c stat/test_*.c)
+foreach(test ${tests})
+  file(STRINGS ${test} of_lab REGEX "include.*(image|scene|render|rendering|study|plot|adaptive)[/.]")
+  if(NOT of_lab)
+    koksma_test(${test} koksma)
+  endif()
+endforeach()
+if(KOKSMA_LAB)
+  foreach(name byte_order points_files generate)
+    add_test(NAME cli_${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/cli/run.sh ${KOKSMA_RUNNER} ${CMAKE_CURRENT_SOURCE_DIR}/cli/${name}.test)
+  endforeach()
+endif()
