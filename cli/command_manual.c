@@ -5,7 +5,8 @@
 
 #include "cli.h"
 
-/* Text for roff: backslashes, hyphens of options, and lines that begin with a dot or quote stay what they are. */
+/* Text for roff: backslashes, hyphens of options, and lines that begin with a dot or quote stay what they are; a line
+   may break between alternatives. */
 static void put(const char *text)
 {
     for (bool at_start = true; *text; text++) {
@@ -13,6 +14,9 @@ static void put(const char *text)
             fputs("\\&", stdout);
         }
         *text == '\\' ? fputs("\\e", stdout) : *text == '-' ? fputs("\\-", stdout) : putchar(*text);
+        if (*text == '|') {
+            fputs("\\:", stdout);
+        }
         at_start = *text == '\n';
     }
 }

@@ -189,7 +189,7 @@ static void files_are_patterns(void **state)
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_N);
         assert_non_null(strstr(koksma_error_text(), "20 points"));
         koksma_points_fini(&some);
-        assert_ok(koksma_points_init(&some, 5, 2));
+        assert_ok(koksma_points_init(&some, 5, 4));
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_DIM);
         koksma_points_fini(&some);
         snprintf(spec_text, sizeof spec_text, "file:%s,shift=1", path);
