@@ -27,7 +27,7 @@ with tempfile.TemporaryDirectory() as folder:
             (work / name[1]).write_text(text + "\n", encoding="utf-8")
         elif kind == "sh":
             script = re.sub(r"--time-limit \d+", "--time-limit 2", text)
-            done = subprocess.run(["sh", "-e"], input=script, cwd=work, env=environment, capture_output=True, text=True, timeout=120,
+            done = subprocess.run(["sh", "-e"], input=script, cwd=work, env=environment, capture_output=True, text=True, timeout=600,
                                   check=False)
             ran, said = ran + 1, done.stdout
             if done.returncode:
