@@ -189,7 +189,10 @@ static void files_are_patterns(void **state)
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_N);
         assert_non_null(strstr(koksma_error_text(), "20 points"));
         koksma_points_fini(&some);
-        assert_ok(koksma_points_init(&some, 5, 2));
+        some = test_points(spec_text, 5, 2, 0); /* the first of the file's dimensions */
+        assert_true(some.xs[2] == p.xs[3] && some.xs[9] == p.xs[13]);
+        koksma_points_fini(&some);
+        assert_ok(koksma_points_init(&some, 5, 4));
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_DIM);
         koksma_points_fini(&some);
         snprintf(spec_text, sizeof spec_text, "file:%s,shift=1", path);
