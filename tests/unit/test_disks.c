@@ -26,6 +26,18 @@ static void exactly_n_points(void **state)
     }
 }
 
+/* Of a set like this there is one in ten thousand: where the search had found more than 16 points, 15 others leave no
+   room for another. */
+static void searches_start_again(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("poisson-disk-maximal", 16, 2, 8796);
+    double d;
+    assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+    assert_true(d > 0.15);
+    koksma_points_fini(&p);
+}
+
 static void by_distance(void **state)
 {
     (void)state;
@@ -219,10 +231,15 @@ static void files_are_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exactly_n_points),       cmocka_unit_test(by_distance),
-        cmocka_unit_test(grids_change_no_points), cmocka_unit_test(fractions_of_the_densest),
-        cmocka_unit_test(tiles_leave_no_trace),   cmocka_unit_test(tiles_end_at_n),
-        cmocka_unit_test(files_are_patterns),     cmocka_unit_test(many_small_sets_keep_their_distance),
+        cmocka_unit_test(exactly_n_points),
+        cmocka_unit_test(by_distance),
+        cmocka_unit_test(grids_change_no_points),
+        cmocka_unit_test(fractions_of_the_densest),
+        cmocka_unit_test(searches_start_again),
+        cmocka_unit_test(tiles_leave_no_trace),
+        cmocka_unit_test(tiles_end_at_n),
+        cmocka_unit_test(files_are_patterns),
+        cmocka_unit_test(many_small_sets_keep_their_distance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
