@@ -44,6 +44,26 @@ static void put_rows(cli_rows *rows, const char *source, const koksma_points *po
     }
 }
 
+static const char *const properties[] = {
+    "net-base-2",      "net-base-3",     "net-base-5",      "latin",          "stratified",    "repeated",
+    "distance-square", "distance-torus", "origin-repeated", "origin-missing", "rounds-to-one", "progressive",
+};
+
+/* The first name of the list that is no property; NULL: none. */
+static const char *misspelt(const char *list, char *name, size_t size)
+{
+    for (size_t i = 0; cli_list_item(list, i, name, size); i++) {
+        bool known = false;
+        for (size_t p = 0; p < sizeof properties / sizeof *properties; p++) {
+            known = known || !strcmp(name, properties[p]);
+        }
+        if (!known) {
+            return name;
+        }
+    }
+    return NULL;
+}
+
 /* Whether a property of the list fails, or was not looked at. */
 static bool disappoints(const char *list, const koksma_findings *findings)
 {
@@ -69,6 +89,11 @@ static int run(const cli_arguments *arguments)
 {
     uint64_t seed;
     cli_work work;
+    const char *expect = cli_text(arguments, "expect", NULL);
+    char name[64];
+    if (expect && misspelt(expect, name, sizeof name)) {
+        return cli_usage_error(arguments, "no property '%s'; plain verify lists them", name);
+    }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
@@ -89,7 +114,7 @@ static int run(const cli_arguments *arguments)
             code = cli_fail(arguments, status);
         } else {
             put_rows(rows, arguments->operands[i], &points, &findings);
-            code = disappoints(cli_text(arguments, "expect", ""), &findings) ? CLI_NO : code;
+            code = expect && disappoints(expect, &findings) ? CLI_NO : code;
         }
         koksma_findings_fini(&findings);
         koksma_points_fini(&points);

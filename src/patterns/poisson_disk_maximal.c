@@ -23,11 +23,12 @@ enum { TRIES = 100 };
 
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
-/* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there would be more,
-   and disks->d. */
+/* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there were more, and
+   disks->d. */
 static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
 {
-    double high = disks->d, low = 0, step = 0.25 * (double)(n - disks->n) / (double)n;
+    const double first = 0.25 / (double)n;
+    double high = disks->d, low = 0, step = first * (double)(n - disks->n);
     size_t kept = disks->n;
     koksma_status status = KOKSMA_OK;
     for (int try = 0; try < TRIES && !status; try++) {
@@ -45,6 +46,10 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
             high = d;
             kept = disks->n;
             step *= 1.5;
+            if (high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
+                low = 0;
+                step = first * (double)(n - kept);
+            }
         }
     }
     return status

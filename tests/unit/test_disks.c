@@ -26,6 +26,18 @@ static void exactly_n_points(void **state)
     }
 }
 
+/* Of a set like this there is one in ten thousand: where the search had found more than 16 points, 15 others leave no
+   room for another. */
+static void searches_start_again(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("poisson-disk-maximal", 16, 2, 8796);
+    double d;
+    assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+    assert_true(d > 0.15);
+    koksma_points_fini(&p);
+}
+
 static void by_distance(void **state)
 {
     (void)state;
@@ -189,6 +201,9 @@ static void files_are_patterns(void **state)
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_N);
         assert_non_null(strstr(koksma_error_text(), "20 points"));
         koksma_points_fini(&some);
+        some = test_points(spec_text, 5, 2, 0); /* the first of the file's dimensions */
+        assert_true(some.xs[2] == p.xs[3] && some.xs[9] == p.xs[13]);
+        koksma_points_fini(&some);
         assert_ok(koksma_points_init(&some, 5, 4));
         assert_int_equal(koksma_generate(&spec, 0, NULL, &some), KOKSMA_DIM);
         koksma_points_fini(&some);
@@ -216,10 +231,15 @@ static void files_are_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exactly_n_points),       cmocka_unit_test(by_distance),
-        cmocka_unit_test(grids_change_no_points), cmocka_unit_test(fractions_of_the_densest),
-        cmocka_unit_test(tiles_leave_no_trace),   cmocka_unit_test(tiles_end_at_n),
-        cmocka_unit_test(files_are_patterns),     cmocka_unit_test(many_small_sets_keep_their_distance),
+        cmocka_unit_test(exactly_n_points),
+        cmocka_unit_test(by_distance),
+        cmocka_unit_test(grids_change_no_points),
+        cmocka_unit_test(fractions_of_the_densest),
+        cmocka_unit_test(searches_start_again),
+        cmocka_unit_test(tiles_leave_no_trace),
+        cmocka_unit_test(tiles_end_at_n),
+        cmocka_unit_test(files_are_patterns),
+        cmocka_unit_test(many_small_sets_keep_their_distance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
