@@ -248,7 +248,8 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures|scenes|integrators|filters|uses|adaptive|warps|parameters] [--json]",
+    .synopsis = "[patterns|measures|scenes|integrators|filters] [--json]\n"
+                "       koksma list uses|adaptive|warps|parameters [--json]",
     .options = options,
     .run = run,
 };
