@@ -57,9 +57,9 @@ static koksma_status make_grid(koksma__disks *s, double d)
     const size_t bytes = places * (2 * sizeof *s->gx) + own * sizeof *s->who + squares * sizeof *s->squares;
     void *grid = s->gx, *who = s->who, *list = s->squares, *first = s->first;
     size_t who_room = s->who_room;
-    const bool ok = get_room(&grid, &s->grid_room, 2 * places, sizeof *s->gx) &
-                    get_room(&who, &who_room, own, sizeof *s->who) &
-                    get_room(&list, &s->square_room, squares, sizeof *s->squares) &
+    const bool ok = get_room(&grid, &s->grid_room, 2 * places, sizeof *s->gx) &&
+                    get_room(&who, &who_room, own, sizeof *s->who) &&
+                    get_room(&list, &s->square_room, squares, sizeof *s->squares) &&
                     get_room(&first, &s->first_room, tiles + 1, sizeof *s->first);
     s->gx = grid;
     s->who = who;
