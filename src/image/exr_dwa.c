@@ -7,6 +7,7 @@
 #ifdef KOKSMA_EXR
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <OpenEXR/ImfCRgbaFile.h>
@@ -49,10 +50,43 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, koksma_image *
     return whole ? KOKSMA_OK : fail();
 }
 
+/* Whether the attributes of the headers lie within the file: the C++ library takes as much memory as they claim. An
+   attribute is name, type, size and value; an empty name ends a header, and an empty header those of several parts
+   (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
+static bool header_fits(const unsigned char *bytes, size_t size)
+{
+    size_t at = 8;
+    const bool parts = size > 8 && (bytes[5] & 0x10);
+    while (at < size && bytes[at]) {
+        for (int text = 0; text < 2; text++) { /* name and type */
+            const unsigned char *end = memchr(bytes + at, 0, size - at);
+            if (!end) {
+                return false;
+            }
+            at = (size_t)(end - bytes) + 1;
+            if (at + 4 > size) {
+                return false;
+            }
+        }
+        const size_t value =
+            bytes[at] | (size_t)bytes[at + 1] << 8 | (size_t)bytes[at + 2] << 16 | (size_t)bytes[at + 3] << 24;
+        at += 4;
+        if (value > size - at) {
+            return false;
+        }
+        at += value;
+        at += parts && at + 1 < size && !bytes[at]; /* on to the next header, or to the empty one */
+    }
+    return at < size;
+}
+
 koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     const char *folder = getenv("TMPDIR");
     char path[4096];
+    if (!header_fits(bytes, size)) {
+        return koksma__fail(KOKSMA_MALFORMED, "an attribute of its header goes beyond the file's end");
+    }
     if ((size_t)snprintf(path, sizeof path, "%s/koksma-XXXXXX", folder && *folder ? folder : "/tmp") >= sizeof path) {
         return koksma__fail(KOKSMA_SYSTEM, "TMPDIR is too long");
     }
