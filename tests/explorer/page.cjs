@@ -60,7 +60,7 @@ async function open(browser, { hash = "", colorScheme = "light", width = 1280, b
   await idle(page);
   return page;
 }
-const idle = page => page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy(), null, { timeout: 60000 });
+const idle = page => page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy(), null, { timeout: 240000 });
 const set = async (page, selector, value) => {
   await page.locator(selector).fill(String(value));
   await page.locator(selector).press("Tab");
