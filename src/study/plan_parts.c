@@ -49,9 +49,9 @@ koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, 
     return status ? status : canonical(&member, parser, out);
 }
 
-/* The list and its length, at least 1. */
-static koksma_status open_list(const koksma__json_node *node, const char *key, koksma__json_node *list,
-                               size_t *length)
+/* The list, its length, at least 1, and room for as many items (to be freed with the plan). */
+static koksma_status open_list(const koksma__json_node *node, const char *key, size_t item_size,
+                               koksma__json_node *list, size_t *length, void **items)
 {
     koksma_status status = koksma__json_member(node, key, list);
     if (!status) {
@@ -59,6 +59,9 @@ static koksma_status open_list(const koksma__json_node *node, const char *key, k
     }
     if (!status && *length == 0) {
         status = koksma__json_fail(list, "an empty list");
+    }
+    if (!status && !(*items = calloc(*length, item_size))) {
+        status = koksma__fail_memory(*length * item_size);
     }
     return status;
 }
@@ -68,14 +71,9 @@ static koksma_status read_texts(const koksma__json_node *node, const char *key, 
 {
     koksma__json_node list;
     size_t length;
-    koksma_status status = open_list(node, key, &list, &length);
-    if (status) {
-        return status;
-    }
-    out->at = calloc(length, sizeof *out->at);
-    if (!out->at) {
-        return koksma__fail_memory(length * sizeof *out->at);
-    }
+    void *room = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
+    out->at = room;
     for (; !status && out->n < length; out->n++) {
         const koksma__json_node item = koksma__json_item(&list, out->n);
         const char *text;
@@ -109,14 +107,9 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
 {
     koksma__json_node list;
     size_t length;
-    koksma_status status = open_list(node, key, &list, &length);
-    if (status) {
-        return status;
-    }
-    out->at = calloc(length, sizeof *out->at);
-    if (!out->at) {
-        return koksma__fail_memory(length * sizeof *out->at);
-    }
+    void *room = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
+    out->at = room;
     for (; !status && out->n < length; out->n++) {
         const koksma__json_node item = koksma__json_item(&list, out->n);
         status = koksma__json_whole(&item, min, max, &out->at[out->n]);
@@ -133,14 +126,7 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
     if (!needed && !koksma__json_has(node, key)) {
         return KOKSMA_OK;
     }
-    koksma_status status = open_list(node, key, &list, &length);
-    if (status) {
-        return status;
-    }
-    *items = calloc(length, item_size);
-    if (!*items) {
-        return koksma__fail_memory(length * item_size);
-    }
+    koksma_status status = open_list(node, key, item_size, &list, &length, items);
     while (!status && *n < length) {
         const koksma__json_node item = koksma__json_item(&list, *n);
         status = parser(&item, trials, (char *)*items + (*n)++ * item_size);
