@@ -250,7 +250,7 @@ static void pairs_and_merging_equal_the_formula(void **state)
         assert_ok(koksma__l2_by_pairs(&koksma__l2_rows[kind], &p, NULL, &square));
         assert_near(square, expected, bound);
         if (dim <= 2) {
-            assert_ok(koksma__l2_by_merging(&koksma__l2_rows[kind], &p, NULL, &square));
+            assert_ok(koksma__l2_by_sorting(&koksma__l2_rows[kind], &p, NULL, &square));
             assert_near(square, expected, bound);
         }
         koksma_points_fini(&p);

@@ -10,7 +10,7 @@
 #include "kernels/kernels.h"
 #include "measures/parts/double_double.h"
 
-enum { MERGE_FROM = 256, ROWS_PER_BLOCK = 128 };
+enum { SORT_FROM = 256, ROWS_PER_BLOCK = 128 };
 
 const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS] = {
     /* 1 - max(u, v) */
@@ -151,8 +151,8 @@ static bool divides(const koksma__l2_row *row, const koksma_points *points)
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const koksma__l2_row *row = &koksma__l2_rows[kind];
-    const bool merge = points->dim <= 2 && points->n >= MERGE_FROM && points->n < (size_t)1 << 28;
-    const koksma_status status = (merge                  ? koksma__l2_by_merging
+    const bool sort = points->dim <= 2 && points->n >= SORT_FROM && points->n < (size_t)1 << 28;
+    const koksma_status status = (sort                   ? koksma__l2_by_sorting
                                   : divides(row, points) ? koksma__l2_by_dividing
                                                          : koksma__l2_by_pairs)(row, points, run, &out->square);
     out->square = fmax(out->square, 0);

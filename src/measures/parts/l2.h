@@ -54,10 +54,11 @@ koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim
    Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* The two ways by themselves; tests compare them. */
+/* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
+   coefficients of a24 and g but the first, and r. */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                   double *square);
-koksma_status koksma__l2_by_merging(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square);
 /* The number of products that make up the kernel where the order of its arguments is known: 1 to 3. */
 int koksma__l2_ranks(const koksma__l2_row *row);
