@@ -7,7 +7,7 @@
 #include "core/points_io.h"
 #include "core/status.h"
 
-enum { MAX_HEADER = 4096 };
+enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 2048 };
 
 typedef struct layout {
     size_t n, dim;
@@ -120,22 +120,35 @@ static double decode(const unsigned char *bytes, const layout *l)
     return x;
 }
 
+/* Number `item` of the file into its place. */
+static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
+{
+    if (!(x >= 0 && x <= 1)) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name, item, x);
+    }
+    const size_t place = l->fortran_order ? item % l->n * l->dim + item / l->n : item;
+    points->xs[place] = x == 0 ? 0.0 : x;
+    return KOKSMA_OK;
+}
+
 static koksma_status read_items(FILE *stream, const char *name, const layout *l, koksma_points *points)
 {
-    for (size_t item = 0; item < l->n * l->dim; item++) {
-        unsigned char bytes[8];
-        if (fread(bytes, 1, l->item_size, stream) != l->item_size) {
+    unsigned char bytes[8 * ITEMS_AT_ONCE];
+    const size_t n_items = l->n * l->dim;
+    for (size_t first = 0; first < n_items; first += ITEMS_AT_ONCE) {
+        const size_t wanted = n_items - first < ITEMS_AT_ONCE ? n_items - first : ITEMS_AT_ONCE;
+        const size_t got = fread(bytes, l->item_size, wanted, stream);
+        for (size_t i = 0; i < got; i++) {
+            const koksma_status status = put_item(name, l, first + i, decode(bytes + i * l->item_size, l), points);
+            if (status) {
+                return status;
+            }
+        }
+        if (got < wanted) {
             return koksma__fail(KOKSMA_MALFORMED,
                                 "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
-                                item, l->n, l->dim);
+                                first + got, l->n, l->dim);
         }
-        const double x = decode(bytes, l);
-        if (!(x >= 0 && x <= 1)) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name, item, x);
-        }
-        const size_t i = l->fortran_order ? item % l->n : item / l->dim;
-        const size_t k = l->fortran_order ? item / l->n : item % l->dim;
-        points->xs[i * l->dim + k] = x == 0 ? 0.0 : x;
     }
     if (getc(stream) != EOF) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: the file goes on after the %zu points of dim %zu that it claims",

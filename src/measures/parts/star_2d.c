@@ -11,7 +11,7 @@
 #include "measures/parts/order.h"
 #include "measures/parts/star.h"
 
-enum { CROSSOVER = 2000 };
+enum { CROSSOVER = 2000, POINTS_PER_BLOCK = 1 << 15 };
 
 void koksma__star_keep(const koksma_points *points, const double *corner, bool closed, koksma_value *out)
 {
@@ -71,27 +71,49 @@ static double best_y(size_t n, const sweep *s, size_t at, bool closed)
     return s->y[best_j];
 }
 
+typedef struct preparation {
+    const koksma_points *points;
+    sweep *s;
+} preparation;
+
+static size_t end_of(const preparation *p, size_t block)
+{
+    const size_t end = (block + 1) * POINTS_PER_BLOCK;
+    return end < p->points->n ? end : p->points->n;
+}
+
+/* The order is that of y. Ranks are noted by index, until the order is that of x. */
+static koksma_status take_ys(void *context, size_t block)
+{
+    const preparation *p = context;
+    const size_t dim = (size_t)p->points->dim;
+    for (size_t j = block * POINTS_PER_BLOCK; j < end_of(p, block); j++) {
+        const size_t i = dim == 2 ? p->s->order[j] : j;
+        p->s->y[j] = dim == 2 ? p->points->xs[i * dim + 1] : 1;
+        ((uint32_t *)p->s->count)[i] = (uint32_t)j;
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status take_xs(void *context, size_t block)
+{
+    const preparation *p = context;
+    for (size_t i = block * POINTS_PER_BLOCK; i < end_of(p, block); i++) {
+        p->s->x[i] = p->points->xs[p->s->order[i] * (size_t)p->points->dim];
+        p->s->rank[i] = ((uint32_t *)p->s->count)[p->s->order[i]];
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status prepare(const koksma_points *points, const koksma_run *run, sweep *s)
 {
-    const size_t n = points->n, dim = (size_t)points->dim;
-    koksma_status status = KOKSMA_OK;
-    if (dim == 2) {
-        status = koksma__order(run, n, points->xs + 1, dim, s->order);
-    }
-    for (size_t j = 0; j < n && !status; j++) {
-        const size_t i = dim == 2 ? s->order[j] : j;
-        s->y[j] = dim == 2 ? points->xs[i * dim + 1] : 1;
-        ((uint32_t *)s->count)[i] = (uint32_t)j; /* the rank by index, until it is ordered */
-    }
+    const size_t n = points->n, dim = (size_t)points->dim, n_blocks = (n + POINTS_PER_BLOCK - 1) / POINTS_PER_BLOCK;
+    preparation p = {points, s};
+    koksma_status status = dim == 2 ? koksma__order(run, n, points->xs + 1, dim, s->order) : KOKSMA_OK;
+    status = status ? status : koksma__parallel(run, n_blocks, take_ys, &p);
     s->y[n] = 1;
-    if (!status) {
-        status = koksma__order(run, n, points->xs, dim, s->order);
-    }
-    for (size_t i = 0; i < n && !status; i++) {
-        s->x[i] = points->xs[s->order[i] * dim];
-        s->rank[i] = ((uint32_t *)s->count)[s->order[i]];
-    }
-    return status;
+    status = status ? status : koksma__order(run, n, points->xs, dim, s->order);
+    return status ? status : koksma__parallel(run, n_blocks, take_xs, &p);
 }
 
 koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, const koksma_run *run, koksma_value *out)

@@ -15,7 +15,7 @@
 #include "core/status.h"
 #include "measures/parts/star.h"
 
-enum { BLOCK = 16, CHECK_EVERY = 1 << 14 };
+enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 
 typedef struct node {
     double k, b;  /* the winner */
@@ -29,6 +29,22 @@ typedef struct tree {
     double *k, *b;   /* leaves */
     double x;
 } tree;
+
+typedef struct best_box {
+    double value;
+    size_t at;
+} best_box;
+
+/* The excesses and the deficits are walked side by side, and large sets in parts, each with a tree of its own. */
+typedef struct walks {
+    size_t n, n_blocks, parts;
+    const double *x, *y;
+    const uint32_t *rank;
+    const koksma_run *run;
+    pthread_t caller; /* who alone may ask run */
+    atomic_bool stopped;
+    best_box best[2][PARTS];
+} walks;
 
 static inline double at(double k, double b, double x)
 {
@@ -133,14 +149,21 @@ static void add_from(tree *t, size_t from, double amount)
     }
 }
 
-static void start(tree *t, size_t n, const double *y, double sign)
+/* The lines after the first `from` points. */
+static void start(tree *t, const walks *w, size_t from, double sign)
 {
+    const size_t deficit = sign < 0, n_lines = w->n + deficit;
     for (size_t j = 0; j < t->n_blocks * BLOCK; j++) {
-        const bool real = j < n + (sign < 0);
-        t->k[j] = real ? -sign * (double)n * y[j] : 0;
-        t->b[j] = real ? 0 : -(double)INFINITY;
+        t->k[j] = j < n_lines ? -sign * (double)w->n * w->y[j] : 0;
+        t->b[j] = j < n_lines ? 0 : -(double)INFINITY;
     }
-    t->x = 0;
+    for (size_t i = 0; i < from; i++) {
+        t->b[w->rank[i] + deficit] += sign;
+    }
+    for (size_t j = 1; j < n_lines; j++) {
+        t->b[j] += t->b[j - 1];
+    }
+    t->x = from > 0 ? w->x[from] : 0;
     for (size_t v = 2 * t->n_blocks - 1; v > 0; v--) {
         if (v >= t->n_blocks) {
             pull_block(t, v);
@@ -150,18 +173,6 @@ static void start(tree *t, size_t n, const double *y, double sign)
     }
 }
 
-/* The excesses and the deficits are walked side by side, each with a tree of its own. */
-typedef struct walks {
-    size_t n, n_blocks;
-    const double *x, *y;
-    const uint32_t *rank;
-    const koksma_run *run;
-    pthread_t caller; /* who alone may ask run */
-    atomic_bool stopped;
-    double *best;
-    size_t *best_at;
-} walks;
-
 static bool keeps_going(walks *w, double fraction_done)
 {
     if (pthread_equal(pthread_self(), w->caller) && !koksma__keep_going(w->run, fraction_done)) {
@@ -170,14 +181,13 @@ static bool keeps_going(walks *w, double fraction_done)
     return !atomic_load(&w->stopped);
 }
 
-/* sign 1: excess, evaluated after each insertion; -1: deficit, before. */
-static koksma_status walk(walks *w, tree *t, double sign)
+/* From point `from` to `end`. sign 1: excess, evaluated after each insertion; -1: deficit, before. */
+static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
-    const size_t n = w->n, which = sign < 0;
-    w->best[which] = -INFINITY;
-    w->best_at[which] = 0;
-    start(t, n, w->y, sign);
-    for (size_t i = 0; i < n + which; i++) {
+    const size_t n = w->n;
+    *best = (best_box){-INFINITY, from};
+    start(t, w, from, sign);
+    for (size_t i = from; i < end; i++) {
         if (i % CHECK_EVERY == 0 && !keeps_going(w, (double)i / (double)n)) {
             return koksma__fail_interrupted();
         }
@@ -188,9 +198,8 @@ static koksma_status walk(walks *w, tree *t, double sign)
             advance(t, 1);
         }
         const double value = at(t->nodes[1].k, t->nodes[1].b, t->x);
-        if (value > w->best[which]) {
-            w->best[which] = value;
-            w->best_at[which] = i;
+        if (value > best->value) {
+            *best = (best_box){value, i};
         }
         if (sign < 0 && i < n) {
             add_from(t, w->rank[i] + 1, -1);
@@ -203,6 +212,9 @@ static koksma_status walk_one(void *context, size_t block)
 {
     walks *w = context;
     tree t = {.n_blocks = w->n_blocks};
+    const size_t part = block / 2, deficit = block % 2;
+    const size_t from = w->n * part / w->parts,
+                 end = w->n * (part + 1) / w->parts + (deficit && part + 1 == w->parts);
     const size_t bytes = 2 * t.n_blocks * sizeof(node) + 2 * t.n_blocks * BLOCK * sizeof(double);
     t.nodes = malloc(bytes);
     if (!t.nodes) {
@@ -210,7 +222,7 @@ static koksma_status walk_one(void *context, size_t block)
     }
     t.k = (double *)(t.nodes + 2 * t.n_blocks);
     t.b = t.k + t.n_blocks * BLOCK;
-    const koksma_status status = walk(w, &t, block == 0 ? 1 : -1);
+    const koksma_status status = walk(w, &t, from, end, deficit ? -1 : 1, &w->best[deficit][part]);
     free(t.nodes);
     return status;
 }
@@ -220,15 +232,24 @@ koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *ra
 {
     walks w = {.n = n,
                .n_blocks = 1,
+               .parts = n < MANY ? 1 : PARTS,
                .x = x,
                .y = y,
                .rank = rank,
                .run = run,
-               .caller = pthread_self(),
-               .best = best,
-               .best_at = at_best};
+               .caller = pthread_self()};
     while (w.n_blocks * BLOCK < n + 2) {
         w.n_blocks *= 2;
     }
-    return koksma__parallel(run, 2, walk_one, &w);
+    const koksma_status status = koksma__parallel(run, 2 * w.parts, walk_one, &w);
+    for (int deficit = 0; deficit < 2 && !status; deficit++) {
+        best[deficit] = -INFINITY;
+        for (size_t part = 0; part < w.parts; part++) {
+            if (w.best[deficit][part].value > best[deficit]) {
+                best[deficit] = w.best[deficit][part].value;
+                at_best[deficit] = w.best[deficit][part].at;
+            }
+        }
+    }
+    return status;
 }
