@@ -11,8 +11,12 @@
  * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here each point is
  * a pivot, about which a line turns past the others in order of angle: O(n^2 log n). Known exactly: one point
  * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact for
- * all doubles; areas are rounded: errors of a few 1e-16.
+ * all doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half of it to the pivots and what
+ * remains to bounds for intervals of directions (parts/edge_cover.c): the value is then a lower bound, with an upper
+ * one beside it.
  */
+#include <math.h>
+
 #include "measures/measures.h"
 #include "measures/parts/edge_sweep.h"
 #include "measures/parts/lines.h"
@@ -47,10 +51,12 @@ static void try_sides(const koksma_points *points, koksma_value *out)
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    static const koksma__domain square = {koksma__area_below_through, chords_of_square};
+    static const koksma__domain square = {koksma__area_below_through, chords_of_square, M_SQRT1_2};
     const koksma_status status = koksma__edge_sweep(&square, points->n, points->xs, args->run, out);
     if (!status) {
         try_sides(points, out);
+        out->lower = out->value;
+        out->exact = out->exact || out->upper <= out->lower;
     }
     return status;
 }

@@ -4,10 +4,12 @@
 #include "measures/parts/edge_sweep.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "measures/parts/clock.h"
 #include "measures/parts/orientation.h"
 
 enum { PIVOTS_PER_BLOCK = 16, RUN = 8 };
@@ -32,6 +34,8 @@ typedef struct pivots {
     const double *xs;
     size_t n;
     best_line *best; /* one a block */
+    double deadline_s;
+    atomic_bool late; /* pivots were left out */
 } pivots;
 
 /* Turns a direction, given as exact differences, into the upper half-plane. */
@@ -193,7 +197,11 @@ static void try_pivot(const pivots *job, size_t pivot, ray *rays, best_line *bes
 
 static koksma_status try_block(void *context, size_t block)
 {
-    const pivots *job = context;
+    pivots *job = context;
+    job->best[block] = (best_line){.value = -1};
+    if (block > 0 && atomic_load(&job->late)) {
+        return KOKSMA_OK;
+    }
     ray *rays = malloc(2 * job->n * sizeof *rays);
     if (!rays) {
         return koksma__fail_memory(2 * job->n * sizeof *rays);
@@ -201,6 +209,10 @@ static koksma_status try_block(void *context, size_t block)
     const size_t first = block * PIVOTS_PER_BLOCK;
     best_line best = {.value = -1};
     for (size_t pivot = first; pivot < first + PIVOTS_PER_BLOCK && pivot < job->n; pivot++) {
+        if (pivot > 0 && koksma__now_s() > job->deadline_s) { /* the first one always is tried */
+            atomic_store(&job->late, true);
+            break;
+        }
         try_pivot(job, pivot, rays, &best);
     }
     job->best[block] = best;
@@ -242,18 +254,44 @@ static void make_witness(const pivots *job, const best_line *line, koksma_value 
     out->witness = w;
 }
 
+/* After the deadline: a better line among those of the cover, and a bound for all. */
+static koksma_status find_bound(const pivots *job, const koksma_run *run, double deadline_s, koksma_value *out)
+{
+    koksma__edge_line line = {.value = out->value};
+    const koksma_status status =
+        koksma__edge_cover(job->domain, job->n, job->xs, run, deadline_s, &line, &out->upper);
+    if (!status && line.value > out->value) {
+        out->value = line.value;
+        out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_HALF_PLANE,
+                                        .dim = 2,
+                                        .closed = line.closed,
+                                        .count = line.count,
+                                        .volume = line.mass,
+                                        .lo = {line.a, line.b},
+                                        .hi = {line.c}};
+    }
+    out->lower = out->value;
+    out->exact = out->upper <= out->lower;
+    return status;
+}
+
 koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  koksma_value *out)
 {
     const size_t n_blocks = (n + PIVOTS_PER_BLOCK - 1) / PIVOTS_PER_BLOCK;
+    const double end_s = koksma__deadline_s(run, 0.95);
     if (n > UINT32_MAX / 2) {
         return koksma__fail(KOKSMA_N, "edge: n = %zu: fewer than 2^31 points", n);
     }
-    pivots job = {.domain = domain, .xs = xs, .n = n, .best = malloc(n_blocks * sizeof *job.best)};
+    pivots job = {.domain = domain,
+                  .xs = xs,
+                  .n = n,
+                  .best = malloc(n_blocks * sizeof *job.best),
+                  .deadline_s = koksma__deadline_s(run, 0.5)};
     if (!job.best) {
         return koksma__fail_memory(n_blocks * sizeof *job.best);
     }
-    const koksma_status status = koksma__parallel(run, n_blocks, try_block, &job);
+    koksma_status status = koksma__parallel(run, n_blocks, try_block, &job);
     if (!status) {
         best_line best = {.value = -1};
         for (size_t block = 0; block < n_blocks; block++) {
@@ -263,6 +301,7 @@ koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const d
         if (best.value >= 0) {
             make_witness(&job, &best, out);
         }
+        status = atomic_load(&job.late) ? find_bound(&job, run, end_s, out) : KOKSMA_OK;
     }
     free(job.best);
     return status;

@@ -17,11 +17,24 @@ typedef struct koksma__domain {
     double (*area_below_through)(double a, double b, const double p[2]);
     /* the chords that p bisects: there the mass on a side is stationary when a line turns about p */
     void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
+    double radius; /* of a circle about the domain */
 } koksma__domain;
 
-/* The largest |#/n - mass| over half-planes whose line goes through a point, with its witness.
-   Errors: N, MEMORY, INTERRUPTED. */
+/* The half-plane a x + b y <= c, or < c. */
+typedef struct koksma__edge_line {
+    double value, a, b, c, mass;
+    size_t count;
+    bool closed;
+} koksma__edge_line;
+
+/* The largest |#/n - mass| over half-planes whose line goes through a point, with its witness. When run's time limit
+   passes, out is not exact: it holds the best that was found and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
                                  koksma_value *out);
+
+/* Cuts the directions into intervals until the deadline: *upper is a bound for all lines, and *best becomes a line of
+   the middle of an interval where that is better. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__edge_cover(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
+                                 double deadline_s, koksma__edge_line *best, double *upper);
 
 #endif

@@ -174,7 +174,14 @@ static koksma_status store(void *context, size_t block)
 
 koksma_status koksma__order(const koksma_run *run, size_t n, const double *xs, size_t stride, uint32_t *order)
 {
-    sorter s = {.n = n, .stride = stride, .n_blocks = (n + BLOCK - 1) / BLOCK, .xs = xs, .order = order};
+    sorter s = {
+        .n = n, .stride = stride, .n_blocks = n <= BLOCK ? 1 : (n + BLOCK - 1) / BLOCK, .xs = xs, .order = order};
+    if (n <= FEW) {
+        item few[FEW];
+        s.from = few;
+        load(&s, 0);
+        return settle(&s, few, n, order);
+    }
     const int bits = n < MANY ? 8 : 11;
     const size_t bytes = 2 * n * sizeof *s.from + s.n_blocks * sizeof *s.starts;
     s.from = malloc(bytes);

@@ -178,8 +178,8 @@ static double hemisphere_potential(const double *p)
 /* ---- All ---------------------------------------------------------------------------------------------- */
 
 const koksma__domain koksma__domains[2] = {
-    {below_in_disk, chords_of_disk},
-    {below_in_triangle, chords_of_triangle},
+    {below_in_disk, chords_of_disk, 1},
+    {below_in_triangle, chords_of_triangle, M_SQRT1_2},
 };
 
 /* 2 / perimeter: lines that meet a convex domain measure its perimeter, those between two points twice their
