@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Well-known point sets and their values in nine measures, to nine printed decimals, found with an independent
-   implementation in doubles and cross-checked there by brute force or Monte Carlo. */
+   implementation in doubles and cross-checked there by brute force or Monte Carlo. Its own rounding leaves the last
+   digit of three L2 measures open at 4,096 points. At 1,024 it had 0.000837860 for l2-periodic of both Hammersley
+   sets and of Zaremba's; all pairs in 128 bits give 0.00083786054087, as here. */
 #include <string.h>
 
 #include "test.h"
@@ -111,7 +113,7 @@ static const struct {
       0.035148621, 0.020370483}},
     {hammersley,
      1024,
-     {0.004665375, 0.001813240, 0.000402811, 0.000837860, 0.001566325, 0.001759122, 0.001794868, 0.001837093,
+     {0.004665375, 0.001813240, 0.000402811, 0.000837861, 0.001566325, 0.001759122, 0.001794868, 0.001837093,
       0.016601086, 0.006079674}},
     {hammersley,
      4096,
@@ -130,7 +132,7 @@ static const struct {
       0.034179688, 0.020370483}},
     {centred_hammersley,
      1024,
-     {0.004340172, 0.001579088, 0.000402811, 0.000837860, 0.001481701, 0.001733851, 0.001770315, 0.001837093,
+     {0.004340172, 0.001579088, 0.000402811, 0.000837861, 0.001481701, 0.001733851, 0.001770315, 0.001837093,
       0.016357422, 0.006079674}},
     {centred_hammersley,
      4096,
@@ -204,7 +206,7 @@ static const struct {
       0.034505208, 0.021743774}},
     {zaremba,
      1024,
-     {0.003138224, 0.000675254, 0.000402811, 0.000837860, 0.000856750, 0.001478216, 0.001500742, 0.001860184,
+     {0.003138224, 0.000675254, 0.000402811, 0.000837861, 0.000856750, 0.001478216, 0.001500742, 0.001860184,
       0.016275618, 0.006730080}},
     {zaremba,
      4096,
@@ -256,10 +258,9 @@ static void values_are_those_of_the_table(void **state)
             rows[r].point(i, p.n, p.xs + 2 * i);
         }
         for (int m = 0; m < MEASURES; m++) {
-            if (rows[r].values[m] > 0) { /* its own doubles leave the last digit open from 1024 on */
-                const double value = test_measure(measures[m], &p).value, bound = p.n < 1024   ? 5.1e-10
-                                                                                  : p.n < 4096 ? 1.5e-9
-                                                                                               : 4e-9;
+            if (rows[r].values[m] > 0) {
+                const bool open = p.n == 4096 && m >= 2 && m <= 4; /* l2-extreme, -periodic, -centered */
+                const double value = test_measure(measures[m], &p).value, bound = open ? 4e-9 : 5.1e-10;
                 if (!(fabs(value - rows[r].values[m]) <= bound)) {
                     fail_msg("row %zu, n = %zu: %s is %.12f, not %.9f", r, p.n, measures[m], value,
                              rows[r].values[m]);

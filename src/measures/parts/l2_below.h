@@ -12,8 +12,8 @@ typedef struct koksma__l2_point {
     uint32_t at; /* place in x order */
 } koksma__l2_point;
 
-/* sum_i x_i sum_j (y_i - y_j) over the points j before point i in x order and in y order. The n < 2^28 points come in y
-   order; they and as many in `spare` are overwritten. Errors: MEMORY, INTERRUPTED. */
+/* sum_i x_i sum_j (y_i - y_j) over the points j before point i in x order and in y order. The n < 2^28 points come in
+   y order; they and as many in `spare` are overwritten. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_point *points, koksma__l2_point *spare,
                                    koksma__dd *sum);
 
