@@ -6,7 +6,7 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-/* Independent chains hide the multiplier's latency, as many as the registers hold. */
+/* Independent chains hide the multiplier's latency, about as many as the registers hold. */
 enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64 };
 
 typedef struct block {
@@ -21,10 +21,12 @@ static inline lanes64_u splat(uint64_t x)
     return x - (lanes64_u){0};
 }
 
-static inline block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane)
+#define INLINE static inline __attribute__((always_inline)) /* once for each number of chains */
+
+INLINE block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains)
 {
     block s;
-    for (int c = 0; c < CHAINS; c++) {
+    for (int c = 0; c < chains; c++) {
         s.w[0][c] = lanes64_count() + splat(first + (uint64_t)(c * LANES64));
         s.w[1][c] = s.w[0][c] >> 32;
         s.w[2][c] = splat(lane);
@@ -33,7 +35,7 @@ static inline block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint
     lanes64_u k0 = splat((uint32_t)seed), k1 = splat(seed >> 32);
     const lanes64 m0 = (lanes64)splat(0xD2511F53u), m1 = (lanes64)splat(0xCD9E8D57u);
     for (int round = 0; round < 10; round++) {
-        for (int c = 0; c < CHAINS; c++) {
+        for (int c = 0; c < chains; c++) {
             const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)s.w[0][c], m0);
             const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)s.w[2][c], m1);
             s.w[0][c] = (p1 >> 32) ^ s.w[1][c] ^ k0;
@@ -59,50 +61,72 @@ static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 }
 
 /* The pairs of a block, in order. */
-static inline void store_units(const block *r, double *out)
+INLINE void store_units(const block *r, int chains, double *out)
 {
-    for (int c = 0; c < CHAINS; c++, out += 2 * LANES64) {
+    for (int c = 0; c < chains; c++, out += 2 * LANES64) {
         const lanes64_d x = unit(r->w[0][c], r->w[1][c]), y = unit(r->w[2][c], r->w[3][c]);
         lanes64_interleave(x, y, out);
     }
+}
+
+INLINE void units(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains, double *out)
+{
+    const block r = philox(seed, purpose, first, lane, chains);
+    store_units(&r, chains, out);
 }
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
 {
     size_t done = 0;
     for (; done + LANES <= count; done += LANES) {
-        const block r = philox(seed, purpose, first + done, lane);
-        store_units(&r, out + 2 * done);
+        units(seed, purpose, first + done, lane, CHAINS, out + 2 * done);
+    }
+    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
+        units(seed, purpose, first + done, lane, 2, out + 2 * done);
+        done += 2 * LANES64;
+    }
+    for (; done + LANES64 <= count; done += LANES64) {
+        units(seed, purpose, first + done, lane, 1, out + 2 * done);
     }
     if (done < count) {
-        const block r = philox(seed, purpose, first + done, lane);
-        double pairs[2 * LANES];
-        store_units(&r, pairs);
+        double pairs[2 * LANES64];
+        units(seed, purpose, first + done, lane, 1, pairs);
         memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
     }
 }
 
 /* The words of a block, in order; two make a lane. */
-static inline void store_words(const block *r, uint32_t *out)
+INLINE void store_words(const block *r, int chains, uint32_t *out)
 {
     const lanes64_u lower = splat(0xffffffffu);
-    for (int c = 0; c < CHAINS; c++, out += 4 * LANES64) {
+    for (int c = 0; c < chains; c++, out += 4 * LANES64) {
         const lanes64_u x = (r->w[0][c] & lower) | r->w[1][c] << 32, y = (r->w[2][c] & lower) | r->w[3][c] << 32;
         lanes64_interleave((lanes64_d)x, (lanes64_d)y, out);
     }
+}
+
+INLINE void quads(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains, uint32_t *out)
+{
+    const block r = philox(seed, purpose, first, lane, chains);
+    store_words(&r, chains, out);
 }
 
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
 {
     size_t done = 0;
     for (; done + LANES <= count; done += LANES) {
-        const block r = philox(seed, purpose, first + done, lane);
-        store_words(&r, out + 4 * done);
+        quads(seed, purpose, first + done, lane, CHAINS, out + 4 * done);
+    }
+    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
+        quads(seed, purpose, first + done, lane, 2, out + 4 * done);
+        done += 2 * LANES64;
+    }
+    for (; done + LANES64 <= count; done += LANES64) {
+        quads(seed, purpose, first + done, lane, 1, out + 4 * done);
     }
     if (done < count) {
-        const block r = philox(seed, purpose, first + done, lane);
-        uint32_t quads[4 * LANES];
-        store_words(&r, quads);
-        memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
+        uint32_t last[4 * LANES64];
+        quads(seed, purpose, first + done, lane, 1, last);
+        memcpy(out + 4 * done, last, 4 * (count - done) * sizeof *out);
     }
 }

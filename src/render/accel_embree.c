@@ -365,7 +365,7 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
-    *out = (koksma__geometry){e, closest, occlude, light_of, release};
+    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, release};
     if (!e) {
         return koksma__fail_memory(size);
     }

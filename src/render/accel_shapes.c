@@ -134,6 +134,6 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
     }
     s->batch = koksma__batch();
     s->scene = scene;
-    *out = (koksma__geometry){s, closest, occlude, light_of, release};
+    *out = (koksma__geometry){s, &s->all, closest, occlude, light_of, release};
     return KOKSMA_OK;
 }

@@ -72,7 +72,7 @@ typedef struct koksma__batch_shape {
     float half_u, half_v, radius2, inverse_radius;
 } koksma__batch_shape;
 
-/* For closest, shape i has the id i. */
+/* Ids ascend. */
 typedef struct koksma__batch_shapes {
     size_t n;
     const koksma__batch_shape *shapes;

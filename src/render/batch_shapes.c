@@ -209,9 +209,57 @@ static void clear(koksma__hits *hits, int n)
     }
 }
 
+/* Both in one, for a block of rays that start nowhere and can meet nothing else. */
+INLINE int only_flat_in(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
+                        koksma__hits *restrict h, bounds b)
+{
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const int32_t id = s->id, material = s->material;
+    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
+    const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
+    const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
+    const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
+    int count = 0;
+    for (int i = 0; i < STEP(n); i++) {
+        const float ox = r->ox[i], oy = r->oy[i], oz = r->oz[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
+        const float ex = ox - cx, ey = oy - cy, ez = oz - cz, slope = nx * dx + ny * dy + nz * dz;
+        const float t = -(nx * ex + ny * ey + nz * ez) / slope;
+        const float tx = t * dx, ty = t * dy, tz = t * dz;
+        const float hx = ex + tx, hy = ey + ty, hz = ez + tz, px = ox + tx, py = oy + ty, pz = oz + tz;
+        const float u = hx * ux + hy * uy + hz * uz, v = hx * vx + hy * vy + hz * vz;
+        const int hit = (t > 0) & (t < INFINITY) & within(s, u, v, b);
+        const float qx = px - cx, qy = py - cy, qz = pz - cz, side = slope > 0 ? -1.0f : 1.0f;
+        const float pu = qx * ux + qy * uy + qz * uz, pv = qx * vx + qy * vy + qz * vz;
+        h->t[i] = hit ? t : INFINITY;
+        h->px[i] = hit ? px : 0;
+        h->py[i] = hit ? py : 0;
+        h->pz[i] = hit ? pz : 0;
+        h->nx[i] = hit ? side * nx : 0;
+        h->ny[i] = hit ? side * ny : 0;
+        h->nz[i] = hit ? side * nz : 0;
+        h->u[i] = hit ? pu : 0;
+        h->v[i] = hit ? pv : 0;
+        h->back[i] = hit & (slope > 0);
+        h->primitive[i] = hit ? id : -1;
+        h->material[i] = hit ? material : -1;
+        count += hit;
+    }
+    return count;
+}
+
+static int only_flat(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits)
+{
+    return s->kind == KOKSMA__SHAPE_RECTANGLE ? only_flat_in(s, rays, n, hits, IN_RECTANGLE)
+           : s->kind == KOKSMA__SHAPE_DISK    ? only_flat_in(s, rays, n, hits, IN_DISK)
+                                              : only_flat_in(s, rays, n, hits, ENDLESS);
+}
+
 int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *rays, const int32_t *from, int n,
                         koksma__hits *hits)
 {
+    if (shapes->n == 1 && !from && shapes->shapes->kind != KOKSMA__SHAPE_SPHERE) {
+        return only_flat(shapes->shapes, rays, n, hits);
+    }
     for (int i = 0; i < STEP(n); i++) {
         hits->t[i] = INFINITY;
         hits->primitive[i] = -1;
@@ -219,19 +267,16 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     for (size_t k = 0; k < shapes->n; k++) {
         hit_shape(&shapes->shapes[k], rays, from, n, hits);
     }
-    int done = count_hits(hits, -1, n);
+    int done = count_hits(hits, -1, n), count = 0;
     const int hit = STEP(n) - done;
-    if (hit && count_hits(hits, hits->primitive[0], n) == STEP(n)) {
-        finish_shape(&shapes->shapes[hits->primitive[0]], rays, n, hits, true);
-        return hit;
+    if (hit < STEP(n)) {
+        clear(hits, n);
     }
-    clear(hits, n);
-    for (size_t k = 0; k < shapes->n && done < STEP(n); k++) {
-        const int count = count_hits(hits, shapes->shapes[k].id, n);
+    for (size_t k = 0; k < shapes->n && done < STEP(n); k++, done += count) {
+        count = count_hits(hits, shapes->shapes[k].id, n);
         if (count) {
-            finish_shape(&shapes->shapes[k], rays, n, hits, false);
+            finish_shape(&shapes->shapes[k], rays, n, hits, count == STEP(n));
         }
-        done += count;
     }
     return hit;
 }

@@ -15,6 +15,10 @@ typedef struct room {
     koksma__sample_room draw;
     float *places; /* one array a light */
     size_t capacity;
+    /* The shapes that a group may see, and their numbers; of which group. */
+    koksma__batch_shapes shapes;
+    koksma__batch_shape *list;
+    size_t *seen, first, count;
 } room;
 
 bool koksma__direct_can(const koksma__frame *frame)
@@ -37,6 +41,8 @@ static void close_room(void *opened)
     if (r) {
         koksma__sample_room_fini(&r->draw);
         free(r->places);
+        free(r->list);
+        free(r->seen);
         free(r);
     }
 }
@@ -54,12 +60,71 @@ static koksma_status open_room(const koksma__frame *frame, size_t capacity, void
     if (!status && !r->places) {
         status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
     }
+    if (!status && frame->sight) {
+        const size_t n = frame->geometry.shapes->n + 1;
+        r->list = malloc(n * sizeof *r->list);
+        r->seen = malloc(n * sizeof *r->seen);
+        status = r->list && r->seen ? KOKSMA_OK : koksma__fail_memory(n * sizeof *r->list);
+    }
     if (status) {
         close_room(r);
         *out = NULL;
     }
     return status;
 }
+
+/* ---- What a group sees ------------------------------------------------------------------------------------ */
+
+/* The shapes in sight of the group's pixels, as far as the filter moves their samples. */
+static void look(const koksma__frame *f, room *r, const koksma__group *group)
+{
+    if (r->count && r->first == group->first && r->count == group->count) {
+        return;
+    }
+    const double reach = f->filter && !f->options->splat ? f->options->filter->radius : 0;
+    const size_t width = (size_t)f->options->width, column = group->first % width, row = group->first / width;
+    const double x[2] = {(double)column - reach, (double)(column + group->count) + reach};
+    const double y[2] = {(double)row - reach, (double)(row + 1) + reach};
+    const size_t n = koksma__sight_shapes(f->sight, x, y, r->seen);
+    bool same = n == r->shapes.n;
+    for (size_t i = 0; i < n; i++) {
+        const koksma__batch_shape *shape = &f->geometry.shapes->shapes[r->seen[i]];
+        same = same && r->list[i].id == shape->id;
+        if (!same) {
+            r->list[i] = *shape;
+        }
+    }
+    r->shapes = (koksma__batch_shapes){n, r->list};
+    r->first = group->first;
+    r->count = group->count;
+}
+
+static float colour_of_nothing(const koksma__frame *f)
+{
+    const float background = (float)f->scene->background[0], clamp = (float)f->scene->clamp;
+    return background < clamp ? background : clamp;
+}
+
+static bool idle(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
+{
+    room *r = opened;
+    const size_t n = group->start[group->count];
+    if (!f->sight || f->filter || values->albedo || !n) {
+        return false;
+    }
+    look(f, r, group);
+    if (r->shapes.n) {
+        return false;
+    }
+    const float colour = colour_of_nothing(f);
+    for (size_t i = 0; i < n; i++) {
+        values->rgb[i] = colour;
+    }
+    values->rays += n;
+    return true;
+}
+
+/* ---- Samples ------------------------------------------------------------------------------------------------ */
 
 /* The samples of the luminaires are drawn when the first ray of the group hits something. */
 static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, room *r)
@@ -119,19 +184,22 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
 {
     room *r = opened;
     const size_t n_samples = group->start[group->count], total = koksma__whole_lanes(n_samples);
-    const float background = (float)f->scene->background[0], clamp = (float)f->scene->clamp;
     bool drawn = false;
     koksma__rays rays;
     koksma__hits hits;
     koksma_status status = KOKSMA_OK;
     values->rays += n_samples;
+    if (f->sight) {
+        look(f, r, group);
+    }
     for (size_t start = 0; !status && start < total; start += KOKSMA__BLOCK) {
         const int n = (int)(total - start < KOKSMA__BLOCK ? total - start : KOKSMA__BLOCK);
         f->batch->camera(&f->camera, values->film + 2 * start, n, &rays);
-        const int hit = f->geometry.closest(&f->geometry, &rays, NULL, n, &hits);
+        const int hit = f->sight ? f->batch->closest(&r->shapes, &rays, NULL, n, &hits)
+                                 : f->geometry.closest(&f->geometry, &rays, NULL, n, &hits);
         if (!hit && !values->albedo) {
             for (int i = 0; i < n; i++) {
-                values->rgb[start + (size_t)i] = background < clamp ? background : clamp;
+                values->rgb[start + (size_t)i] = colour_of_nothing(f);
             }
             continue;
         }
@@ -147,4 +215,5 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
     return status;
 }
 
-const koksma__pipeline koksma__direct_pipeline = {.open = open_room, .close = close_room, .trace = trace};
+const koksma__pipeline koksma__direct_pipeline = {
+    .open = open_room, .close = close_room, .idle = idle, .trace = trace};

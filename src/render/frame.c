@@ -117,6 +117,9 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
+    if (!status && f->geometry.shapes && koksma__direct_can(f)) {
+        status = koksma__sight_open(&f->camera, f->geometry.shapes, options->width, options->height, &f->sight);
+    }
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }
@@ -131,6 +134,7 @@ void koksma__frame_close(koksma__frame *f)
     if (f->sampler.release) {
         f->sampler.release(&f->sampler);
     }
+    koksma__sight_close(f->sight);
     koksma__filter_close(f->filter);
     koksma__lights_fini(&f->lights);
     free(f->materials);

@@ -14,6 +14,7 @@
 #include "render/intersect.h"
 #include "render/lights.h"
 #include "render/sampler.h"
+#include "render/sight.h"
 
 typedef struct koksma__frame {
     const koksma_scene *scene;
@@ -23,6 +24,7 @@ typedef struct koksma__frame {
     int channels;
     const koksma__batch_table *batch;
     koksma__geometry geometry; /* the scene's own */
+    koksma__sight *sight;      /* NULL: all shapes are tried for every ray */
     koksma__use_list uses;
     koksma__sampler sampler;
     koksma__batch_camera camera;
@@ -57,6 +59,9 @@ typedef struct koksma__pipeline {
     /* A task's room. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **room);
     void (*close)(void *room);
+    /* Whether no ray of the group can meet anything, wherever in the pixels its samples are: then values has their
+       colours, and nothing needs to be drawn or traced. NULL: it is never known. */
+    bool (*idle)(const koksma__frame *frame, void *room, const koksma__group *group, koksma__values *values);
     /* Fills values (film and weights are there). Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *room, const koksma__group *group,
                            koksma__values *values);

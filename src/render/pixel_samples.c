@@ -21,8 +21,8 @@ typedef struct pixel_samples {
     const koksma_render_options *options;
     const koksma__batch_table *batch;
     koksma__use_list uses;
-    /* By use. The points of a deterministic pattern are made once; else NULL. */
-    double *fixed[KOKSMA_N_USES];
+    /* By use. The pairs of a deterministic pattern are made once; else NULL. */
+    float *fixed[KOKSMA_N_USES];
     int dims[KOKSMA_N_USES]; /* of the sets that are generated: 1 where use and pattern have one */
     bool shuffles[KOKSMA_N_USES];
 } pixel_samples;
@@ -49,34 +49,50 @@ static void widen(double *xs, size_t n)
     }
 }
 
+/* A fresh set of a use, plus offset. */
+static koksma_status draw_set(const pixel_samples *samples, uint64_t pixel, uint32_t use, const float offset[2],
+                              koksma__sample_room *room, float *pairs)
+{
+    const koksma_render_options *options = samples->options;
+    const int dims = samples->dims[koksma__use_index(use)];
+    const size_t n = (size_t)options->spp;
+    const koksma_status status =
+        generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n, dims, room->xs);
+    if (status) {
+        return status;
+    }
+    if (dims == 1) {
+        widen(room->xs, n);
+    }
+    samples->batch->place(room->xs, n, offset, pairs);
+    return KOKSMA_OK;
+}
+
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_room *room, float *pairs)
 {
     const pixel_samples *samples = sampler->made;
-    const koksma_render_options *options = samples->options;
     const int u = koksma__use_index(use);
-    const size_t n = (size_t)options->spp;
-    const double *xs = samples->fixed[u];
-    if (!xs) {
-        const koksma_status status =
-            generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n,
-                     samples->dims[u], room->xs);
-        if (status) {
+    const size_t n = (size_t)samples->options->spp;
+    const bool shuffles = use != KOKSMA__USE_PIXEL && samples->shuffles[u];
+    const float *from = samples->fixed[u];
+    if (!from) {
+        const koksma_status status = draw_set(samples, pixel, use, offset, room, shuffles ? room->pairs : pairs);
+        if (status || !shuffles) {
             return status;
         }
-        if (samples->dims[u] == 1) {
-            widen(room->xs, n);
-        }
-        xs = room->xs;
+        from = room->pairs;
     }
-    if (use == KOKSMA__USE_PIXEL || !samples->shuffles[u]) {
-        samples->batch->place(xs, n, offset, pairs);
+    if (!shuffles) {
+        for (size_t i = 0; i < n; i++) {
+            pairs[2 * i] = from[2 * i] + offset[0];
+            pairs[2 * i + 1] = from[2 * i + 1] + offset[1];
+        }
         return KOKSMA_OK;
     }
-    samples->batch->place(xs, n, offset, room->pairs);
-    koksma__kernels()->words(options->seed, KOKSMA__PURPOSE_SHUFFLE, pixel * ((n + 3) / 4), LANE_PAIRING + use,
-                             (n + 3) / 4, room->words);
-    samples->batch->shuffle(room->pairs, room->words, n, pairs);
+    koksma__kernels()->words(samples->options->seed, KOKSMA__PURPOSE_SHUFFLE, pixel * ((n + 3) / 4),
+                             LANE_PAIRING + use, (n + 3) / 4, room->words);
+    samples->batch->shuffle(from, room->words, n, pairs);
     return KOKSMA_OK;
 }
 
@@ -121,24 +137,28 @@ static void release(koksma__sampler *sampler)
 }
 
 /* Draws one set in dims dimensions; *fixed keeps it when the pattern is deterministic. */
-static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, double **fixed)
+static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed)
 {
+    static const float nowhere[2] = {0, 0};
     const size_t n = (size_t)options->spp;
     double *xs = malloc(2 * n * sizeof *xs);
     *fixed = NULL;
     if (!xs) {
         return koksma__fail_memory(2 * n * sizeof *xs);
     }
-    const koksma_status status = generate(spec, options->seed, n, dims, xs);
-    if (status || spec->shift || !(spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC)) {
-        free(xs);
-        return status;
+    koksma_status status = generate(spec, options->seed, n, dims, xs);
+    if (!status && !spec->shift && spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC) {
+        *fixed = malloc(2 * n * sizeof **fixed);
+        status = *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * sizeof **fixed);
+        if (dims == 1) {
+            widen(xs, n);
+        }
+        if (*fixed) {
+            koksma__batch()->place(xs, n, nowhere, *fixed);
+        }
     }
-    if (dims == 1) {
-        widen(xs, n);
-    }
-    *fixed = xs;
-    return KOKSMA_OK;
+    free(xs);
+    return status;
 }
 
 /* A use of one dimension takes a set of one dimension where the pattern has any; not from patterns that keep a
@@ -147,7 +167,7 @@ static koksma_status try_uses(pixel_samples *samples)
 {
     const koksma_render_options *options = samples->options;
     bool tried[3] = {false};
-    double *common[3] = {NULL};
+    float *common[3] = {NULL};
     koksma_status status = KOKSMA_OK;
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const bool own = options->patterns[u].pattern != NULL;

@@ -68,8 +68,12 @@ static void fill_group(const koksma__frame *f, size_t first, size_t end, koksma_
 static koksma_status render_group(job *j, size_t task, const koksma__group *group, room *r)
 {
     const koksma__frame *f = j->frame;
-    koksma_status status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
-    if (!status && group->start[group->count]) {
+    koksma_status status = KOKSMA_OK;
+    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->pipeline, group, &r->values);
+    if (!idle) {
+        status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
+    }
+    if (!status && !idle && group->start[group->count]) {
         koksma__film_place(f, group, &r->values);
         status = j->pipeline->trace(f, r->pipeline, group, &r->values);
     }
