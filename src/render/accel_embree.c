@@ -158,7 +158,14 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
     if (!landed) {
         return count;
     }
-    memset(on.corners, 0, sizeof on.corners);
+    for (int i = 0; i < n; i++) {
+        if (on.primitive[i] >= 0) {
+            fetch_corners(&e->parts[on.primitive[i]], on.triangle[i]);
+        }
+    }
+    if (landed < n) {
+        memset(on.corners, 0, sizeof on.corners);
+    }
     for (int i = 0; i < n; i++) {
         const int32_t number = on.primitive[i]; /* of the part, until set_lane */
         if (number >= 0) {

@@ -36,7 +36,10 @@ static int PACKET(intersect)(const embree *e, const starts *s, const koksma__ray
         const uint32_t instance = packet.hit.instID[0][i], geometry = packet.hit.geomID[i];
         /* RTC_INVALID_GEOMETRY_ID is -1 */
         on->primitive[start + i] = (int32_t)(instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance);
-        landed += geometry != RTC_INVALID_GEOMETRY_ID;
+        if (geometry != RTC_INVALID_GEOMETRY_ID) {
+            fetch_triangle(&e->parts[on->primitive[start + i]], packet.hit.primID[i]);
+            landed++;
+        }
     }
     return landed;
 }

@@ -28,6 +28,22 @@ static inline void place(const part *p, const float v[3], float out[3])
     }
 }
 
+/* Rays leave a large mesh's triangles in no order that the processor could foresee: what a block of them needs is
+   asked for together, before the first of it is used. */
+static inline void fetch_triangle(const part *p, uint32_t triangle)
+{
+    __builtin_prefetch(p->mesh->indices + 3 * (size_t)triangle);
+}
+
+static inline void fetch_corners(const part *p, uint32_t triangle)
+{
+    const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
+    const float *vertices = p->placed ? p->placed : p->mesh->vertices;
+    for (int c = 0; c < 3; c++) {
+        __builtin_prefetch(vertices + 3 * (size_t)index[c]);
+    }
+}
+
 /* Triangle `triangle` of the part at this time, into lane i. */
 static inline void set_lane(const part *p, uint32_t triangle, float time, int i, koksma__landings *l)
 {
