@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Shapes that a part of the film is said not to see are met by none of its rays: places all over random parts,
+   through random cameras (narrow and wide, far from and almost in the plane of a shape, far from the origin), traced
+   with all shapes and with those in sight, to the last bit. */
+#include <string.h>
+
+#include "core/random.h"
+#include "render/sight.h"
+#include "scene/scene.h"
+#include "test.h"
+
+enum { SHAPES = 6, ROUNDS = 300, PARTS = 40, SIDE = 100 };
+
+static uint64_t counter;
+
+static double uniform(double low, double high)
+{
+    double pair[2];
+    koksma__random_pair(5, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
+    return low + (high - low) * pair[0];
+}
+
+static void cross(const float a[3], const float b[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+}
+
+static void unit_vector(float v[3])
+{
+    double w[3], square;
+    do {
+        square = 0;
+        for (int k = 0; k < 3; k++) {
+            w[k] = uniform(-1, 1);
+            square += w[k] * w[k];
+        }
+    } while (!(square > 0.01 && square < 1));
+    for (int k = 0; k < 3; k++) {
+        v[k] = (float)(w[k] / sqrt(square));
+    }
+}
+
+/* An orthonormal frame, but for rounding. */
+static void frame(float n[3], float u[3], float v[3])
+{
+    float other[3], length;
+    unit_vector(n);
+    do {
+        unit_vector(other);
+        cross(n, other, u);
+        length = sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    } while (!(length > 0.1f));
+    for (int k = 0; k < 3; k++) {
+        u[k] /= length;
+    }
+    cross(n, u, v);
+}
+
+static void make_shapes(double offset, koksma__batch_shape list[SHAPES])
+{
+    memset(list, 0, SHAPES * sizeof *list);
+    for (int i = 0; i < SHAPES; i++) {
+        koksma__batch_shape *s = &list[i];
+        const double radius = uniform(0.1, 1.5);
+        s->kind = i % 4;
+        s->id = s->material = i;
+        for (int k = 0; k < 3; k++) {
+            s->centre[k] = (float)(offset + uniform(-4, 4));
+        }
+        frame(s->normal, s->axis_u, s->axis_v);
+        s->half_u = (float)radius;
+        s->half_v = (float)uniform(0.1, 1.5);
+        s->radius2 =
+            s->kind == KOKSMA__SHAPE_DISK || s->kind == KOKSMA__SHAPE_SPHERE ? (float)(radius * radius) : INFINITY;
+        s->inverse_radius = (float)(1 / radius);
+    }
+}
+
+/* height: of the eye over the plane of the second shape, a rectangle; 0: anywhere. */
+static void make_camera(const koksma__batch_shape *list, double offset, double height, koksma__batch_camera *c)
+{
+    float forward[3], right[3], down[3];
+    const double step = 2 * tan(pow(10, uniform(-2.5, 0.1)) / 2) / SIDE;
+    frame(forward, right, down);
+    for (int k = 0; k < 3; k++) {
+        const double on_plane = (double)list[1].centre[k] + 3 * (double)list[1].axis_u[k];
+        c->eye[k] = (float)(height > 0 ? on_plane + height * (double)list[1].normal[k] : offset + uniform(-4, 4));
+        const double ahead = height > 0 ? -(double)list[1].axis_u[k] : (double)forward[k];
+        c->step_x[k] = (float)(step * (double)(height > 0 ? list[1].axis_v[k] : right[k]));
+        c->step_y[k] = (float)(step * (double)(height > 0 ? list[1].normal[k] : down[k]));
+        c->base[k] = (float)(ahead - 0.5 * SIDE * ((double)c->step_x[k] + (double)c->step_y[k]));
+    }
+}
+
+/* Film places: the corners and edges of the part, and inside. */
+static void make_places(const double x[2], const double y[2], float xy[2 * KOKSMA__BLOCK])
+{
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        const double u = i % 8 / 7.0, v = i / 8 / 7.0;
+        const bool edge = i % 8 == 0 || i % 8 == 7 || i / 8 == 0 || i / 8 == 7;
+        xy[2 * i] = (float)(x[0] + (x[1] - x[0]) * (edge ? u : uniform(0, 1)));
+        xy[2 * i + 1] = (float)(y[0] + (y[1] - y[0]) * (edge ? v : uniform(0, 1)));
+    }
+}
+
+static void same_hits(const koksma__hits *a, const koksma__hits *b)
+{
+    const size_t size = sizeof a->t;
+    assert_memory_equal(a->t, b->t, size);
+    assert_memory_equal(a->px, b->px, size);
+    assert_memory_equal(a->py, b->py, size);
+    assert_memory_equal(a->pz, b->pz, size);
+    assert_memory_equal(a->nx, b->nx, size);
+    assert_memory_equal(a->ny, b->ny, size);
+    assert_memory_equal(a->nz, b->nz, size);
+    assert_memory_equal(a->u, b->u, size);
+    assert_memory_equal(a->v, b->v, size);
+    assert_memory_equal(a->back, b->back, size);
+    assert_memory_equal(a->primitive, b->primitive, size);
+    assert_memory_equal(a->material, b->material, size);
+}
+
+/* The numbers of shapes out of sight, and of those that no ray met. */
+typedef struct tally {
+    int hidden, missed;
+} tally;
+
+static void check_part(const koksma__sight *sight, const koksma__batch_camera *camera,
+                       const koksma__batch_shapes *shapes, tally *sum)
+{
+    const koksma__batch_table *batch = koksma__batch();
+    const double side = pow(2, uniform(-3, 5)), left = uniform(0, SIDE - side), top = uniform(0, SIDE - side);
+    const double x[2] = {left, left + side}, y[2] = {top, top + side};
+    _Alignas(64) float xy[2 * KOKSMA__BLOCK];
+    koksma__rays rays;
+    koksma__hits all, some;
+    koksma__batch_shape list[SHAPES];
+    size_t seen[SHAPES];
+    bool met[SHAPES] = {false};
+    make_places(x, y, xy);
+    batch->camera(camera, xy, KOKSMA__BLOCK, &rays);
+    const size_t n = koksma__sight_shapes(sight, x, y, seen);
+    for (size_t i = 0; i < n; i++) {
+        list[i] = shapes->shapes[seen[i]];
+    }
+    const koksma__batch_shapes in_sight = {n, list};
+    const int hit = batch->closest(shapes, &rays, NULL, KOKSMA__BLOCK, &all);
+    assert_int_equal(batch->closest(&in_sight, &rays, NULL, KOKSMA__BLOCK, &some), hit);
+    same_hits(&all, &some);
+    /* One by one, too: a shape that stands behind another must not be forgotten. */
+    for (size_t k = 0; k < SHAPES; k++) {
+        const koksma__batch_shapes one = {1, &shapes->shapes[k]};
+        met[k] = batch->closest(&one, &rays, NULL, KOKSMA__BLOCK, &some) > 0;
+        bool is_seen = false;
+        for (size_t i = 0; i < n; i++) {
+            is_seen |= seen[i] == k;
+        }
+        assert_true(is_seen || !met[k]);
+        sum->missed += !met[k];
+    }
+    sum->hidden += SHAPES - (int)n;
+}
+
+static void try_worlds(double offset, double height, tally *sum)
+{
+    for (int round = 0; round < ROUNDS; round++) {
+        koksma__batch_shape list[SHAPES];
+        koksma__batch_camera camera;
+        koksma__sight *sight;
+        make_shapes(offset, list);
+        make_camera(list, offset, height, &camera);
+        const koksma__batch_shapes shapes = {SHAPES, list};
+        assert_ok(koksma__sight_open(&camera, &shapes, SIDE, SIDE, &sight));
+        for (int i = 0; i < PARTS; i++) {
+            check_part(sight, &camera, &shapes, sum);
+        }
+        koksma__sight_close(sight);
+    }
+}
+
+static void hidden_shapes_are_not_met(void **state)
+{
+    (void)state;
+    tally near = {0}, far = {0};
+    try_worlds(0, 0, &near);
+    try_worlds(1000, 0, &far);
+    /* and most of what no ray meets is known beforehand */
+    assert_true(near.hidden > near.missed * 9 / 10);
+    assert_true(far.hidden > far.missed / 2); /* fewer, where a narrow camera stands far from the origin */
+}
+
+/* Grazing: where rounding moves places by more than a shape's size. */
+static void grazing_shapes_are_not_forgotten(void **state)
+{
+    (void)state;
+    tally sum = {0};
+    for (double height = 1e-1; height > 1e-8; height /= 10) {
+        try_worlds(0, height, &sum);
+    }
+    assert_true(sum.hidden > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hidden_shapes_are_not_met),
+        cmocka_unit_test(grazing_shapes_are_not_forgotten),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
