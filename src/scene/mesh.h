@@ -69,6 +69,11 @@ koksma_status koksma__gltf_read(const char *path, const unsigned char *file, siz
 koksma_status koksma__off_check(const char *path, const unsigned char *file, size_t size);
 koksma_status koksma__ply_check(const char *path, const unsigned char *file, size_t size);
 
+/* Whether an OBJ file's numbers are finite and its corners name vertices that are there; whether a material file is
+   text. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__obj_check(const char *path, const unsigned char *file, size_t size);
+koksma_status koksma__mtl_check(const char *path, const unsigned char *file, size_t size);
+
 /* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */

@@ -130,18 +130,37 @@ static bool is_plain(const char *path)
     return !stat(path, &about) && S_ISREG(about.st_mode);
 }
 
-/* io->UserData: a sum of the hashes of all that is read, materials' files too. */
+/* What assimp took: a sum of the hashes of all files, materials' too, and what was wrong with one of these. */
+typedef struct taken {
+    uint64_t hash;
+    koksma_status status;
+} taken;
+
+static bool ends_in(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), end = strlen(ending);
+    return length >= end && !strcmp(path + length - end, ending);
+}
+
+/* io->UserData: taken. */
 static struct aiFile *open_proc(struct aiFileIO *io, const char *path, const char *mode)
 {
+    taken *all = (taken *)(void *)io->UserData;
     open_file *f = strchr(mode, 'r') && is_plain(path) ? calloc(1, sizeof *f) : NULL;
     if (f && koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &f->bytes, &f->size)) {
+        free(f);
+        f = NULL;
+    }
+    if (f && ends_in(path, ".mtl") && koksma__mtl_check(path, f->bytes, f->size)) {
+        all->status = KOKSMA_MALFORMED;
+        free(f->bytes);
         free(f);
         f = NULL;
     }
     if (!f) {
         return NULL;
     }
-    *(uint64_t *)(void *)io->UserData += koksma__hash(f->bytes, f->size);
+    all->hash += koksma__hash(f->bytes, f->size);
     f->file = (struct aiFile){.ReadProc = file_read,
                               .WriteProc = file_write,
                               .TellProc = file_tell,
@@ -175,9 +194,11 @@ static koksma_status look_first(const char *path, koksma__gltf *gltf)
         status = koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
     } else if (strstr(strrchr(path, '.'), ".gl")) {
         status = koksma__gltf_read(path, bytes, size, gltf);
-    } else if (!strcmp(strrchr(path, '.'), ".off")) {
+    } else if (ends_in(path, ".obj")) {
+        status = koksma__obj_check(path, bytes, size);
+    } else if (ends_in(path, ".off")) {
         status = koksma__off_check(path, bytes, size);
-    } else if (!strcmp(strrchr(path, '.'), ".ply")) {
+    } else if (ends_in(path, ".ply")) {
         status = koksma__ply_check(path, bytes, size);
     }
     free(bytes);
@@ -188,8 +209,8 @@ static koksma_status look_first(const char *path, koksma__gltf *gltf)
    that it took. */
 static koksma_status import(const char *path, koksma__gltf *gltf, const struct aiScene **out, uint64_t *hash)
 {
-    struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)hash};
-    *hash = 0;
+    taken all = {0};
+    struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)&all};
     gltf->yfov_rad = 0;
     for (int i = 0; i < KOKSMA__GLTF_MATERIALS; i++) {
         gltf->strengths[i] = 1;
@@ -209,6 +230,12 @@ static koksma_status import(const char *path, koksma__gltf *gltf, const struct a
         return status;
     }
     *out = aiImportFileEx(path, 0, &io);
+    *hash = all.hash;
+    if (all.status) { /* its text is still there */
+        aiReleaseImport(*out);
+        *out = NULL;
+        return all.status;
+    }
     if (!*out) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, aiGetErrorString());
     }
