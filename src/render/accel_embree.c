@@ -158,11 +158,7 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
     if (!landed) {
         return count;
     }
-    for (int i = 0; i < n; i++) {
-        if (on.primitive[i] >= 0) {
-            fetch_corners(&e->parts[on.primitive[i]], on.triangle[i]);
-        }
-    }
+    fetch_landings(e->parts, &on, n);
     if (landed < n) {
         memset(on.corners, 0, sizeof on.corners);
     }

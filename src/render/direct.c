@@ -82,9 +82,12 @@ static void look(const koksma__frame *f, room *r, const koksma__group *group)
         return;
     }
     const double reach = f->filter && !f->options->splat ? f->options->filter->radius : 0;
-    const size_t width = (size_t)f->options->width, column = group->first % width, row = group->first / width;
-    const double x[2] = {(double)column - reach, (double)(column + group->count) + reach};
-    const double y[2] = {(double)row - reach, (double)(row + 1) + reach};
+    const size_t width = (size_t)f->options->width, last = group->first + group->count - 1;
+    const size_t row = group->first / width, end_row = last / width + 1;
+    const size_t column = row + 1 == end_row ? group->first % width : 0;
+    const size_t end_column = row + 1 == end_row ? last % width + 1 : width;
+    const double x[2] = {(double)column - reach, (double)end_column + reach};
+    const double y[2] = {(double)row - reach, (double)end_row + reach};
     const size_t n = koksma__sight_shapes(f->sight, x, y, r->seen);
     bool same = n == r->shapes.n;
     for (size_t i = 0; i < n; i++) {

@@ -44,6 +44,16 @@ static inline void fetch_corners(const part *p, uint32_t triangle)
     }
 }
 
+/* l->primitive: numbers of parts, -1: none. */
+static inline void fetch_landings(const part *parts, const koksma__landings *l, int n)
+{
+    for (int i = 0; i < n; i++) {
+        if (l->primitive[i] >= 0) {
+            fetch_corners(&parts[l->primitive[i]], l->triangle[i]);
+        }
+    }
+}
+
 /* Triangle `triangle` of the part at this time, into lane i. */
 static inline void set_lane(const part *p, uint32_t triangle, float time, int i, koksma__landings *l)
 {
