@@ -268,6 +268,22 @@ static bool find(const field *from, const char *const keys[], field *out)
     return true;
 }
 
+/* A reader that lacks one of these must not show the file (glTF 2.0, section 3.12). */
+static koksma_status check_extension(const lists *l, const field *item)
+{
+    static const char *const known[] = {"KHR_draco_mesh_compression", "KHR_lights_punctual",
+                                        "KHR_materials_emissive_strength"};
+    const char *name;
+    (void)l;
+    const koksma_status status = koksma__json_text(item, &name);
+    for (size_t i = 0; !status && i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(name, known[i])) {
+            return KOKSMA_OK;
+        }
+    }
+    return status ? status : koksma__json_fail(item, "the file requires extension '%s', which is not read", name);
+}
+
 /* What is not there leaves *out as it is. */
 static koksma_status read_facts(const field *root, koksma__gltf *out)
 {
@@ -282,6 +298,9 @@ static koksma_status read_facts(const field *root, koksma__gltf *out)
             status = koksma__json_get_number(&found, "yfov", true, 0, M_PI, &out->yfov_rad);
         }
     }
+    status = status ? status : open_list(root, "animations", &list, &out->n_animations);
+    status = status ? status : open_list(root, "skins", &list, &out->n_skins);
+    status = status ? status : each(NULL, root, "extensionsRequired", check_extension);
     status = status ? status : open_list(root, "materials", &list, &n);
     for (size_t i = 0; !status && i < n && i < KOKSMA__GLTF_MATERIALS; i++) {
         const field material = koksma__json_item(&list, i);

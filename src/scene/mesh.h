@@ -57,6 +57,7 @@ enum { KOKSMA__GLTF_MATERIALS = 1024 };
 typedef struct koksma__gltf {
     double yfov_rad;                          /* of the first camera; 0: it has no perspective */
     double strengths[KOKSMA__GLTF_MATERIALS]; /* of emission, by material (KHR_materials_emissive_strength) */
+    size_t n_animations, n_skins;             /* which are not read */
 } koksma__gltf;
 
 /* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */

@@ -212,6 +212,7 @@ static koksma_status import(const char *path, koksma__gltf *gltf, const struct a
     taken all = {0};
     struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)&all};
     gltf->yfov_rad = 0;
+    gltf->n_animations = gltf->n_skins = 0;
     for (int i = 0; i < KOKSMA__GLTF_MATERIALS; i++) {
         gltf->strengths[i] = 1;
     }
@@ -650,6 +651,8 @@ koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *ha
     builder b = {.scene = scene, .path = path};
     koksma_status status = import(path, &b.gltf, &b.from, &scene->hash);
     if (!status) {
+        scene->n_animations = b.gltf.n_animations;
+        scene->n_skins = b.gltf.n_skins;
         status = build(&b, has_camera);
         free(b.meshes);
         free(b.glows);

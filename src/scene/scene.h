@@ -107,9 +107,10 @@ struct koksma_scene {
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements, shape_room;
-    bool grey;     /* no colour in it: images have one channel */
-    bool moves;    /* something depends on time */
-    bool is_model; /* a bare mesh file: nobody wrote its materials for this program */
+    bool grey;                    /* no colour in it: images have one channel */
+    bool moves;                   /* something depends on time */
+    bool is_model;                /* a bare mesh file: nobody wrote its materials for this program */
+    size_t n_animations, n_skins; /* that it has, and that are not read */
     koksma__kept *kept;
 };
 

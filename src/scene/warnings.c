@@ -78,6 +78,15 @@ bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_
         snprintf(text, size, "no shapes");
         return true;
     }
+    if (scene->n_animations && here(&a)) {
+        snprintf(text, size, "animations (%zu) are not read: everything stays where its node puts it",
+                 scene->n_animations);
+        return true;
+    }
+    if (scene->n_skins && here(&a)) {
+        snprintf(text, size, "skins (%zu) are not read: their meshes stand as they were modelled", scene->n_skins);
+        return true;
+    }
     return of_meshes(scene, &a) || of_lights(scene, &a);
 }
 

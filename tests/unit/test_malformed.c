@@ -87,6 +87,8 @@ static const struct {
     {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]"),
      "has a parent"},
     {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [7]}]"), "not in 0 to 0"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH "," NODE ", \"extensionsRequired\": [\"EXT_none\"]"),
+     "extension 'EXT_none'"},
     {"a.glb", "glTF\2", "cut short"},
     {"a.glb", "glTF\2...\377\377\377\377\377\377\377\377JSON", ""},
     /* OBJ */
