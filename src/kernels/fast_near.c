@@ -129,23 +129,26 @@ unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least)
 {
-    enum { LANES = 16 };
+    enum { CHAINS = 4, LANES = CHAINS * LANES64 };
     for (size_t first = 0; first < count; first += LANES) {
         const size_t some = count - first < LANES ? count - first : LANES;
-        double x[LANES] = {0}, y[LANES] = {0}, best[LANES];
-        for (size_t l = 0; l < LANES; l++) {
-            best[l] = 1;
-        }
-        for (size_t l = 0; l < some; l++) {
-            x[l] = scale * pairs[2 * (first + l)];
-            y[l] = scale * pairs[2 * (first + l) + 1];
+        double own[2 * LANES] = {0}, found[LANES];
+        lanes64_d x[CHAINS], y[CHAINS], best[CHAINS];
+        memcpy(own, pairs + 2 * first, 2 * some * sizeof *own);
+        for (int c = 0; c < CHAINS; c++) {
+            for (int l = 0; l < LANES64; l++) {
+                x[c][l] = scale * own[2 * (c * LANES64 + l)];
+                y[c][l] = scale * own[2 * (c * LANES64 + l) + 1];
+            }
+            best[c] = splat(1);
         }
         for (size_t j = 0; j < near; j++) {
-            for (size_t l = 0; l < LANES; l++) {
-                const double a = dx[j] - x[l], b = dy[j] - y[l], square = a * a + b * b;
-                best[l] = square < best[l] ? square : best[l];
+            for (int c = 0; c < CHAINS; c++) {
+                const lanes64_d a = splat(dx[j]) - x[c], b = splat(dy[j]) - y[c];
+                best[c] = lanes64_min(a * a + b * b, best[c]);
             }
         }
-        memcpy(least + first, best, some * sizeof *best);
+        memcpy(found, best, sizeof found);
+        memcpy(least + first, found, some * sizeof *found);
     }
 }

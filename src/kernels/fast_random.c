@@ -9,8 +9,9 @@
 /* Independent chains hide the multiplier's latency, as many as the registers hold. */
 enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64 };
 
+/* Lanes are in the order of lanes64_count_pairs; their upper halves are garbage. */
 typedef struct block {
-    lanes64_u w[4][CHAINS]; /* the upper halves of the lanes are garbage */
+    lanes64_u w[4][CHAINS];
 } block;
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
@@ -21,88 +22,155 @@ static inline lanes64_u splat(uint64_t x)
     return x - (lanes64_u){0};
 }
 
-static inline block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane)
+/* What counters share that differ in the lowest word only: that round 0 makes w[0] and w[1] the same for all, and
+   round 1 w[3] and what w[2] is xored with. The keys of the other rounds; in memory they take no instruction. */
+typedef struct stream {
+    lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[8][2];
+} stream;
+
+static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
+
+/* Not inlined: compilers would make the vectors anew in each round. */
+static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
+                                                  stream *out)
 {
-    block s;
-    for (int c = 0; c < CHAINS; c++) {
-        s.w[0][c] = lanes64_count() + splat(first + (uint64_t)(c * LANES64));
-        s.w[1][c] = s.w[0][c] >> 32;
-        s.w[2][c] = splat(lane);
-        s.w[3][c] = splat(purpose);
+    uint32_t k0 = (uint32_t)seed, k1 = (uint32_t)(seed >> 32);
+    const uint64_t p1 = (uint64_t)lane * multiplier[1];
+    const uint32_t w0 = (uint32_t)(p1 >> 32) ^ high ^ k0, w1 = (uint32_t)p1;
+    out->w2_of_0 = splat(purpose ^ k1);
+    k0 += weyl[0];
+    k1 += weyl[1];
+    const uint64_t p0 = (uint64_t)w0 * multiplier[0];
+    out->w0_of_1 = splat(w1 ^ k0);
+    out->w2_of_1 = splat((uint32_t)(p0 >> 32) ^ k1);
+    out->w3_of_1 = splat((uint32_t)p0);
+    for (int round = 0; round < 8; round++) {
+        out->keys[round][0] = splat(k0 += weyl[0]);
+        out->keys[round][1] = splat(k1 += weyl[1]);
     }
-    lanes64_u k0 = splat((uint32_t)seed), k1 = splat(seed >> 32);
-    const lanes64 m0 = (lanes64)splat(0xD2511F53u), m1 = (lanes64)splat(0xCD9E8D57u);
-    for (int round = 0; round < 10; round++) {
-        for (int c = 0; c < CHAINS; c++) {
-            const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)s.w[0][c], m0);
-            const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)s.w[2][c], m1);
-            s.w[0][c] = (p1 >> 32) ^ s.w[1][c] ^ k0;
-            s.w[1][c] = p1;
-            s.w[2][c] = (p0 >> 32) ^ s.w[3][c] ^ k1;
-            s.w[3][c] = p0;
-        }
-        k0 += splat(0x9E3779B9u);
-        k1 += splat(0xBB67AE85u);
-    }
-    return s;
 }
 
-/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. Integers below 2^52 become
-   doubles by way of the mantissa of 2^52. */
+static inline __attribute__((always_inline)) block philox(const stream *s, uint64_t first)
+{
+    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    block b;
+    for (int c = 0; c < CHAINS; c++) {
+        const lanes64_u counter = lanes64_count_pairs() + splat(first + (uint64_t)(c * LANES64));
+        const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)counter, m0);
+        const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)((p0 >> 32) ^ s->w2_of_0), m1);
+        b.w[0][c] = (p1 >> 32) ^ s->w0_of_1;
+        b.w[1][c] = p1;
+        b.w[2][c] = p0 ^ s->w2_of_1;
+        b.w[3][c] = s->w3_of_1;
+    }
+    for (int round = 0; round < 8; round++) {
+        for (int c = 0; c < CHAINS; c++) {
+            const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)b.w[0][c], m0);
+            const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)b.w[2][c], m1);
+            b.w[0][c] = (p1 >> 32) ^ (b.w[1][c] ^ s->keys[round][0]);
+            b.w[1][c] = p1;
+            b.w[2][c] = (p0 >> 32) ^ (b.w[3][c] ^ s->keys[round][1]);
+            b.w[3][c] = p0;
+        }
+    }
+    return b;
+}
+
+typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
+
+/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. 2^20 + high 2^-32 and
+   1/2 + (low / 2^11) 2^-53 have these numbers as the lower bits of their mantissas. */
 static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 {
-    const lanes64_u exponent = splat(0x4330000000000000u);
-    const lanes64_d offset = (lanes64_d)exponent;
-    const lanes64_d h = (lanes64_d)((high & splat(0xffffffffu)) | exponent) - offset;
-    const lanes64_d l = (lanes64_d)(((low & splat(0xffffffffu)) >> 11) | exponent) - offset;
-    return h * 0x1p-32 + l * 0x1p-53;
+    const lanes64_u upper = splat(0x4130000000000000u), lower = splat(0x3fe0000000000000u);
+    const lanes64_d h = (lanes64_d)lanes64_halves(high, upper) - 0x1p20;
+    const lanes64_d l = (lanes64_d)lanes64_halves((lanes64_u)((words_of_lanes)low >> 11), lower) - 0x1p-1;
+    return h + l;
 }
 
 /* The pairs of a block, in order. */
-static inline void store_units(const block *r, double *out)
+static inline void store_units(const block *b, double *out)
 {
     for (int c = 0; c < CHAINS; c++, out += 2 * LANES64) {
-        const lanes64_d x = unit(r->w[0][c], r->w[1][c]), y = unit(r->w[2][c], r->w[3][c]);
-        lanes64_interleave(x, y, out);
+        lanes64_d low, high;
+        lanes64_pairs(unit(b->w[0][c], b->w[1][c]), unit(b->w[2][c], b->w[3][c]), &low, &high);
+        memcpy(out, &low, sizeof low);
+        memcpy(out + LANES64, &high, sizeof high);
+    }
+}
+
+/* The words of a block, in order; two make a lane. */
+static inline void store_words(const block *b, uint32_t *out)
+{
+    for (int c = 0; c < CHAINS; c++, out += 4 * LANES64) {
+        const lanes64_u x = lanes64_halves(b->w[0][c], b->w[1][c] << 32);
+        const lanes64_u y = lanes64_halves(b->w[2][c], b->w[3][c] << 32);
+        lanes64_d low, high;
+        lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
+        memcpy(out, &low, sizeof low);
+        memcpy(out + 2 * LANES64, &high, sizeof high);
+    }
+}
+
+/* The numbers below `first` + count of the counters from it on that share the second word. */
+static size_t share(uint64_t first, size_t count)
+{
+    const uint64_t left = ((uint64_t)1 << 32) - (uint32_t)first;
+    return count < left ? count : (size_t)left;
+}
+
+static void uniform(const stream *s, uint64_t first, size_t count, double *out)
+{
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
+        const block b = philox(s, first + done);
+        store_units(&b, out + 2 * done);
+    }
+    if (done < count) {
+        const block b = philox(s, first + done);
+        double pairs[2 * LANES];
+        store_units(&b, pairs);
+        memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
     }
 }
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
 {
-    size_t done = 0;
-    for (; done + LANES <= count; done += LANES) {
-        const block r = philox(seed, purpose, first + done, lane);
-        store_units(&r, out + 2 * done);
-    }
-    if (done < count) {
-        const block r = philox(seed, purpose, first + done, lane);
-        double pairs[2 * LANES];
-        store_units(&r, pairs);
-        memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
+    while (count) {
+        const size_t some = share(first, count);
+        stream s;
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
+        uniform(&s, first, some, out);
+        first += some;
+        count -= some;
+        out += 2 * some;
     }
 }
 
-/* The words of a block, in order; two make a lane. */
-static inline void store_words(const block *r, uint32_t *out)
+static void words(const stream *s, uint64_t first, size_t count, uint32_t *out)
 {
-    const lanes64_u lower = splat(0xffffffffu);
-    for (int c = 0; c < CHAINS; c++, out += 4 * LANES64) {
-        const lanes64_u x = (r->w[0][c] & lower) | r->w[1][c] << 32, y = (r->w[2][c] & lower) | r->w[3][c] << 32;
-        lanes64_interleave((lanes64_d)x, (lanes64_d)y, out);
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
+        const block b = philox(s, first + done);
+        store_words(&b, out + 4 * done);
+    }
+    if (done < count) {
+        const block b = philox(s, first + done);
+        uint32_t quads[4 * LANES];
+        store_words(&b, quads);
+        memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
     }
 }
 
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
 {
-    size_t done = 0;
-    for (; done + LANES <= count; done += LANES) {
-        const block r = philox(seed, purpose, first + done, lane);
-        store_words(&r, out + 4 * done);
-    }
-    if (done < count) {
-        const block r = philox(seed, purpose, first + done, lane);
-        uint32_t quads[4 * LANES];
-        store_words(&r, quads);
-        memcpy(out + 4 * done, quads, 4 * (count - done) * sizeof *out);
+    while (count) {
+        const size_t some = share(first, count);
+        stream s;
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
+        words(&s, first, some, out);
+        first += some;
+        count -= some;
+        out += 4 * some;
     }
 }

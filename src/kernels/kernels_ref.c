@@ -160,6 +160,17 @@ void KERNEL_NAME(digital)(size_t count, const uint32_t *directions, uint32_t sta
     }
 }
 
+void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
+                               bool stream, double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[i * (size_t)dim + c] = ldexp(starts[c] ^ sum_of_directions((uint32_t)i, directions[c]), -32);
+        }
+    }
+}
+
 void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
                             uint32_t *out)
 {

@@ -57,6 +57,43 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
+/* 0 .. LANES64 - 1 in the order in which lanes64_pairs takes its lanes. */
+static inline lanes64_u lanes64_count_pairs(void)
+{
+#if defined(__AVX512F__)
+    return (lanes64_u){0, 4, 1, 5, 2, 6, 3, 7};
+#elif defined(__AVX2__)
+    return (lanes64_u){0, 2, 1, 3};
+#else
+    return (lanes64_u){0, 1};
+#endif
+}
+
+/* low, high = x[0], y[0], x[1], y[1], ..., of lanes in that order: one instruction each. */
+static inline void lanes64_pairs(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
+{
+#if defined(__AVX512F__)
+    *low = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14);
+    *high = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+#elif defined(__AVX2__)
+    *low = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+    *high = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+#else
+    *low = __builtin_shufflevector(x, y, 0, 2);
+    *high = __builtin_shufflevector(x, y, 1, 3);
+#endif
+}
+
+/* Lanes of the lower half of `low` and the upper half of `high`. */
+static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
+{
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    return (lanes64_u)_mm256_blend_epi32((__m256i)low, (__m256i)high, 0xaa);
+#else
+    return (low & 0xffffffffu) | (high & 0xffffffff00000000u);
+#endif
+}
+
 /* low, high = x[0], y[0], x[1], y[1], ... */
 static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
 {
@@ -79,6 +116,20 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
     lanes64_zip(x, y, &low, &high);
     memcpy(out, &low, sizeof low);
     memcpy((char *)out + sizeof low, &high, sizeof high);
+}
+
+/* The lower of two numbers. */
+static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
+{
+#if defined(__AVX512F__)
+    return (lanes64_d)_mm512_min_pd((__m512d)x, (__m512d)y);
+#elif defined(__AVX2__)
+    return (lanes64_d)_mm256_min_pd((__m256d)x, (__m256d)y);
+#elif defined(__SSE2__)
+    return (lanes64_d)_mm_min_pd((__m128d)x, (__m128d)y);
+#else
+    return (lanes64_d){x[0] < y[0] ? x[0] : y[0], x[1] < y[1] ? x[1] : y[1]};
+#endif
 }
 
 /* Stores a vector; with stream, past the caches, for which `out` is aligned to 16 bytes. */

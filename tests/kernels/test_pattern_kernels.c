@@ -44,12 +44,12 @@ static void assert_equal_to_reference(compare f, size_t most)
 
 static void quotients(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->quotients(count, units, 0.37, 3.1, out);
+    t->quotients(count, units, 0.37, count % 2 ? 0x1p40 : 3.1, out);
 }
 
 static void steps(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->steps(count, 12345678, 0.25, 1234567890, out);
+    t->steps(count, 12345678, 0.25, count % 2 ? 0x1p31 : 1234567890, out);
 }
 
 static void fractions(const koksma__kernel_table *t, size_t count, void *out)
@@ -65,6 +65,23 @@ static void fraction_pairs(const koksma__kernel_table *t, size_t count, void *ou
 static void digital(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->digital(count, koksma__sobol_directions(5, 0), 0x12345678, out);
+}
+
+static void digital_rows(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const int dims[] = {2, 4, 1, 3, 7, 16};
+    const uint32_t *directions[16];
+    for (int c = 0; c < 16; c++) {
+        directions[c] = koksma__sobol_directions(3 * c, 0);
+    }
+    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+        const size_t dim = (size_t)dims[d], some = count * dim <= 1100 ? count : 1100 / dim;
+        double xs[1200] = {0};
+        t->digital_rows(some, dims[d], directions, words, count % 2, xs + count % 3);
+        for (size_t i = 0; i < 1200; i++) {
+            ((double *)out)[i] = ((double *)out)[i] / 3 + xs[i];
+        }
+    }
 }
 
 static void digital_at(const koksma__kernel_table *t, size_t count, void *out)
@@ -162,6 +179,7 @@ TEST(steps, MAX)
 TEST(fractions, MAX)
 TEST(fraction_pairs, MAX)
 TEST(digital, MAX)
+TEST(digital_rows, MAX)
 TEST(digital_at, MAX)
 TEST(owen_hash, MAX)
 TEST(pascal, MAX)
@@ -175,19 +193,13 @@ TEST(rows_of_columns, 150)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),
-        cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),
-        cmocka_unit_test(fraction_pairs_equals_reference),
-        cmocka_unit_test(digital_equals_reference),
-        cmocka_unit_test(digital_at_equals_reference),
-        cmocka_unit_test(owen_hash_equals_reference),
-        cmocka_unit_test(pascal_equals_reference),
-        cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),
-        cmocka_unit_test(cells_as_floats_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference),
-        cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),       cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(digital_equals_reference),         cmocka_unit_test(digital_rows_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),      cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),          cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(covers_equals_reference),          cmocka_unit_test(cells_as_floats_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference),  cmocka_unit_test(rooks_2d_equals_reference),
         cmocka_unit_test(rows_of_columns_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
