@@ -6,8 +6,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out);
 void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs);
 void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
                            double *xs);
@@ -132,77 +130,5 @@ void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t f
     for (; i < count; i++) {
         xs[2 * i] = in_cell(&g, 0, (double)(first + i), words[2 * i] * 0x1p-32);
         xs[2 * i + 1] = in_cell(&g, 1, (double)rows[i], words[2 * i + 1] * 0x1p-32);
-    }
-}
-
-static inline lanes64_d load(const double *from)
-{
-    lanes64_d v;
-    memcpy(&v, from, sizeof v);
-    return v;
-}
-
-static inline __attribute__((always_inline)) void store_rows(size_t i, int dim, const double *columns, size_t stride,
-                                                             bool stream, double *out)
-{
-    lanes64_d v[8];
-    if (dim == 2) {
-        lanes64_zip(load(columns + i), load(columns + stride + i), &v[0], &v[1]);
-        lanes64_store(v[0], stream, out);
-        lanes64_store(v[1], stream, out + LANES64);
-        return;
-    }
-#if defined(__AVX2__) && !defined(__AVX512F__)
-    for (size_t c = 0; c < 4; c++) {
-        v[c] = load(columns + c * stride + i);
-    }
-    const lanes64_d even[2] = {__builtin_shufflevector(v[0], v[1], 0, 4, 2, 6),
-                               __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6)};
-    const lanes64_d odd[2] = {__builtin_shufflevector(v[0], v[1], 1, 5, 3, 7),
-                              __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7)};
-    v[4] = __builtin_shufflevector(even[0], even[1], 0, 1, 4, 5);
-    v[5] = __builtin_shufflevector(odd[0], odd[1], 0, 1, 4, 5);
-    v[6] = __builtin_shufflevector(even[0], even[1], 2, 3, 6, 7);
-    v[7] = __builtin_shufflevector(odd[0], odd[1], 2, 3, 6, 7);
-#else
-    lanes64_zip(load(columns + i), load(columns + 2 * stride + i), &v[0], &v[1]);
-    lanes64_zip(load(columns + stride + i), load(columns + 3 * stride + i), &v[2], &v[3]);
-    lanes64_zip(v[0], v[2], &v[4], &v[5]);
-    lanes64_zip(v[1], v[3], &v[6], &v[7]);
-#endif
-    for (int p = 0; p < 4; p++) {
-        lanes64_store(v[4 + p], stream, out + p * LANES64);
-    }
-}
-
-static inline __attribute__((always_inline)) void store_columns(size_t count, int dim, const double *columns,
-                                                                size_t stride, bool stream, double *out)
-{
-    size_t i = 0;
-    for (; i + LANES64 <= count; i += LANES64) {
-        store_rows(i, dim, columns, stride, stream, out + (size_t)dim * i);
-    }
-    for (; i < count; i++) {
-        for (size_t c = 0; c < (size_t)dim; c++) {
-            out[(size_t)dim * i + c] = columns[c * stride + i];
-        }
-    }
-}
-
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out)
-{
-    stream = stream && (uintptr_t)out % 16 == 0;
-    if (dim == 2 && stream) {
-        store_columns(count, 2, columns, stride, true, out);
-    } else if (dim == 2) {
-        store_columns(count, 2, columns, stride, false, out);
-    } else if (stream) {
-        store_columns(count, 4, columns, stride, true, out);
-    } else {
-        store_columns(count, 4, columns, stride, false, out);
-    }
-    if (stream) {
-        lanes64_stored();
     }
 }

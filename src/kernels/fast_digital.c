@@ -61,15 +61,6 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *re
     }
 }
 
-void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *restrict v, const uint32_t *restrict w,
-                                 double *restrict out)
-{
-    for (size_t i = 0; i < count; i++) {
-        out[2 * i] = fraction(v[i]);
-        out[2 * i + 1] = fraction(w[i]);
-    }
-}
-
 /* Doubling: the second half of an aligned block is the first, xor one direction. */
 void KERNEL_NAME(digital)(size_t count, const uint32_t *restrict directions, uint32_t start, uint32_t *restrict out)
 {

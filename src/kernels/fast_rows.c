@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Points of a digital net, coordinates side by side, without columns in between: words in 64-bit lanes with the
-   exponent of 2^20 above them are doubles 2^20 + w 2^-32, and those of an aligned group of 32 points are the words of
-   the first group, xor one word a coordinate. */
+/* Coordinates side by side. For the points of a digital net without columns in between: words in 64-bit lanes with
+   the exponent of 2^20 above them are doubles 2^20 + w 2^-32, and those of an aligned group of 32 points are the
+   words of the first group, xor one word a coordinate. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -9,6 +9,13 @@
 
 void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
                                bool stream, double *out);
+
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out);
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out);
+
+#define EXPONENT 0x4130000000000000u
 
 enum { BITS = 5, GROUP = 1 << BITS, MOST_DIM = 16, RUN = MOST_DIM * LANES64, TURN = GROUP / LANES64 };
 
@@ -30,7 +37,7 @@ static void make_net(size_t count, int dim, const uint32_t *const *directions, c
 {
     uint32_t word[MOST_DIM];
     for (int c = 0; c < dim; c++) {
-        s->group[c] = 0x4130000000000000u;
+        s->group[c] = EXPONENT;
         for (int i = 1; i < GROUP; i++) {
             s->group[i * dim + c] = s->group[(i & (i - 1)) * dim + c] ^ directions[c][__builtin_ctz((unsigned)i)];
         }
@@ -95,6 +102,99 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
         rows(&s, count, 4, false, out);
     } else {
         rows(&s, count, dim, stream, out);
+    }
+    if (stream) {
+        lanes64_stored();
+    }
+}
+
+/* LANES64 points of 2 or 4 coordinates from as many columns. */
+static inline __attribute__((always_inline)) void store_rows(const lanes64_d *columns, int dim, bool stream,
+                                                             double *out)
+{
+    lanes64_d v[8];
+    if (dim == 2) {
+        lanes64_zip(columns[0], columns[1], &v[0], &v[1]);
+        lanes64_store(v[0], stream, out);
+        lanes64_store(v[1], stream, out + LANES64);
+        return;
+    }
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    lanes64_pairs(columns[0], columns[1], &v[0], &v[1]);
+    lanes64_pairs(columns[2], columns[3], &v[2], &v[3]);
+    v[4] = __builtin_shufflevector(v[0], v[2], 0, 1, 4, 5);
+    v[5] = __builtin_shufflevector(v[1], v[3], 0, 1, 4, 5);
+    v[6] = __builtin_shufflevector(v[0], v[2], 2, 3, 6, 7);
+    v[7] = __builtin_shufflevector(v[1], v[3], 2, 3, 6, 7);
+#else
+    lanes64_zip(columns[0], columns[2], &v[0], &v[1]);
+    lanes64_zip(columns[1], columns[3], &v[2], &v[3]);
+    lanes64_zip(v[0], v[2], &v[4], &v[5]);
+    lanes64_zip(v[1], v[3], &v[6], &v[7]);
+#endif
+    for (int p = 0; p < 4; p++) {
+        lanes64_store(v[4 + p], stream, out + p * LANES64);
+    }
+}
+
+typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
+
+/* Columns of doubles, or of words w for w 2^-32: one of them is NULL. */
+static inline __attribute__((always_inline)) void store_columns(size_t count, int dim, const double *doubles,
+                                                                const uint32_t *words, size_t stride, bool stream,
+                                                                double *out)
+{
+    size_t i = 0;
+    for (; i + LANES64 <= count; i += LANES64) {
+        lanes64_d v[4];
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            if (doubles) {
+                memcpy(&v[c], doubles + c * stride + i, sizeof v[c]);
+            } else {
+                half_lanes w;
+                memcpy(&w, words + c * stride + i, sizeof w);
+                v[c] = (lanes64_d)(__builtin_convertvector(w, lanes64_u) | EXPONENT) - 0x1p20;
+            }
+        }
+        store_rows(v, dim, stream, out + (size_t)dim * i);
+    }
+    for (; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = doubles ? doubles[c * stride + i] : words[c * stride + i] * 0x1p-32;
+        }
+    }
+}
+
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    stream = stream && (uintptr_t)out % 16 == 0;
+    if (dim == 2 && stream) {
+        store_columns(count, 2, columns, NULL, stride, true, out);
+    } else if (dim == 2) {
+        store_columns(count, 2, columns, NULL, stride, false, out);
+    } else if (stream) {
+        store_columns(count, 4, columns, NULL, stride, true, out);
+    } else {
+        store_columns(count, 4, columns, NULL, stride, false, out);
+    }
+    if (stream) {
+        lanes64_stored();
+    }
+}
+
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out)
+{
+    stream = stream && (uintptr_t)out % 16 == 0;
+    if (dim == 2 && stream) {
+        store_columns(count, 2, NULL, columns, stride, true, out);
+    } else if (dim == 2) {
+        store_columns(count, 2, NULL, columns, stride, false, out);
+    } else if (stream) {
+        store_columns(count, 4, NULL, columns, stride, true, out);
+    } else {
+        store_columns(count, 4, NULL, columns, stride, false, out);
     }
     if (stream) {
         lanes64_stored();

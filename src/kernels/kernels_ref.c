@@ -125,14 +125,6 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *v, double *out)
     }
 }
 
-void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *v, const uint32_t *w, double *out)
-{
-    for (size_t i = 0; i < count; i++) {
-        out[2 * i] = ldexp(v[i], -32);
-        out[2 * i + 1] = ldexp(w[i], -32);
-    }
-}
-
 void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
                                   double *out)
 {
@@ -140,6 +132,17 @@ void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, 
     for (size_t i = 0; i < count; i++) {
         for (size_t c = 0; c < (size_t)dim; c++) {
             out[(size_t)dim * i + c] = columns[c * stride + i];
+        }
+    }
+}
+
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = ldexp(columns[c * stride + i], -32);
         }
     }
 }

@@ -101,8 +101,10 @@ static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64
     *low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
     *high = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
 #elif defined(__AVX2__)
-    *low = __builtin_shufflevector(x, y, 0, 4, 1, 5);
-    *high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+    lanes64_d even, odd;
+    lanes64_pairs(x, y, &even, &odd);
+    *low = __builtin_shufflevector(even, odd, 0, 1, 4, 5);
+    *high = __builtin_shufflevector(even, odd, 2, 3, 6, 7);
 #else
     *low = __builtin_shufflevector(x, y, 0, 2);
     *high = __builtin_shufflevector(x, y, 1, 3);

@@ -57,9 +57,10 @@ static void fractions(const koksma__kernel_table *t, size_t count, void *out)
     t->fractions(count, words, out);
 }
 
-static void fraction_pairs(const koksma__kernel_table *t, size_t count, void *out)
+static void fraction_rows(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->fraction_pairs(count, words, words + 7, out);
+    t->fraction_rows(count, 4, words, 97, count % 2, out);
+    t->fraction_rows(count, 2, words, 131, count % 2, (double *)out + 600 + count % 3);
 }
 
 static void digital(const koksma__kernel_table *t, size_t count, void *out)
@@ -177,7 +178,7 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
 TEST(quotients, MAX)
 TEST(steps, MAX)
 TEST(fractions, MAX)
-TEST(fraction_pairs, MAX)
+TEST(fraction_rows, 150)
 TEST(digital, MAX)
 TEST(digital_rows, MAX)
 TEST(digital_at, MAX)
@@ -194,7 +195,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quotients_equals_reference),       cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_pairs_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_rows_equals_reference),
         cmocka_unit_test(digital_equals_reference),         cmocka_unit_test(digital_rows_equals_reference),
         cmocka_unit_test(digital_at_equals_reference),      cmocka_unit_test(owen_hash_equals_reference),
         cmocka_unit_test(pascal_equals_reference),          cmocka_unit_test(grow_equals_reference),

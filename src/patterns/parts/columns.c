@@ -12,7 +12,7 @@ typedef struct job {
     koksma_points *out;
 } job;
 
-static bool is_large(const koksma_points *out)
+bool koksma__is_large(const koksma_points *out)
 {
     return out->n * (size_t)out->dim * sizeof *out->xs >= STREAM_BYTES;
 }
@@ -30,7 +30,7 @@ void koksma__store_columns(size_t count, int some, const double *columns, size_t
     const size_t dim = (size_t)out->dim;
     double *to = out->xs + first * dim + k;
     if (some == out->dim && (some == 2 || some == 4)) {
-        koksma__kernels()->rows_of_columns(count, some, columns, KOKSMA__COLUMN_BLOCK, is_large(out), to);
+        koksma__kernels()->rows_of_columns(count, some, columns, KOKSMA__COLUMN_BLOCK, koksma__is_large(out), to);
         return;
     }
     for (size_t i = 0; i < count; i++) {
@@ -97,7 +97,7 @@ static koksma_status group_of_rows(void *context, size_t g)
 {
     const whole *w = context;
     const size_t first = g * GROUP, left = w->out->n - first;
-    w->f(w->context, first, left < GROUP ? left : GROUP, is_large(w->out), w->out);
+    w->f(w->context, first, left < GROUP ? left : GROUP, koksma__is_large(w->out), w->out);
     return KOKSMA_OK;
 }
 

@@ -24,6 +24,9 @@ typedef void (*koksma__rows)(const void *context, size_t first, size_t count, bo
 
 koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context);
 
+/* Whether points are better stored past the caches: they are larger than these. */
+bool koksma__is_large(const koksma_points *out);
+
 /* out[i*dim + k] = xs[i] for i < count. */
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out);
 
