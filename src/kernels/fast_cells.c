@@ -12,15 +12,6 @@ void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t f
 
 enum { POINTS = LANES64 / 2 };
 
-/* The words that lie at an even and at an odd place, from lanes of two. */
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-#define LOW_WORD(lanes) ((lanes)&0xffffffffu)
-#define HIGH_WORD(lanes) ((lanes) >> 32)
-#else
-#define LOW_WORD(lanes) ((lanes) >> 32)
-#define HIGH_WORD(lanes) ((lanes)&0xffffffffu)
-#endif
-
 /* Numbers of cells along x and y; the lanes alternate. exact: both are powers of two. */
 typedef struct grid {
     double m[2];
@@ -111,8 +102,8 @@ place_rooks(const uint32_t *words, const uint32_t *rows, size_t first, size_t co
         lanes64_u word;
         memcpy(&row, rows + i, sizeof row);
         memcpy(&word, words + 2 * i, sizeof word);
-        const lanes64_d x = place(column, LOW_WORD(word));
-        const lanes64_d y = place(__builtin_convertvector(row, lanes64_u), HIGH_WORD(word));
+        const lanes64_d x = place(column, lanes64_even_words(word));
+        const lanes64_d y = place(__builtin_convertvector(row, lanes64_u), lanes64_odd_words(word));
         lanes64_interleave(exact ? x * inverse : x / whole, exact ? y * inverse : y / whole, xs + 2 * i);
     }
     return i;

@@ -6,8 +6,6 @@
 #include "kernels/lanes64.h"
 #include "kernels/lanes8.h"
 
-typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
-
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least);
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,

@@ -43,6 +43,7 @@ static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
 
 /* The same lanes as unsigned integers and as doubles, for the operators of the compiler's vector types. */
 typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
+typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
 /* 0, 1, 2, ... */
@@ -91,6 +92,36 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
     return (lanes64_u)_mm256_blend_epi32((__m256i)low, (__m256i)high, 0xaa);
 #else
     return (low & 0xffffffffu) | (high & 0xffffffff00000000u);
+#endif
+}
+
+/* The words that lay at even and at odd places where lanes of two were loaded from. */
+static inline lanes64_u lanes64_even_words(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes & 0xffffffffu;
+#else
+    return lanes >> 32;
+#endif
+}
+
+static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes >> 32;
+#else
+    return lanes & 0xffffffffu;
+#endif
+}
+
+/* The largest whole numbers not above numbers in [0, 2^52). */
+static inline lanes64_d lanes64_floor(lanes64_d x)
+{
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    return (lanes64_d)_mm256_floor_pd((__m256d)x);
+#else
+    const lanes64_d nearest = (x + 0x1p52) - 0x1p52;
+    return nearest + __builtin_convertvector((lanes64_i)(nearest > x), lanes64_d);
 #endif
 }
 

@@ -150,6 +150,29 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
+/* Points r < some of the largest power of the base, their relatives, and the places between untouched. */
+static void nested_digits(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const uint32_t bases[] = {3, 5, 7, 11, 13};
+    const uint32_t base = bases[count % 5], relatives = 1 + (uint32_t)(count / 5 % (base - 1));
+    double *v = out, whole = base, width = 1;
+    while (whole * base <= 0x1p53) {
+        whole *= base;
+    }
+    for (size_t power = 0; power < count % 12; power++) {
+        width *= base;
+    }
+    if (count % 3 == 0) {
+        width = whole / base;
+    }
+    for (size_t i = 0; i < MAX; i++) {
+        v[i] = i == 3 ? whole - 1 : i == 4 ? width : i == 5 ? 0 : (double)(uint64_t)(units[i] * whole);
+    }
+    const size_t first = count % 7, step = (MAX - first) / (relatives + 1);
+    const size_t some = count < step ? count : step;
+    t->nested_digits(base, relatives, first, some, step, width, words, v);
+}
+
 static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->rows_of_columns(count, 4, units, 97, count % 2, out);
@@ -188,20 +211,21 @@ TEST(grow, MAX)
 TEST(covers, 250)
 TEST(cells_as_floats, 250)
 TEST(nearest_offset, MAX)
+TEST(nested_digits, MAX)
 TEST(rooks_2d, 120)
 TEST(rows_of_columns, 150)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),       cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_rows_equals_reference),
-        cmocka_unit_test(digital_equals_reference),         cmocka_unit_test(digital_rows_equals_reference),
-        cmocka_unit_test(digital_at_equals_reference),      cmocka_unit_test(owen_hash_equals_reference),
-        cmocka_unit_test(pascal_equals_reference),          cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),          cmocka_unit_test(cells_as_floats_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference),  cmocka_unit_test(rooks_2d_equals_reference),
-        cmocka_unit_test(rows_of_columns_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_rows_equals_reference),
+        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_rows_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),     cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),         cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(cells_as_floats_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
+        cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
