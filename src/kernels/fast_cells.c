@@ -82,28 +82,23 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
 
 typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
 
-/* cell + word 2^-32, exact for cells below 2^20: as a whole number in the mantissa of 2^52, less 2^52. */
-static inline lanes64_d place(lanes64_u cell, lanes64_u word)
-{
-    const lanes64_u exponent = 0x4330000000000000u - (lanes64_u){0};
-    return ((lanes64_d)(cell << 32 | word | exponent) - 0x1p52) * 0x1p-32;
-}
-
-/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
- * it. */
+/* cell 2^32 + word, below 2^52: the lower bits of the mantissa of 2^52. Times 2^-32 / n it is the place. With n <=
+   2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from it. */
 static inline __attribute__((always_inline)) size_t
 place_rooks(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, double n, bool exact, double *xs)
 {
-    const lanes64_d whole = n - (lanes64_d){0}, inverse = 1 / whole;
-    lanes64_u column = lanes64_count() + (uint64_t)first;
+    const lanes64_u exponent = 0x4330000000000000u - (lanes64_u){0};
+    const lanes64_d whole = n * 0x1p32 - (lanes64_d){0}, inverse = 1 / whole;
+    lanes64_u column = (lanes64_count() + (uint64_t)first) << 32 | exponent;
     size_t i = 0;
-    for (; i + LANES64 <= count; i += LANES64, column += LANES64) {
+    for (; i + LANES64 <= count; i += LANES64, column += (uint64_t)LANES64 << 32) {
         half_lanes row;
         lanes64_u word;
         memcpy(&row, rows + i, sizeof row);
         memcpy(&word, words + 2 * i, sizeof word);
-        const lanes64_d x = place(column, lanes64_even_words(word));
-        const lanes64_d y = place(__builtin_convertvector(row, lanes64_u), lanes64_odd_words(word));
+        const lanes64_u in_row = __builtin_convertvector(row, lanes64_u) << 32 | exponent;
+        const lanes64_d x = (lanes64_d)(lanes64_even_words(word) | column) - 0x1p52;
+        const lanes64_d y = (lanes64_d)(lanes64_odd_words(word) | in_row) - 0x1p52;
         lanes64_interleave(exact ? x * inverse : x / whole, exact ? y * inverse : y / whole, xs + 2 * i);
     }
     return i;

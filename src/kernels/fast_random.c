@@ -3,11 +3,12 @@
    (Salmon et al. 2011), which the reference twin calls. */
 #include <string.h>
 
+#include "core/random.h"
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
 /* Independent chains hide the multiplier's latency, as many as the registers hold. */
-enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64 };
+enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64, ROUNDS = 8 };
 
 /* Lanes are in the order of lanes64_count_pairs; their upper halves are garbage. */
 typedef struct block {
@@ -16,6 +17,7 @@ typedef struct block {
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
+void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 
 static inline lanes64_u splat(uint64_t x)
 {
@@ -25,7 +27,7 @@ static inline lanes64_u splat(uint64_t x)
 /* What counters share that differ in the lowest word only: that round 0 makes w[0] and w[1] the same for all, and
    round 1 w[3] and what w[2] is xored with. The keys of the other rounds; in memory they take no instruction. */
 typedef struct stream {
-    lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[8][2];
+    lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[ROUNDS][2];
 } stream;
 
 static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
@@ -44,13 +46,14 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     out->w0_of_1 = splat(w1 ^ k0);
     out->w2_of_1 = splat((uint32_t)(p0 >> 32) ^ k1);
     out->w3_of_1 = splat((uint32_t)p0);
-    for (int round = 0; round < 8; round++) {
+    for (int round = 0; round < ROUNDS; round++) {
         out->keys[round][0] = splat(k0 += weyl[0]);
         out->keys[round][1] = splat(k1 += weyl[1]);
     }
 }
 
-static inline __attribute__((always_inline)) block philox(const stream *s, uint64_t first)
+/* The first two rounds, and one of the others. */
+static inline __attribute__((always_inline)) block begin(const stream *s, uint64_t first)
 {
     const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
     block b;
@@ -63,15 +66,27 @@ static inline __attribute__((always_inline)) block philox(const stream *s, uint6
         b.w[2][c] = p0 ^ s->w2_of_1;
         b.w[3][c] = s->w3_of_1;
     }
-    for (int round = 0; round < 8; round++) {
-        for (int c = 0; c < CHAINS; c++) {
-            const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)b.w[0][c], m0);
-            const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)b.w[2][c], m1);
-            b.w[0][c] = (p1 >> 32) ^ (b.w[1][c] ^ s->keys[round][0]);
-            b.w[1][c] = p1;
-            b.w[2][c] = (p0 >> 32) ^ (b.w[3][c] ^ s->keys[round][1]);
-            b.w[3][c] = p0;
-        }
+    return b;
+}
+
+static inline __attribute__((always_inline)) void go_on(const stream *s, int round, block *b)
+{
+    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    for (int c = 0; c < CHAINS; c++) {
+        const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)b->w[0][c], m0);
+        const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)b->w[2][c], m1);
+        b->w[0][c] = (p1 >> 32) ^ (b->w[1][c] ^ s->keys[round][0]);
+        b->w[1][c] = p1;
+        b->w[2][c] = (p0 >> 32) ^ (b->w[3][c] ^ s->keys[round][1]);
+        b->w[3][c] = p0;
+    }
+}
+
+static inline __attribute__((always_inline)) block philox(const stream *s, uint64_t first)
+{
+    block b = begin(s, first);
+    for (int round = 0; round < ROUNDS; round++) {
+        go_on(s, round, &b);
     }
     return b;
 }
@@ -173,4 +188,37 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
         count -= some;
         out += 4 * some;
     }
+}
+
+/* Numbers first .. first + count - 1 of an order that grows inside out. */
+static inline __attribute__((always_inline)) void insert(const uint32_t *word, uint32_t first, uint32_t count,
+                                                         uint32_t *out)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t j = koksma__below(word[i], first + i + 1);
+        out[first + i] = out[j];
+        out[j] = first + i;
+    }
+}
+
+/* The random numbers wait for the multiplier, the order for the caches: the rounds of a block of numbers take turns
+   with the use of the block before. */
+void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
+{
+    enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
+    uint32_t word[WORDS];
+    stream s;
+    make_stream(seed, KOKSMA__PURPOSE_SHUFFLE, 0, lane, &s);
+    block b = philox(&s, 0);
+    uint32_t first = 0;
+    for (; n - first > WORDS; first += WORDS) {
+        store_words(&b, word);
+        b = begin(&s, (first + WORDS) / 4);
+        for (int round = 0; round < ROUNDS; round++) {
+            go_on(&s, round, &b);
+            insert(word + round * SHARE, first + (uint32_t)round * SHARE, SHARE, out);
+        }
+    }
+    store_words(&b, word);
+    insert(word, first, n - first, out);
 }

@@ -30,6 +30,11 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
+void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
+{
+    koksma__random_permutation(seed, lane, n, out);
+}
+
 void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
                            double r, double sum[2])
 {
