@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The two questions of maximal Poisson disk sampling, for several places at a time without branches. */
+#include <float.h>
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -67,17 +68,16 @@ unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride,
                                 float high)
 {
     const lanes8 at_x = (x + 2) - (lanes8){0, 1, 2, 3, 4, 5, 6, 7};
-    lanes8_i nearer = {0}, near = {0};
+    lanes8 least = (lanes8){0} + FLT_MAX;
     for (int r = 0; r < 5; r++, xs += stride, ys += stride) {
         lanes8 a, b;
         lanes8_load(xs, &a);
         lanes8_load(ys, &b);
         a -= at_x;
         b -= (y + 2) - (float)r;
-        const lanes8 square = a * a + b * b;
-        nearer |= (lanes8_i)(square < low);
-        near |= (lanes8_i)(square < high);
+        lanes8_min(a * a + b * b, &least);
     }
+    const lanes8_i nearer = (lanes8_i)(least < low), near = (lanes8_i)(least < high);
     return lanes8_any(&nearer) | lanes8_any(&near) << 1;
 }
 

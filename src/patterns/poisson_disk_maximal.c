@@ -19,7 +19,7 @@
 #include "patterns/parts/dart_cover.h"
 #include "patterns/patterns.h"
 
-enum { TRIES = 100 };
+enum { TRIES = 100, MANY = 100000 };
 
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
@@ -89,10 +89,23 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
 }
 
+/* Disks of radius d cover the torus and those of radius d/2 do not overlap: between 2/(sqrt(27) d^2) points, the
+   thinnest covering's, and the densest packing's 2/(sqrt(3) d^2). Where counting takes long, any other number is
+   refused before a dart is thrown. */
+static bool is_possible(double d, size_t n)
+{
+    const double area = (double)n * d * d;
+    return area > 0.999 * 2 / sqrt(27) && area < 1.001 * 2 / sqrt(3);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const double d = args->params[0];
     koksma__disks disks = {0};
+    if (d > 0 && PER_AREA / d / d > MANY && !is_possible(d, out->n)) {
+        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d,
+                            PER_AREA / d / d, out->n);
+    }
     koksma_status status =
         d > 0 ? by_distance(seed, d, args->run, &disks) : by_number(seed, out->n, args->run, &disks);
     if (!status && disks.n != out->n) {
