@@ -10,7 +10,7 @@
 /* Independent chains hide the multiplier's latency, as many as the registers hold. */
 enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64, ROUNDS = 8 };
 
-/* Lanes are in the order of lanes64_count_pairs; their upper halves are garbage. */
+/* Lanes are in the order of lanes64_count_pairs, if nothing is said; their upper halves are garbage. */
 typedef struct block {
     lanes64_u w[4][CHAINS];
 } block;
@@ -18,6 +18,7 @@ typedef struct block {
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
+void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
 static inline lanes64_u splat(uint64_t x)
 {
@@ -53,12 +54,12 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
 }
 
 /* The first two rounds, and one of the others. */
-static inline __attribute__((always_inline)) block begin(const stream *s, uint64_t first)
+static inline __attribute__((always_inline)) block begin(const stream *s, lanes64_u order, uint64_t first)
 {
     const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
     block b;
     for (int c = 0; c < CHAINS; c++) {
-        const lanes64_u counter = lanes64_count_pairs() + splat(first + (uint64_t)(c * LANES64));
+        const lanes64_u counter = order + splat(first + (uint64_t)(c * LANES64));
         const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)counter, m0);
         const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)((p0 >> 32) ^ s->w2_of_0), m1);
         b.w[0][c] = (p1 >> 32) ^ s->w0_of_1;
@@ -82,13 +83,18 @@ static inline __attribute__((always_inline)) void go_on(const stream *s, int rou
     }
 }
 
-static inline __attribute__((always_inline)) block philox(const stream *s, uint64_t first)
+static inline __attribute__((always_inline)) block philox_in(const stream *s, lanes64_u order, uint64_t first)
 {
-    block b = begin(s, first);
+    block b = begin(s, order, first);
     for (int round = 0; round < ROUNDS; round++) {
         go_on(s, round, &b);
     }
     return b;
+}
+
+static inline __attribute__((always_inline)) block philox(const stream *s, uint64_t first)
+{
+    return philox_in(s, lanes64_count_pairs(), first);
 }
 
 typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
@@ -213,7 +219,7 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     uint32_t first = 0;
     for (; n - first > WORDS; first += WORDS) {
         store_words(&b, word);
-        b = begin(&s, (first + WORDS) / 4);
+        b = begin(&s, lanes64_count_pairs(), (first + WORDS) / 4);
         for (int round = 0; round < ROUNDS; round++) {
             go_on(&s, round, &b);
             insert(word + round * SHARE, first + (uint32_t)round * SHARE, SHARE, out);
@@ -221,4 +227,66 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     }
     store_words(&b, word);
     insert(word, first, n - first, out);
+}
+
+/* The double of cell + word 2^-32 over n, from the bits cell 2^32 + word, below 2^52, which are the lower ones of the
+   mantissa of 2^52. `upper` has the cell, and the exponent of that. */
+static inline __attribute__((always_inline)) lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d whole,
+                                                             lanes64_d inverse, bool exact)
+{
+    const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - 0x1p52;
+    return exact ? x * inverse : x / whole;
+}
+
+/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
+   it. For powers of two it is a product. Two points a counter, which are rows of four numbers. */
+static inline __attribute__((always_inline)) size_t place_rooks(const stream *s, const uint32_t *rows, size_t first,
+                                                                size_t count, double n, bool exact, double *xs)
+{
+    const lanes64_u exponent = splat(0x4330000000000000u), one = splat((uint64_t)1 << 32);
+    const lanes64_d whole = n * 0x1p32 - (lanes64_d){0}, inverse = 1 / whole;
+    lanes64_u column = (2 * lanes64_count() + splat(first)) << 32 | exponent;
+    size_t i = 0;
+    while (i + 2 * LANES <= count) {
+        const block b = philox_in(s, lanes64_count(), (first + i) / 2);
+        for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += splat((uint64_t)2 * LANES64 << 32)) {
+            lanes64_u pair;
+            memcpy(&pair, rows + i, sizeof pair);
+            const lanes64_u even = lanes64_even_words(pair) << 32 | exponent;
+            const lanes64_u odd = lanes64_odd_words(pair) << 32 | exponent;
+            const lanes64_d points[4] = {
+                place(b.w[0][c], column, whole, inverse, exact), place(b.w[1][c], even, whole, inverse, exact),
+                place(b.w[2][c], column + one, whole, inverse, exact), place(b.w[3][c], odd, whole, inverse, exact)};
+            lanes64_store_rows(points, 4, false, xs + 2 * i);
+        }
+    }
+    return i;
+}
+
+/* koksma__in_cell. */
+static double in_cell(double cell, uint32_t word, double n)
+{
+    const double x = (cell + word * 0x1p-32) / n, end = (cell + 1) / n;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
+void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs)
+{
+    enum { SOME = 2 * LANES };
+    stream s;
+    make_stream(seed, KOKSMA__PURPOSE_POINT, 0, 0, &s);
+    size_t i = 0;
+    if (n <= (size_t)1 << 20) {
+        i = (n & (n - 1)) == 0 ? place_rooks(&s, rows, first, count, (double)n, true, xs)
+                               : place_rooks(&s, rows, first, count, (double)n, false, xs);
+    }
+    for (; i < count; i += SOME) {
+        const block b = philox(&s, (first + i) / 2);
+        uint32_t word[4 * LANES];
+        store_words(&b, word);
+        for (size_t p = 0; p < SOME && i + p < count; p++) {
+            xs[2 * (i + p)] = in_cell((double)(first + i + p), word[2 * p], (double)n);
+            xs[2 * (i + p) + 1] = in_cell((double)rows[i + p], word[2 * p + 1], (double)n);
+        }
+    }
 }

@@ -108,35 +108,6 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
     }
 }
 
-/* LANES64 points of 2 or 4 coordinates from as many columns. */
-static inline __attribute__((always_inline)) void store_rows(const lanes64_d *columns, int dim, bool stream,
-                                                             double *out)
-{
-    lanes64_d v[8];
-    if (dim == 2) {
-        lanes64_zip(columns[0], columns[1], &v[0], &v[1]);
-        lanes64_store(v[0], stream, out);
-        lanes64_store(v[1], stream, out + LANES64);
-        return;
-    }
-#if defined(__AVX2__) && !defined(__AVX512F__)
-    lanes64_pairs(columns[0], columns[1], &v[0], &v[1]);
-    lanes64_pairs(columns[2], columns[3], &v[2], &v[3]);
-    v[4] = __builtin_shufflevector(v[0], v[2], 0, 1, 4, 5);
-    v[5] = __builtin_shufflevector(v[1], v[3], 0, 1, 4, 5);
-    v[6] = __builtin_shufflevector(v[0], v[2], 2, 3, 6, 7);
-    v[7] = __builtin_shufflevector(v[1], v[3], 2, 3, 6, 7);
-#else
-    lanes64_zip(columns[0], columns[2], &v[0], &v[1]);
-    lanes64_zip(columns[1], columns[3], &v[2], &v[3]);
-    lanes64_zip(v[0], v[2], &v[4], &v[5]);
-    lanes64_zip(v[1], v[3], &v[6], &v[7]);
-#endif
-    for (int p = 0; p < 4; p++) {
-        lanes64_store(v[4 + p], stream, out + p * LANES64);
-    }
-}
-
 typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
 
 /* Columns of doubles, or of words w for w 2^-32: one of them is NULL. */
@@ -156,7 +127,7 @@ static inline __attribute__((always_inline)) void store_columns(size_t count, in
                 v[c] = (lanes64_d)(__builtin_convertvector(w, lanes64_u) | EXPONENT) - 0x1p20;
             }
         }
-        store_rows(v, dim, stream, out + (size_t)dim * i);
+        lanes64_store_rows(v, dim, stream, out + (size_t)dim * i);
     }
     for (; i < count; i++) {
         for (size_t c = 0; c < (size_t)dim; c++) {

@@ -182,6 +182,35 @@ static inline void lanes64_store(lanes64_d v, bool stream, double *out)
     memcpy(out, &v, sizeof v);
 }
 
+/* LANES64 points of 2 or 4 coordinates from as many columns. */
+static inline __attribute__((always_inline)) void lanes64_store_rows(const lanes64_d *columns, int dim, bool stream,
+                                                                     double *out)
+{
+    lanes64_d v[8];
+    if (dim == 2) {
+        lanes64_zip(columns[0], columns[1], &v[0], &v[1]);
+        lanes64_store(v[0], stream, out);
+        lanes64_store(v[1], stream, out + LANES64);
+        return;
+    }
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    lanes64_pairs(columns[0], columns[1], &v[0], &v[1]);
+    lanes64_pairs(columns[2], columns[3], &v[2], &v[3]);
+    v[4] = __builtin_shufflevector(v[0], v[2], 0, 1, 4, 5);
+    v[5] = __builtin_shufflevector(v[1], v[3], 0, 1, 4, 5);
+    v[6] = __builtin_shufflevector(v[0], v[2], 2, 3, 6, 7);
+    v[7] = __builtin_shufflevector(v[1], v[3], 2, 3, 6, 7);
+#else
+    lanes64_zip(columns[0], columns[2], &v[0], &v[1]);
+    lanes64_zip(columns[1], columns[3], &v[2], &v[3]);
+    lanes64_zip(v[0], v[2], &v[4], &v[5]);
+    lanes64_zip(v[1], v[3], &v[6], &v[7]);
+#endif
+    for (int p = 0; p < 4; p++) {
+        lanes64_store(v[4 + p], stream, out + p * LANES64);
+    }
+}
+
 /* After the last streaming store. */
 static inline void lanes64_stored(void)
 {

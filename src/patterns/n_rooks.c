@@ -21,7 +21,7 @@
 #include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
 
-enum { FEW = 256, SOME = 768, GROUP = 1 << 15 };
+enum { FEW = 256, GROUP = 1 << 15 };
 
 /* In 2D u has 32 bits: two points for one draw of 128. */
 typedef struct plane {
@@ -33,14 +33,9 @@ typedef struct plane {
 static koksma_status place(void *context, size_t group)
 {
     const plane *p = context;
-    const koksma__kernel_table *kernels = koksma__kernels();
-    const size_t n = p->out->n, end = n - group * GROUP < GROUP ? n : (group + 1) * GROUP;
-    uint32_t words[2 * SOME + 2];
-    for (size_t first = group * GROUP; first < end; first += SOME) {
-        const size_t count = end - first < SOME ? end - first : SOME;
-        kernels->words(p->seed, KOKSMA__PURPOSE_POINT, first / 2, 0, (count + 1) / 2, words);
-        kernels->rooks_2d(words, p->rows + first, first, count, n, p->out->xs + 2 * first);
-    }
+    const size_t first = group * GROUP, left = p->out->n - first;
+    koksma__kernels()->rooks_2d(p->seed, p->rows + first, first, left < GROUP ? left : GROUP, p->out->n,
+                                p->out->xs + 2 * first);
     return KOKSMA_OK;
 }
 

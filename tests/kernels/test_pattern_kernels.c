@@ -187,7 +187,7 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
         for (size_t i = 0; i < count; i++) {
             rows[i] = (uint32_t)((words[i] * (uint64_t)sides[s]) >> 32);
         }
-        t->rooks_2d(words, rows, sides[s] - count, count, sides[s], (double *)out + 240 * s);
+        t->rooks_2d(s, rows, (sides[s] - count) / 2 * 2, count, sides[s], (double *)out + 240 * s);
     }
 }
 
