@@ -75,7 +75,8 @@ unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride,
         lanes8_load(ys, &b);
         a -= at_x;
         b -= (y + 2) - (float)r;
-        lanes8_min(a * a + b * b, &least);
+        const lanes8 square = a * a + b * b;
+        lanes8_min(&square, &least);
     }
     const lanes8_i nearer = (lanes8_i)(least < low), near = (lanes8_i)(least < high);
     return lanes8_any(&nearer) | lanes8_any(&near) << 1;

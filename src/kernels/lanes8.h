@@ -21,13 +21,13 @@ static inline __attribute__((always_inline)) void lanes8_load(const float *from,
 }
 
 /* The lower of x and least, lane by lane. */
-static inline __attribute__((always_inline)) void lanes8_min(lanes8 x, lanes8 *least)
+static inline __attribute__((always_inline)) void lanes8_min(const lanes8 *x, lanes8 *least)
 {
 #ifdef LANES8_AVX2
-    *least = (lanes8)_mm256_min_ps((__m256)x, (__m256)*least);
+    *least = (lanes8)_mm256_min_ps((__m256)*x, (__m256)*least);
 #else
-    const lanes8_i below = (lanes8_i)(x < *least);
-    *least = (lanes8)(((lanes8_i)x & below) | ((lanes8_i)*least & ~below));
+    const lanes8_i below = (lanes8_i)(*x < *least);
+    *least = (lanes8)(((lanes8_i)*x & below) | ((lanes8_i)*least & ~below));
 #endif
 }
 
