@@ -24,15 +24,16 @@ enum { TRIES = 100, MANY = 100000 };
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
 /* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there were more, and
-   disks->d. */
+   disks->d. Each try tells how much a point costs. */
 static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
 {
-    const double first = 0.25 / (double)n;
-    double high = disks->d, low = 0, step = first * (double)(n - disks->n);
+    const double guess = 0.25 / (double)n;
+    double high = disks->d, low = 0, step = guess; /* of the distance, for a point more */
     size_t kept = disks->n;
     koksma_status status = KOKSMA_OK;
     for (int try = 0; try < TRIES && !status; try++) {
-        const double d = low > 0 ? (low + high) / 2 : high * (1 - fmin(step, 0.3));
+        const double wanted = high * (1 - fmin(step * (double)(n - kept), 0.3));
+        const double d = low > 0 ? fmax(wanted, (low + high) / 2) : wanted;
         status = koksma__disks_shrink(disks, kept, d);
         if (!status) {
             status = koksma__disks_fill(disks, n + 1, run);
@@ -42,14 +43,15 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
         }
         if (disks->n > n) {
             low = d;
+            step /= 2;
         } else {
+            step = disks->n > kept ? (1 - d / high) / (double)(disks->n - kept) : 2 * step;
             high = d;
             kept = disks->n;
-            step *= 1.5;
-            if (high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
-                low = 0;
-                step = first * (double)(n - kept);
-            }
+        }
+        if (low > 0 && high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
+            low = 0;
+            step = guess;
         }
     }
     return status
