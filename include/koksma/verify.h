@@ -13,16 +13,27 @@ extern "C" {
 #endif
 
 /* What was found. The properties:
-     net-base-2, -3, -5  subject: two coordinates, or "all". value: the worst t of the (t,m,s)-nets that the prefixes
-   of b^m points are; detail: t for each m. Holds when t = 0 for all stratified          subject: m x k cells in
-   coordinates 0 and 1, or m^dim: one point in each. value: empty cells latin               subject: a coordinate: one
-   point in each of n strata. value: empty strata distance-square, distance-torus   value: the smallest distance;
-   detail: as a fraction of the densest packing's (2D torus and small squares exactly, else of an upper bound). Holds
-   when above 0 repeated            value: points that are equal to another. Holds when 0 origin-repeated     value:
-   points at the origin. Holds when at most 1 origin-missing      holds unless all points lie on a grid of 2^-m with
-   2^m > n, as an unscrambled sequence does, and none is the origin; value: points at the origin rounds-to-one value:
-   coordinates that become 1 as a float. Holds when 0 progressive         value: the largest L2 star discrepancy of a
-   prefix of 2^j >= 16 points over that of as many random points (root mean square). Holds when at most 2 */
+
+   net-base-2, -3, -5
+       subject: two coordinates, or "all". value: the worst t of the (t,m,s)-nets that the prefixes of b^m points are;
+       detail: t for each m. Holds when t = 0 for all
+   stratified
+       subject: m x k cells in coordinates 0 and 1, or m^dim: one point in each. value: empty cells
+   latin
+       subject: a coordinate: one point in each of n strata. value: empty strata
+   distance-square, distance-torus
+       value: the smallest distance; detail: as a fraction of the densest packing's (2D torus and small squares
+   exactly, else of an upper bound). Holds when above 0 repeated value: points that are equal to another. Holds when 0
+   origin-repeated
+       value: points at the origin. Holds when at most 1
+   origin-missing
+       value: points at the origin. Holds unless all points lie on a grid of 2^-m with 2^m > n, as an unscrambled
+       sequence does, and none is the origin
+   rounds-to-one
+       value: coordinates that become 1 as a float. Holds when 0
+   progressive
+       value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of as many random points (root
+       mean square). Holds when at most 2 */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <stdlib.h>
 
+#include "core/pages.h"
 #include "core/status.h"
 
 koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
@@ -20,6 +21,7 @@ koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
     if (!points->xs) {
         return koksma__fail_memory(n * (size_t)dim * sizeof *points->xs);
     }
+    koksma__large_pages(points->xs, n * (size_t)dim * sizeof *points->xs);
     points->n = n;
     points->dim = dim;
     return KOKSMA_OK;

@@ -6,22 +6,9 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out);
 void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs);
-void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
-                           double *xs);
 
 enum { POINTS = LANES64 / 2 };
-
-/* The words that lie at an even and at an odd place, from lanes of two. */
-#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-#define LOW_WORD(lanes) ((lanes)&0xffffffffu)
-#define HIGH_WORD(lanes) ((lanes) >> 32)
-#else
-#define LOW_WORD(lanes) ((lanes) >> 32)
-#define HIGH_WORD(lanes) ((lanes)&0xffffffffu)
-#endif
 
 /* Numbers of cells along x and y; the lanes alternate. exact: both are powers of two. */
 typedef struct grid {
@@ -88,121 +75,5 @@ void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, dou
         place_cells(&g, start, width, true, nx, ny, xs);
     } else {
         place_cells(&g, start, width, false, nx, ny, xs);
-    }
-}
-
-typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
-
-/* cell + word 2^-32, exact for cells below 2^20: as a whole number in the mantissa of 2^52, less 2^52. */
-static inline lanes64_d place(lanes64_u cell, lanes64_u word)
-{
-    const lanes64_u exponent = 0x4330000000000000u - (lanes64_u){0};
-    return ((lanes64_d)(cell << 32 | word | exponent) - 0x1p52) * 0x1p-32;
-}
-
-/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
- * it. */
-static inline __attribute__((always_inline)) size_t
-place_rooks(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, double n, bool exact, double *xs)
-{
-    const lanes64_d whole = n - (lanes64_d){0}, inverse = 1 / whole;
-    lanes64_u column = lanes64_count() + (uint64_t)first;
-    size_t i = 0;
-    for (; i + LANES64 <= count; i += LANES64, column += LANES64) {
-        half_lanes row;
-        lanes64_u word;
-        memcpy(&row, rows + i, sizeof row);
-        memcpy(&word, words + 2 * i, sizeof word);
-        const lanes64_d x = place(column, LOW_WORD(word));
-        const lanes64_d y = place(__builtin_convertvector(row, lanes64_u), HIGH_WORD(word));
-        lanes64_interleave(exact ? x * inverse : x / whole, exact ? y * inverse : y / whole, xs + 2 * i);
-    }
-    return i;
-}
-
-void KERNEL_NAME(rooks_2d)(const uint32_t *words, const uint32_t *rows, size_t first, size_t count, size_t n,
-                           double *xs)
-{
-    size_t i = 0;
-    if (n <= (size_t)1 << 20) {
-        i = (n & (n - 1)) == 0 ? place_rooks(words, rows, first, count, (double)n, true, xs)
-                               : place_rooks(words, rows, first, count, (double)n, false, xs);
-    }
-    const grid g = make_grid(n, n);
-    for (; i < count; i++) {
-        xs[2 * i] = in_cell(&g, 0, (double)(first + i), words[2 * i] * 0x1p-32);
-        xs[2 * i + 1] = in_cell(&g, 1, (double)rows[i], words[2 * i + 1] * 0x1p-32);
-    }
-}
-
-static inline lanes64_d load(const double *from)
-{
-    lanes64_d v;
-    memcpy(&v, from, sizeof v);
-    return v;
-}
-
-static inline __attribute__((always_inline)) void store_rows(size_t i, int dim, const double *columns, size_t stride,
-                                                             bool stream, double *out)
-{
-    lanes64_d v[8];
-    if (dim == 2) {
-        lanes64_zip(load(columns + i), load(columns + stride + i), &v[0], &v[1]);
-        lanes64_store(v[0], stream, out);
-        lanes64_store(v[1], stream, out + LANES64);
-        return;
-    }
-#if defined(__AVX2__) && !defined(__AVX512F__)
-    for (size_t c = 0; c < 4; c++) {
-        v[c] = load(columns + c * stride + i);
-    }
-    const lanes64_d even[2] = {__builtin_shufflevector(v[0], v[1], 0, 4, 2, 6),
-                               __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6)};
-    const lanes64_d odd[2] = {__builtin_shufflevector(v[0], v[1], 1, 5, 3, 7),
-                              __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7)};
-    v[4] = __builtin_shufflevector(even[0], even[1], 0, 1, 4, 5);
-    v[5] = __builtin_shufflevector(odd[0], odd[1], 0, 1, 4, 5);
-    v[6] = __builtin_shufflevector(even[0], even[1], 2, 3, 6, 7);
-    v[7] = __builtin_shufflevector(odd[0], odd[1], 2, 3, 6, 7);
-#else
-    lanes64_zip(load(columns + i), load(columns + 2 * stride + i), &v[0], &v[1]);
-    lanes64_zip(load(columns + stride + i), load(columns + 3 * stride + i), &v[2], &v[3]);
-    lanes64_zip(v[0], v[2], &v[4], &v[5]);
-    lanes64_zip(v[1], v[3], &v[6], &v[7]);
-#endif
-    for (int p = 0; p < 4; p++) {
-        lanes64_store(v[4 + p], stream, out + p * LANES64);
-    }
-}
-
-static inline __attribute__((always_inline)) void store_columns(size_t count, int dim, const double *columns,
-                                                                size_t stride, bool stream, double *out)
-{
-    size_t i = 0;
-    for (; i + LANES64 <= count; i += LANES64) {
-        store_rows(i, dim, columns, stride, stream, out + (size_t)dim * i);
-    }
-    for (; i < count; i++) {
-        for (size_t c = 0; c < (size_t)dim; c++) {
-            out[(size_t)dim * i + c] = columns[c * stride + i];
-        }
-    }
-}
-
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out)
-{
-    stream = stream && (uintptr_t)out % 16 == 0;
-    if (dim == 2 && stream) {
-        store_columns(count, 2, columns, stride, true, out);
-    } else if (dim == 2) {
-        store_columns(count, 2, columns, stride, false, out);
-    } else if (stream) {
-        store_columns(count, 4, columns, stride, true, out);
-    } else {
-        store_columns(count, 4, columns, stride, false, out);
-    }
-    if (stream) {
-        lanes64_stored();
     }
 }

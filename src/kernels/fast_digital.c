@@ -3,6 +3,8 @@
    vectorise. All arithmetic on 32-bit words is exact; every division and product of doubles is rounded once. */
 #include <koksma/sampler.h>
 
+#include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -11,8 +13,22 @@
 #include "kernels/kernels.def"
 #undef KERNEL
 
+/* Whether x / whole is x * (1 / whole) for all x: for the powers of two. */
+static bool is_power_of_two(double whole)
+{
+    int exponent;
+    return frexp(whole, &exponent) == 0.5 && exponent > -1000 && exponent < 1000;
+}
+
 void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
 {
+    const double scale = 1 / whole;
+    if (is_power_of_two(whole)) {
+        for (size_t i = 0; i < count; i++) {
+            out[i] = (xs[i] + add) * scale;
+        }
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
         out[i] = (xs[i] + add) / whole;
     }
@@ -20,6 +36,13 @@ void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double w
 
 void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
 {
+    const double scale = 1 / whole;
+    if (is_power_of_two(whole)) {
+        for (uint32_t i = 0; i < (uint32_t)count; i++) {
+            out[i] = (first + (double)(int32_t)i + add) * scale;
+        }
+        return;
+    }
     for (uint32_t i = 0; i < (uint32_t)count; i++) {
         out[i] = (first + (double)(int32_t)i + add) / whole;
     }
@@ -35,15 +58,6 @@ void KERNEL_NAME(fractions)(size_t count, const uint32_t *restrict v, double *re
 {
     for (size_t i = 0; i < count; i++) {
         out[i] = fraction(v[i]);
-    }
-}
-
-void KERNEL_NAME(fraction_pairs)(size_t count, const uint32_t *restrict v, const uint32_t *restrict w,
-                                 double *restrict out)
-{
-    for (size_t i = 0; i < count; i++) {
-        out[2 * i] = fraction(v[i]);
-        out[2 * i + 1] = fraction(w[i]);
     }
 }
 
@@ -85,28 +99,6 @@ void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
 {
     for (size_t i = 0; i < count; i++) {
         out[i] = koksma_pascal(v[i]);
-    }
-}
-
-void KERNEL_NAME(digital_at)(size_t count, const uint32_t *restrict index, const uint32_t *restrict directions,
-                             uint32_t *restrict out)
-{
-    enum { LANES = 32 };
-    for (size_t first = 0; first < count; first += LANES) {
-        uint32_t x[LANES] = {0}, j[LANES] = {0};
-        const size_t some = count - first < LANES ? count - first : LANES;
-        for (size_t l = 0; l < some; l++) {
-            j[l] = index[first + l];
-        }
-        for (int b = 0; b < 32; b++) {
-            const uint32_t direction = directions[b];
-            for (int l = 0; l < LANES; l++) {
-                x[l] ^= direction & (0u - (j[l] >> b & 1u));
-            }
-        }
-        for (size_t l = 0; l < some; l++) {
-            out[first + l] = x[l];
-        }
     }
 }
 

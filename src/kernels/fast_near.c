@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The two questions of maximal Poisson disk sampling, for several places at a time without branches. */
+#include <float.h>
 #include <string.h>
 
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 #include "kernels/lanes8.h"
-
-typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least);
@@ -69,7 +68,7 @@ unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride,
                                 float high)
 {
     const lanes8 at_x = (x + 2) - (lanes8){0, 1, 2, 3, 4, 5, 6, 7};
-    lanes8_i nearer = {0}, near = {0};
+    lanes8 least = (lanes8){0} + FLT_MAX;
     for (int r = 0; r < 5; r++, xs += stride, ys += stride) {
         lanes8 a, b;
         lanes8_load(xs, &a);
@@ -77,9 +76,9 @@ unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride,
         a -= at_x;
         b -= (y + 2) - (float)r;
         const lanes8 square = a * a + b * b;
-        nearer |= (lanes8_i)(square < low);
-        near |= (lanes8_i)(square < high);
+        lanes8_min(&square, &least);
     }
+    const lanes8_i nearer = (lanes8_i)(least < low), near = (lanes8_i)(least < high);
     return lanes8_any(&nearer) | lanes8_any(&near) << 1;
 }
 
@@ -129,23 +128,26 @@ unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least)
 {
-    enum { LANES = 16 };
+    enum { CHAINS = 4, LANES = CHAINS * LANES64 };
     for (size_t first = 0; first < count; first += LANES) {
         const size_t some = count - first < LANES ? count - first : LANES;
-        double x[LANES] = {0}, y[LANES] = {0}, best[LANES];
-        for (size_t l = 0; l < LANES; l++) {
-            best[l] = 1;
-        }
-        for (size_t l = 0; l < some; l++) {
-            x[l] = scale * pairs[2 * (first + l)];
-            y[l] = scale * pairs[2 * (first + l) + 1];
+        double own[2 * LANES] = {0}, found[LANES];
+        lanes64_d x[CHAINS], y[CHAINS], best[CHAINS];
+        memcpy(own, pairs + 2 * first, 2 * some * sizeof *own);
+        for (int c = 0; c < CHAINS; c++) {
+            for (int l = 0; l < LANES64; l++) {
+                x[c][l] = scale * own[2 * (c * LANES64 + l)];
+                y[c][l] = scale * own[2 * (c * LANES64 + l) + 1];
+            }
+            best[c] = splat(1);
         }
         for (size_t j = 0; j < near; j++) {
-            for (size_t l = 0; l < LANES; l++) {
-                const double a = dx[j] - x[l], b = dy[j] - y[l], square = a * a + b * b;
-                best[l] = square < best[l] ? square : best[l];
+            for (int c = 0; c < CHAINS; c++) {
+                const lanes64_d a = splat(dx[j]) - x[c], b = splat(dy[j]) - y[c];
+                best[c] = lanes64_min(a * a + b * b, best[c]);
             }
         }
-        memcpy(least + first, best, some * sizeof *best);
+        memcpy(found, best, sizeof found);
+        memcpy(least + first, found, some * sizeof *found);
     }
 }

@@ -3,130 +3,313 @@
    (Salmon et al. 2011), which the reference twin calls. */
 #include <string.h>
 
+#include "core/random.h"
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-/* Independent chains hide the multiplier's latency, about as many as the registers hold. */
-enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64 };
+/* Independent chains hide the multiplier's latency, about as many as the registers hold; the last few numbers take
+   fewer. */
+enum { CHAINS = LANES64 == 8 ? 4 : LANES64 == 4 ? 3 : 2, LANES = CHAINS * LANES64, ROUNDS = 8 };
 
+/* Lanes are in the order of lanes64_count_pairs, if nothing is said; their upper halves are garbage. */
 typedef struct block {
-    lanes64_u w[4][CHAINS]; /* the upper halves of the lanes are garbage */
+    lanes64_u w[4][CHAINS];
 } block;
 
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
+void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
+void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
 static inline lanes64_u splat(uint64_t x)
 {
     return x - (lanes64_u){0};
 }
 
-#define INLINE static inline __attribute__((always_inline)) /* once for each number of chains */
+/* What counters share that differ in the lowest word only: that round 0 makes w[0] and w[1] the same for all, and
+   round 1 w[3] and what w[2] is xored with. The keys of the other rounds; in memory they take no instruction. */
+typedef struct stream {
+    lanes64_u w2_of_0, w0_of_1, w2_of_1, w3_of_1, keys[ROUNDS][2];
+} stream;
 
-INLINE block philox(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains)
+static const uint32_t multiplier[2] = {0xD2511F53u, 0xCD9E8D57u}, weyl[2] = {0x9E3779B9u, 0xBB67AE85u};
+
+/* Not inlined: compilers would make the vectors anew in each round. */
+static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpose, uint32_t high, uint32_t lane,
+                                                  stream *out)
 {
-    block s;
-    for (int c = 0; c < chains; c++) {
-        s.w[0][c] = lanes64_count() + splat(first + (uint64_t)(c * LANES64));
-        s.w[1][c] = s.w[0][c] >> 32;
-        s.w[2][c] = splat(lane);
-        s.w[3][c] = splat(purpose);
+    uint32_t k0 = (uint32_t)seed, k1 = (uint32_t)(seed >> 32);
+    const uint64_t p1 = (uint64_t)lane * multiplier[1];
+    const uint32_t w0 = (uint32_t)(p1 >> 32) ^ high ^ k0, w1 = (uint32_t)p1;
+    out->w2_of_0 = splat(purpose ^ k1);
+    k0 += weyl[0];
+    k1 += weyl[1];
+    const uint64_t p0 = (uint64_t)w0 * multiplier[0];
+    out->w0_of_1 = splat(w1 ^ k0);
+    out->w2_of_1 = splat((uint32_t)(p0 >> 32) ^ k1);
+    out->w3_of_1 = splat((uint32_t)p0);
+    for (int round = 0; round < ROUNDS; round++) {
+        out->keys[round][0] = splat(k0 += weyl[0]);
+        out->keys[round][1] = splat(k1 += weyl[1]);
     }
-    lanes64_u k0 = splat((uint32_t)seed), k1 = splat(seed >> 32);
-    const lanes64 m0 = (lanes64)splat(0xD2511F53u), m1 = (lanes64)splat(0xCD9E8D57u);
-    for (int round = 0; round < 10; round++) {
-        for (int c = 0; c < chains; c++) {
-            const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)s.w[0][c], m0);
-            const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)s.w[2][c], m1);
-            s.w[0][c] = (p1 >> 32) ^ s.w[1][c] ^ k0;
-            s.w[1][c] = p1;
-            s.w[2][c] = (p0 >> 32) ^ s.w[3][c] ^ k1;
-            s.w[3][c] = p0;
-        }
-        k0 += splat(0x9E3779B9u);
-        k1 += splat(0xBB67AE85u);
-    }
-    return s;
 }
 
-/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. Integers below 2^52 become
-   doubles by way of the mantissa of 2^52. */
+#define INLINE INLINE /* once for each number of chains */
+
+/* The first two rounds, and one of the others. */
+INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
+{
+    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    block b;
+    for (int c = 0; c < chains; c++) {
+        const lanes64_u counter = order + splat(first + (uint64_t)(c * LANES64));
+        const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)counter, m0);
+        const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)((p0 >> 32) ^ s->w2_of_0), m1);
+        b.w[0][c] = (p1 >> 32) ^ s->w0_of_1;
+        b.w[1][c] = p1;
+        b.w[2][c] = p0 ^ s->w2_of_1;
+        b.w[3][c] = s->w3_of_1;
+    }
+    return b;
+}
+
+INLINE void go_on(const stream *s, int round, int chains, block *b)
+{
+    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    for (int c = 0; c < chains; c++) {
+        const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)b->w[0][c], m0);
+        const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)b->w[2][c], m1);
+        b->w[0][c] = (p1 >> 32) ^ (b->w[1][c] ^ s->keys[round][0]);
+        b->w[1][c] = p1;
+        b->w[2][c] = (p0 >> 32) ^ (b->w[3][c] ^ s->keys[round][1]);
+        b->w[3][c] = p0;
+    }
+}
+
+INLINE block philox_in(const stream *s, lanes64_u order, uint64_t first, int chains)
+{
+    block b = begin(s, order, first, chains);
+    for (int round = 0; round < ROUNDS; round++) {
+        go_on(s, round, chains, &b);
+    }
+    return b;
+}
+
+INLINE block philox(const stream *s, uint64_t first, int chains)
+{
+    return philox_in(s, lanes64_count_pairs(), first, chains);
+}
+
+typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
+
+/* koksma__unit: (high * 2^21 + low / 2^11) * 2^-53, as an exact sum of two doubles. 2^20 + high 2^-32 and
+   1/2 + (low / 2^11) 2^-53 have these numbers as the lower bits of their mantissas. */
 static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 {
-    const lanes64_u exponent = splat(0x4330000000000000u);
-    const lanes64_d offset = (lanes64_d)exponent;
-    const lanes64_d h = (lanes64_d)((high & splat(0xffffffffu)) | exponent) - offset;
-    const lanes64_d l = (lanes64_d)(((low & splat(0xffffffffu)) >> 11) | exponent) - offset;
-    return h * 0x1p-32 + l * 0x1p-53;
+    const lanes64_u upper = splat(0x4130000000000000u), lower = splat(0x3fe0000000000000u);
+    const lanes64_d h = (lanes64_d)lanes64_halves(high, upper) - 0x1p20;
+    const lanes64_d l = (lanes64_d)lanes64_halves((lanes64_u)((words_of_lanes)low >> 11), lower) - 0x1p-1;
+    return h + l;
 }
 
 /* The pairs of a block, in order. */
-INLINE void store_units(const block *r, int chains, double *out)
+INLINE void store_units(const block *b, int chains, double *out)
 {
     for (int c = 0; c < chains; c++, out += 2 * LANES64) {
-        const lanes64_d x = unit(r->w[0][c], r->w[1][c]), y = unit(r->w[2][c], r->w[3][c]);
-        lanes64_interleave(x, y, out);
-    }
-}
-
-INLINE void units(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains, double *out)
-{
-    const block r = philox(seed, purpose, first, lane, chains);
-    store_units(&r, chains, out);
-}
-
-void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
-{
-    size_t done = 0;
-    for (; done + LANES <= count; done += LANES) {
-        units(seed, purpose, first + done, lane, CHAINS, out + 2 * done);
-    }
-    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
-        units(seed, purpose, first + done, lane, 2, out + 2 * done);
-        done += 2 * LANES64;
-    }
-    for (; done + LANES64 <= count; done += LANES64) {
-        units(seed, purpose, first + done, lane, 1, out + 2 * done);
-    }
-    if (done < count) {
-        double pairs[2 * LANES64];
-        units(seed, purpose, first + done, lane, 1, pairs);
-        memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
+        lanes64_d low, high;
+        lanes64_pairs(unit(b->w[0][c], b->w[1][c]), unit(b->w[2][c], b->w[3][c]), &low, &high);
+        memcpy(out, &low, sizeof low);
+        memcpy(out + LANES64, &high, sizeof high);
     }
 }
 
 /* The words of a block, in order; two make a lane. */
-INLINE void store_words(const block *r, int chains, uint32_t *out)
+INLINE void store_words(const block *b, int chains, uint32_t *out)
 {
-    const lanes64_u lower = splat(0xffffffffu);
     for (int c = 0; c < chains; c++, out += 4 * LANES64) {
-        const lanes64_u x = (r->w[0][c] & lower) | r->w[1][c] << 32, y = (r->w[2][c] & lower) | r->w[3][c] << 32;
-        lanes64_interleave((lanes64_d)x, (lanes64_d)y, out);
+        const lanes64_u x = lanes64_halves(b->w[0][c], b->w[1][c] << 32);
+        const lanes64_u y = lanes64_halves(b->w[2][c], b->w[3][c] << 32);
+        lanes64_d low, high;
+        lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
+        memcpy(out, &low, sizeof low);
+        memcpy(out + 2 * LANES64, &high, sizeof high);
     }
 }
 
-INLINE void quads(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, int chains, uint32_t *out)
+/* The numbers below `first` + count of the counters from it on that share the second word. */
+static size_t share(uint64_t first, size_t count)
 {
-    const block r = philox(seed, purpose, first, lane, chains);
-    store_words(&r, chains, out);
+    const uint64_t left = ((uint64_t)1 << 32) - (uint32_t)first;
+    return count < left ? count : (size_t)left;
+}
+
+INLINE void units(const stream *s, uint64_t first, int chains, double *out)
+{
+    const block b = philox(s, first, chains);
+    store_units(&b, chains, out);
+}
+
+static void uniform(const stream *s, uint64_t first, size_t count, double *out)
+{
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
+        units(s, first + done, CHAINS, out + 2 * done);
+    }
+    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
+        units(s, first + done, 2, out + 2 * done);
+        done += 2 * LANES64;
+    }
+    for (; done + LANES64 <= count; done += LANES64) {
+        units(s, first + done, 1, out + 2 * done);
+    }
+    if (done < count) {
+        double pairs[2 * LANES64];
+        units(s, first + done, 1, pairs);
+        memcpy(out + 2 * done, pairs, 2 * (count - done) * sizeof *out);
+    }
+}
+
+void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
+{
+    while (count) {
+        const size_t some = share(first, count);
+        stream s;
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
+        uniform(&s, first, some, out);
+        first += some;
+        count -= some;
+        out += 2 * some;
+    }
+}
+
+INLINE void quads(const stream *s, uint64_t first, int chains, uint32_t *out)
+{
+    const block b = philox(s, first, chains);
+    store_words(&b, chains, out);
+}
+
+static void words(const stream *s, uint64_t first, size_t count, uint32_t *out)
+{
+    size_t done = 0;
+    for (; done + LANES <= count; done += LANES) {
+        quads(s, first + done, CHAINS, out + 4 * done);
+    }
+    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
+        quads(s, first + done, 2, out + 4 * done);
+        done += 2 * LANES64;
+    }
+    for (; done + LANES64 <= count; done += LANES64) {
+        quads(s, first + done, 1, out + 4 * done);
+    }
+    if (done < count) {
+        uint32_t last[4 * LANES64];
+        quads(s, first + done, 1, last);
+        memcpy(out + 4 * done, last, 4 * (count - done) * sizeof *out);
+    }
 }
 
 void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out)
 {
-    size_t done = 0;
-    for (; done + LANES <= count; done += LANES) {
-        quads(seed, purpose, first + done, lane, CHAINS, out + 4 * done);
+    while (count) {
+        const size_t some = share(first, count);
+        stream s;
+        make_stream(seed, purpose, (uint32_t)(first >> 32), lane, &s);
+        words(&s, first, some, out);
+        first += some;
+        count -= some;
+        out += 4 * some;
     }
-    if (CHAINS > 2 && done + 2 * LANES64 <= count) {
-        quads(seed, purpose, first + done, lane, 2, out + 4 * done);
-        done += 2 * LANES64;
+}
+
+/* Numbers first .. first + count - 1 of an order that grows inside out. */
+INLINE void insert(const uint32_t *word, uint32_t first, uint32_t count, uint32_t *out)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t j = koksma__below(word[i], first + i + 1);
+        out[first + i] = out[j];
+        out[j] = first + i;
     }
-    for (; done + LANES64 <= count; done += LANES64) {
-        quads(seed, purpose, first + done, lane, 1, out + 4 * done);
+}
+
+/* The random numbers wait for the multiplier, the order for the caches: the rounds of a block of numbers take turns
+   with the use of the block before. */
+void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
+{
+    enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
+    uint32_t word[WORDS];
+    stream s;
+    make_stream(seed, KOKSMA__PURPOSE_SHUFFLE, 0, lane, &s);
+    block b = philox(&s, 0, CHAINS);
+    uint32_t first = 0;
+    for (; n - first > WORDS; first += WORDS) {
+        store_words(&b, CHAINS, word);
+        b = begin(&s, lanes64_count_pairs(), (first + WORDS) / 4, CHAINS);
+        for (int round = 0; round < ROUNDS; round++) {
+            go_on(&s, round, CHAINS, &b);
+            insert(word + round * SHARE, first + (uint32_t)round * SHARE, SHARE, out);
+        }
     }
-    if (done < count) {
-        uint32_t last[4 * LANES64];
-        quads(seed, purpose, first + done, lane, 1, last);
-        memcpy(out + 4 * done, last, 4 * (count - done) * sizeof *out);
+    store_words(&b, CHAINS, word);
+    insert(word, first, n - first, out);
+}
+
+/* The double of cell + word 2^-32 over n, from the bits cell 2^32 + word, below 2^52, which are the lower ones of the
+   mantissa of 2^52. `upper` has the cell, and the exponent of that. */
+INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d whole, lanes64_d inverse, bool exact)
+{
+    const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - 0x1p52;
+    return exact ? x * inverse : x / whole;
+}
+
+/* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
+   it. For powers of two it is a product. Two points a counter, which are rows of four numbers. */
+INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n, bool exact,
+                          double *xs)
+{
+    const lanes64_u exponent = splat(0x4330000000000000u), one = splat((uint64_t)1 << 32);
+    const lanes64_d whole = n * 0x1p32 - (lanes64_d){0}, inverse = 1 / whole;
+    lanes64_u column = (2 * lanes64_count() + splat(first)) << 32 | exponent;
+    size_t i = 0;
+    while (i + 2 * LANES <= count) {
+        const block b = philox_in(s, lanes64_count(), (first + i) / 2, CHAINS);
+        for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += splat((uint64_t)2 * LANES64 << 32)) {
+            lanes64_u pair;
+            memcpy(&pair, rows + i, sizeof pair);
+            const lanes64_u even = lanes64_even_words(pair) << 32 | exponent;
+            const lanes64_u odd = lanes64_odd_words(pair) << 32 | exponent;
+            const lanes64_d points[4] = {
+                place(b.w[0][c], column, whole, inverse, exact), place(b.w[1][c], even, whole, inverse, exact),
+                place(b.w[2][c], column + one, whole, inverse, exact), place(b.w[3][c], odd, whole, inverse, exact)};
+            lanes64_store_rows(points, 4, false, xs + 2 * i);
+        }
+    }
+    return i;
+}
+
+/* koksma__in_cell. */
+static double in_cell(double cell, uint32_t word, double n)
+{
+    const double x = (cell + word * 0x1p-32) / n, end = (cell + 1) / n;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
+void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs)
+{
+    enum { SOME = 2 * LANES };
+    stream s;
+    make_stream(seed, KOKSMA__PURPOSE_POINT, 0, 0, &s);
+    size_t i = 0;
+    if (n <= (size_t)1 << 20) {
+        i = (n & (n - 1)) == 0 ? place_rooks(&s, rows, first, count, (double)n, true, xs)
+                               : place_rooks(&s, rows, first, count, (double)n, false, xs);
+    }
+    for (; i < count; i += SOME) {
+        const block b = philox(&s, (first + i) / 2, CHAINS);
+        uint32_t word[4 * LANES];
+        store_words(&b, CHAINS, word);
+        for (size_t p = 0; p < SOME && i + p < count; p++) {
+            xs[2 * (i + p)] = in_cell((double)(first + i + p), word[2 * p], (double)n);
+            xs[2 * (i + p) + 1] = in_cell((double)rows[i + p], word[2 * p + 1], (double)n);
+        }
     }
 }

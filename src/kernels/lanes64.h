@@ -43,6 +43,7 @@ static inline lanes64 lanes64_product(lanes64 a, lanes64 b)
 
 /* The same lanes as unsigned integers and as doubles, for the operators of the compiler's vector types. */
 typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
+typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
 /* 0, 1, 2, ... */
@@ -57,6 +58,73 @@ static inline lanes64_u lanes64_count(void)
 #endif
 }
 
+/* 0 .. LANES64 - 1 in the order in which lanes64_pairs takes its lanes. */
+static inline lanes64_u lanes64_count_pairs(void)
+{
+#if defined(__AVX512F__)
+    return (lanes64_u){0, 4, 1, 5, 2, 6, 3, 7};
+#elif defined(__AVX2__)
+    return (lanes64_u){0, 2, 1, 3};
+#else
+    return (lanes64_u){0, 1};
+#endif
+}
+
+/* low, high = x[0], y[0], x[1], y[1], ..., of lanes in that order: one instruction each. */
+static inline void lanes64_pairs(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
+{
+#if defined(__AVX512F__)
+    *low = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14);
+    *high = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+#elif defined(__AVX2__)
+    *low = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+    *high = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+#else
+    *low = __builtin_shufflevector(x, y, 0, 2);
+    *high = __builtin_shufflevector(x, y, 1, 3);
+#endif
+}
+
+/* Lanes of the lower half of `low` and the upper half of `high`. */
+static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
+{
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    return (lanes64_u)_mm256_blend_epi32((__m256i)low, (__m256i)high, 0xaa);
+#else
+    return (low & 0xffffffffu) | (high & 0xffffffff00000000u);
+#endif
+}
+
+/* The words that lay at even and at odd places where lanes of two were loaded from. */
+static inline lanes64_u lanes64_even_words(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes & 0xffffffffu;
+#else
+    return lanes >> 32;
+#endif
+}
+
+static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes >> 32;
+#else
+    return lanes & 0xffffffffu;
+#endif
+}
+
+/* The largest whole numbers not above numbers in [0, 2^52). */
+static inline lanes64_d lanes64_floor(lanes64_d x)
+{
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    return (lanes64_d)_mm256_floor_pd((__m256d)x);
+#else
+    const lanes64_d nearest = (x + 0x1p52) - 0x1p52;
+    return nearest + __builtin_convertvector((lanes64_i)(nearest > x), lanes64_d);
+#endif
+}
+
 /* low, high = x[0], y[0], x[1], y[1], ... */
 static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64_d *high)
 {
@@ -64,8 +132,10 @@ static inline void lanes64_zip(lanes64_d x, lanes64_d y, lanes64_d *low, lanes64
     *low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 2, 10, 3, 11);
     *high = __builtin_shufflevector(x, y, 4, 12, 5, 13, 6, 14, 7, 15);
 #elif defined(__AVX2__)
-    *low = __builtin_shufflevector(x, y, 0, 4, 1, 5);
-    *high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+    lanes64_d even, odd;
+    lanes64_pairs(x, y, &even, &odd);
+    *low = __builtin_shufflevector(even, odd, 0, 1, 4, 5);
+    *high = __builtin_shufflevector(even, odd, 2, 3, 6, 7);
 #else
     *low = __builtin_shufflevector(x, y, 0, 2);
     *high = __builtin_shufflevector(x, y, 1, 3);
@@ -79,6 +149,20 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
     lanes64_zip(x, y, &low, &high);
     memcpy(out, &low, sizeof low);
     memcpy((char *)out + sizeof low, &high, sizeof high);
+}
+
+/* The lower of two numbers. */
+static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
+{
+#if defined(__AVX512F__)
+    return (lanes64_d)_mm512_min_pd((__m512d)x, (__m512d)y);
+#elif defined(__AVX2__)
+    return (lanes64_d)_mm256_min_pd((__m256d)x, (__m256d)y);
+#elif defined(__SSE2__)
+    return (lanes64_d)_mm_min_pd((__m128d)x, (__m128d)y);
+#else
+    return (lanes64_d){x[0] < y[0] ? x[0] : y[0], x[1] < y[1] ? x[1] : y[1]};
+#endif
 }
 
 /* Stores a vector; with stream, past the caches, for which `out` is aligned to 16 bytes. */
@@ -96,6 +180,35 @@ static inline void lanes64_store(lanes64_d v, bool stream, double *out)
 #endif
     (void)stream;
     memcpy(out, &v, sizeof v);
+}
+
+/* LANES64 points of 2 or 4 coordinates from as many columns. */
+static inline __attribute__((always_inline)) void lanes64_store_rows(const lanes64_d *columns, int dim, bool stream,
+                                                                     double *out)
+{
+    lanes64_d v[8];
+    if (dim == 2) {
+        lanes64_zip(columns[0], columns[1], &v[0], &v[1]);
+        lanes64_store(v[0], stream, out);
+        lanes64_store(v[1], stream, out + LANES64);
+        return;
+    }
+#if defined(__AVX2__) && !defined(__AVX512F__)
+    lanes64_pairs(columns[0], columns[1], &v[0], &v[1]);
+    lanes64_pairs(columns[2], columns[3], &v[2], &v[3]);
+    v[4] = __builtin_shufflevector(v[0], v[2], 0, 1, 4, 5);
+    v[5] = __builtin_shufflevector(v[1], v[3], 0, 1, 4, 5);
+    v[6] = __builtin_shufflevector(v[0], v[2], 2, 3, 6, 7);
+    v[7] = __builtin_shufflevector(v[1], v[3], 2, 3, 6, 7);
+#else
+    lanes64_zip(columns[0], columns[2], &v[0], &v[1]);
+    lanes64_zip(columns[1], columns[3], &v[2], &v[3]);
+    lanes64_zip(v[0], v[2], &v[4], &v[5]);
+    lanes64_zip(v[1], v[3], &v[6], &v[7]);
+#endif
+    for (int p = 0; p < 4; p++) {
+        lanes64_store(v[4 + p], stream, out + p * LANES64);
+    }
 }
 
 /* After the last streaming store. */

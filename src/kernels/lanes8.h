@@ -20,6 +20,17 @@ static inline __attribute__((always_inline)) void lanes8_load(const float *from,
     memcpy(v, from, sizeof *v);
 }
 
+/* The lower of x and least, lane by lane. */
+static inline __attribute__((always_inline)) void lanes8_min(const lanes8 *x, lanes8 *least)
+{
+#ifdef LANES8_AVX2
+    *least = (lanes8)_mm256_min_ps((__m256)*x, (__m256)*least);
+#else
+    const lanes8_i below = (lanes8_i)(*x < *least);
+    *least = (lanes8)(((lanes8_i)*x & below) | ((lanes8_i)*least & ~below));
+#endif
+}
+
 /* Bit l: whether lane l is -1; lanes are 0 or -1. */
 static inline __attribute__((always_inline)) unsigned lanes8_bits(const lanes8_i *mask)
 {

@@ -7,6 +7,8 @@
  * Source: Hammersley 1960. offset=0.5 has the lower star discrepancy. In 2D with n = 2^m a (0,m,2)-net.
  * Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
  */
+#include <math.h>
+
 #include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
 #include "patterns/parts/radical.h"
@@ -27,10 +29,50 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
     }
 }
 
+/* In 2D with n = 2^m and an offset of whole 2^(m-32) both coordinates are digital: of i 2^(32-m), and of i mirrored.
+ */
+typedef struct net {
+    uint32_t directions[2][32], start;
+} net;
+
+static bool make_net(size_t n, double offset, net *s)
+{
+    int m = 0;
+    while ((size_t)1 << m < n) {
+        m++;
+    }
+    const double start = ldexp(offset, 32 - m);
+    if ((size_t)1 << m != n || start != floor(start)) {
+        return false;
+    }
+    for (int b = 0; b < 32; b++) {
+        s->directions[0][b] = b < m ? (uint32_t)1 << (32 - m + b) : 0;
+        s->directions[1][b] = (uint32_t)1 << (31 - b);
+    }
+    s->start = (uint32_t)start;
+    return true;
+}
+
+static void rows(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
+{
+    const net *s = context;
+    const uint32_t *directions[2] = {s->directions[0], s->directions[1]};
+    uint32_t starts[2] = {s->start, 0};
+    for (int b = 0; first >> b; b++) {
+        starts[0] ^= first >> b & 1 ? directions[0][b] : 0;
+        starts[1] ^= first >> b & 1 ? directions[1][b] : 0;
+    }
+    koksma__kernels()->digital_rows(count, 2, directions, starts, stream, out->xs + 2 * first);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
     job j;
+    net digital;
+    if (out->dim == 2 && make_net(out->n, args->params[0], &digital)) {
+        return koksma__fill_rows(args->run, out, rows, &digital);
+    }
     j.n = (double)out->n;
     j.offset = args->params[0];
     koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, out->n, NULL, NULL);

@@ -12,6 +12,7 @@
  */
 #include <stdlib.h>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -32,14 +33,9 @@ typedef struct plane {
 static koksma_status place(void *context, size_t group)
 {
     const plane *p = context;
-    const koksma__kernel_table *kernels = koksma__kernels();
-    const size_t n = p->out->n, end = n - group * GROUP < GROUP ? n : (group + 1) * GROUP;
-    uint32_t words[2 * FEW + 2];
-    for (size_t first = group * GROUP; first < end; first += FEW) {
-        const size_t count = end - first < FEW ? end - first : FEW;
-        kernels->words(p->seed, KOKSMA__PURPOSE_POINT, first / 2, 0, (count + 1) / 2, words);
-        kernels->rooks_2d(words, p->rows + first, first, count, n, p->out->xs + 2 * first);
-    }
+    const size_t first = group * GROUP, left = p->out->n - first;
+    koksma__kernels()->rooks_2d(p->seed, p->rows + first, first, left < GROUP ? left : GROUP, p->out->n,
+                                p->out->xs + 2 * first);
     return KOKSMA_OK;
 }
 
@@ -72,6 +68,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (!permutation) {
         return koksma__fail_memory(out->n * sizeof *permutation);
     }
+    koksma__large_pages(permutation, out->n * sizeof *permutation);
     const koksma_status status =
         out->dim == 2 ? fill_plane(seed, args->run, permutation, out) : fill_space(seed, args->run, permutation, out);
     if (permutation != few) {

@@ -19,20 +19,21 @@
 #include "patterns/parts/dart_cover.h"
 #include "patterns/patterns.h"
 
-enum { TRIES = 100 };
+enum { TRIES = 100, MANY = 100000 };
 
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
 /* From a maximal set of fewer than n points to one of n. The distance is between `low`, at which there were more, and
-   disks->d. */
+   disks->d. Each try tells how much a point costs. */
 static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run *run)
 {
-    const double first = 0.25 / (double)n;
-    double high = disks->d, low = 0, step = first * (double)(n - disks->n);
+    const double guess = 0.25 / (double)n;
+    double high = disks->d, low = 0, step = guess; /* of the distance, for a point more */
     size_t kept = disks->n;
     koksma_status status = KOKSMA_OK;
     for (int try = 0; try < TRIES && !status; try++) {
-        const double d = low > 0 ? (low + high) / 2 : high * (1 - fmin(step, 0.3));
+        const double wanted = high * (1 - fmin(step * (double)(n - kept), 0.3));
+        const double d = low > 0 ? fmax(wanted, (low + high) / 2) : wanted;
         status = koksma__disks_shrink(disks, kept, d);
         if (!status) {
             status = koksma__disks_fill(disks, n + 1, run);
@@ -42,14 +43,15 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
         }
         if (disks->n > n) {
             low = d;
+            step /= 2;
         } else {
+            step = disks->n > kept ? (1 - d / high) / (double)(disks->n - kept) : 2 * step;
             high = d;
             kept = disks->n;
-            step *= 1.5;
-            if (high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
-                low = 0;
-                step = first * (double)(n - kept);
-            }
+        }
+        if (low > 0 && high - low < 1e-12 * high) { /* low was of fewer points; with these there is no room there */
+            low = 0;
+            step = guess;
         }
     }
     return status
@@ -89,10 +91,23 @@ static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run,
     return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
 }
 
+/* Disks of radius d cover the torus and those of radius d/2 do not overlap: between 2/(sqrt(27) d^2) points, the
+   thinnest covering's, and the densest packing's 2/(sqrt(3) d^2). Where counting takes long, any other number is
+   refused before a dart is thrown. */
+static bool is_possible(double d, size_t n)
+{
+    const double area = (double)n * d * d;
+    return area > 0.999 * 2 / sqrt(27) && area < 1.001 * 2 / sqrt(3);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const double d = args->params[0];
     koksma__disks disks = {0};
+    if (d > 0 && PER_AREA / d / d > MANY && !is_possible(d, out->n)) {
+        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d,
+                            PER_AREA / d / d, out->n);
+    }
     koksma_status status =
         d > 0 ? by_distance(seed, d, args->run, &disks) : by_number(seed, out->n, args->run, &disks);
     if (!status && disks.n != out->n) {

@@ -30,6 +30,8 @@
 #include "patterns/parts/sobol_table.h"
 #include "patterns/patterns.h"
 
+enum { ROWS = 16 }; /* the most dimensions of the kernel digital_rows */
+
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
 
 typedef struct job {
@@ -60,6 +62,19 @@ static uint32_t start_of(const uint32_t *directions, size_t first)
     return start;
 }
 
+/* Few dimensions: rows at once. */
+static void digital_rows(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
+{
+    const job *j = context;
+    const uint32_t *directions[ROWS];
+    uint32_t starts[ROWS];
+    for (int k = 0; k < out->dim; k++) {
+        directions[k] = directions_of(j, k);
+        starts[k] = start_of(directions[k], first) ^ (j->scramble ? seed_of(j, k) : 0);
+    }
+    koksma__kernels()->digital_rows(count, out->dim, directions, starts, stream, out->xs + first * (size_t)out->dim);
+}
+
 static void digital(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
@@ -75,11 +90,25 @@ static void digital(const void *context, int k, int some, size_t first, size_t c
     }
 }
 
+static koksma_status fill_digital(const job *j, const koksma_run *run, koksma_points *out)
+{
+    return out->dim <= ROWS ? koksma__fill_rows(run, out, digital_rows, j)
+                            : koksma__fill_blocks(run, out, digital, j);
+}
+
+/* The hash takes mirrored words: made of mirrored directions. */
+static void mirror_directions(const uint32_t *directions, uint32_t *mirrored)
+{
+    for (int b = 0; b < 32; b++) {
+        mirrored[b] = koksma_mirror(directions[b]);
+    }
+}
+
 static void hash_owen(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
     const koksma__kernel_table *kernels = koksma__kernels();
-    uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK];
+    uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
     for (size_t i = 0; i < count; i++) {
         index[i] = (uint32_t)(first + i);
     }
@@ -88,18 +117,20 @@ static void hash_owen(const void *context, int k, int some, size_t first, size_t
         kernels->owen_hash(count, index, true, true, seed, index);
     }
     for (int c = 0; c < some; c++) {
-        const uint32_t *directions = directions_of(j, k + c), seed = seed_of(j, k + c);
+        const uint32_t seed = seed_of(j, k + c);
+        mirror_directions(directions_of(j, k + c), directions);
         if (k + c == 0) {
             kernels->owen_hash(count, index, false, true, seed, v);
         } else if (k + c == 1) {
             kernels->pascal(count, index, v);
             kernels->owen_hash(count, v, false, true, seed, v);
-        } else if (j->shuffle) {
-            kernels->digital_at(count, index, directions, v);
-            kernels->owen_hash(count, v, true, true, seed, v);
         } else {
-            kernels->digital(count, directions, start_of(directions, first), v);
-            kernels->owen_hash(count, v, true, true, seed, v);
+            if (j->shuffle) {
+                kernels->digital_at(count, index, directions, v);
+            } else {
+                kernels->digital(count, directions, start_of(directions, first), v);
+            }
+            kernels->owen_hash(count, v, false, true, seed, v);
         }
         kernels->fractions(count, v, xs[c]);
     }
@@ -160,7 +191,7 @@ static koksma_status generate_lms(job *j, const koksma_run *run, koksma_points *
         scramble_matrix(j, k, matrices[k]);
     }
     j->matrices = (const uint32_t(*)[32])matrices;
-    const koksma_status status = koksma__fill_blocks(run, out, digital, j);
+    const koksma_status status = fill_digital(j, run, out);
     if (matrices != few) {
         free(matrices);
     }
@@ -186,7 +217,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (j.scramble == LMS) {
         return generate_lms(&j, args->run, out);
     }
-    return koksma__fill_blocks(args->run, out, j.scramble == HASH_OWEN ? hash_owen : digital, &j);
+    return j.scramble == HASH_OWEN ? koksma__fill_blocks(args->run, out, hash_owen, &j)
+                                   : fill_digital(&j, args->run, out);
 }
 
 static const char *const scrambles[] = {"none", "digital-shift", "lms", "owen", "hash-owen", NULL};

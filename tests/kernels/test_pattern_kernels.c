@@ -44,12 +44,12 @@ static void assert_equal_to_reference(compare f, size_t most)
 
 static void quotients(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->quotients(count, units, 0.37, 3.1, out);
+    t->quotients(count, units, 0.37, count % 2 ? 0x1p40 : 3.1, out);
 }
 
 static void steps(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->steps(count, 12345678, 0.25, 1234567890, out);
+    t->steps(count, 12345678, 0.25, count % 2 ? 0x1p31 : 1234567890, out);
 }
 
 static void fractions(const koksma__kernel_table *t, size_t count, void *out)
@@ -57,14 +57,32 @@ static void fractions(const koksma__kernel_table *t, size_t count, void *out)
     t->fractions(count, words, out);
 }
 
-static void fraction_pairs(const koksma__kernel_table *t, size_t count, void *out)
+static void fraction_rows(const koksma__kernel_table *t, size_t count, void *out)
 {
-    t->fraction_pairs(count, words, words + 7, out);
+    t->fraction_rows(count, 4, words, 97, count % 2, out);
+    t->fraction_rows(count, 2, words, 131, count % 2, (double *)out + 600 + count % 3);
 }
 
 static void digital(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->digital(count, koksma__sobol_directions(5, 0), 0x12345678, out);
+}
+
+static void digital_rows(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const int dims[] = {2, 4, 1, 3, 7, 16};
+    const uint32_t *directions[16];
+    for (int c = 0; c < 16; c++) {
+        directions[c] = koksma__sobol_directions(3 * c, 0);
+    }
+    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+        const size_t dim = (size_t)dims[d], some = count * dim <= 1100 ? count : 1100 / dim;
+        double xs[1200] = {0};
+        t->digital_rows(some, dims[d], directions, words, count % 2, xs + count % 3);
+        for (size_t i = 0; i < 1200; i++) {
+            ((double *)out)[i] = ((double *)out)[i] / 3 + xs[i];
+        }
+    }
 }
 
 static void digital_at(const koksma__kernel_table *t, size_t count, void *out)
@@ -132,6 +150,29 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
+/* Points r < some of the largest power of the base, their relatives, and the places between untouched. */
+static void nested_digits(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const uint32_t bases[] = {3, 5, 7, 11, 13};
+    const uint32_t base = bases[count % 5], relatives = 1 + (uint32_t)(count / 5 % (base - 1));
+    double *v = out, whole = base, width = 1;
+    while (whole * base <= 0x1p53) {
+        whole *= base;
+    }
+    for (size_t power = 0; power < count % 12; power++) {
+        width *= base;
+    }
+    if (count % 3 == 0) {
+        width = whole / base;
+    }
+    for (size_t i = 0; i < MAX; i++) {
+        v[i] = i == 3 ? whole - 1 : i == 4 ? width : i == 5 ? 0 : (double)(uint64_t)(units[i] * whole);
+    }
+    const size_t first = count % 7, step = (MAX - first) / (relatives + 1);
+    const size_t some = count < step ? count : step;
+    t->nested_digits(base, relatives, first, some, step, width, words, v);
+}
+
 static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->rows_of_columns(count, 4, units, 97, count % 2, out);
@@ -146,7 +187,7 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
         for (size_t i = 0; i < count; i++) {
             rows[i] = (uint32_t)((words[i] * (uint64_t)sides[s]) >> 32);
         }
-        t->rooks_2d(words, rows, sides[s] - count, count, sides[s], (double *)out + 240 * s);
+        t->rooks_2d(s, rows, (sides[s] - count) / 2 * 2, count, sides[s], (double *)out + 240 * s);
     }
 }
 
@@ -160,8 +201,9 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
 TEST(quotients, MAX)
 TEST(steps, MAX)
 TEST(fractions, MAX)
-TEST(fraction_pairs, MAX)
+TEST(fraction_rows, 150)
 TEST(digital, MAX)
+TEST(digital_rows, MAX)
 TEST(digital_at, MAX)
 TEST(owen_hash, MAX)
 TEST(pascal, MAX)
@@ -169,26 +211,21 @@ TEST(grow, MAX)
 TEST(covers, 250)
 TEST(cells_as_floats, 250)
 TEST(nearest_offset, MAX)
+TEST(nested_digits, MAX)
 TEST(rooks_2d, 120)
 TEST(rows_of_columns, 150)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),
-        cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),
-        cmocka_unit_test(fraction_pairs_equals_reference),
-        cmocka_unit_test(digital_equals_reference),
-        cmocka_unit_test(digital_at_equals_reference),
-        cmocka_unit_test(owen_hash_equals_reference),
-        cmocka_unit_test(pascal_equals_reference),
-        cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),
-        cmocka_unit_test(cells_as_floats_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference),
-        cmocka_unit_test(rooks_2d_equals_reference),
-        cmocka_unit_test(rows_of_columns_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_rows_equals_reference),
+        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_rows_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),     cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),         cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(cells_as_floats_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
+        cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -41,6 +41,21 @@ static void words_equal_reference(void **state)
     }
 }
 
+static void permutation_equals_reference(void **state)
+{
+    (void)state;
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    for (size_t isa = 0; isa < 3; isa++) {
+        const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+        for (uint32_t n = 0; fast && n <= 4 * MAX; n += 1 + n / 9) {
+            uint32_t a[4 * MAX + 1] = {0}, b[4 * MAX + 1] = {0};
+            ref->permutation(n, 3, n, a);
+            fast->permutation(n, 3, n, b);
+            assert_memory_equal(a, b, sizeof a);
+        }
+    }
+}
+
 static void cells_equal_reference(void **state)
 {
     (void)state;
@@ -79,9 +94,8 @@ static void philox_known_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_equals_reference),
-        cmocka_unit_test(words_equal_reference),
-        cmocka_unit_test(cells_equal_reference),
+        cmocka_unit_test(uniform_equals_reference),     cmocka_unit_test(words_equal_reference),
+        cmocka_unit_test(permutation_equals_reference), cmocka_unit_test(cells_equal_reference),
         cmocka_unit_test(philox_known_answer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,6 +12,11 @@ typedef struct job {
     koksma_points *out;
 } job;
 
+bool koksma__is_large(const koksma_points *out)
+{
+    return out->n * (size_t)out->dim * sizeof *out->xs >= STREAM_BYTES;
+}
+
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out)
 {
     out += k;
@@ -25,8 +30,7 @@ void koksma__store_columns(size_t count, int some, const double *columns, size_t
     const size_t dim = (size_t)out->dim;
     double *to = out->xs + first * dim + k;
     if (some == out->dim && (some == 2 || some == 4)) {
-        const bool stream = out->n * dim * sizeof *to >= STREAM_BYTES;
-        koksma__kernels()->rows_of_columns(count, some, columns, KOKSMA__COLUMN_BLOCK, stream, to);
+        koksma__kernels()->rows_of_columns(count, some, columns, KOKSMA__COLUMN_BLOCK, koksma__is_large(out), to);
         return;
     }
     for (size_t i = 0; i < count; i++) {
@@ -81,4 +85,25 @@ koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, ko
 {
     const single s = {f, context};
     return koksma__fill_blocks(run, out, one_by_one, &s);
+}
+
+typedef struct whole {
+    koksma__rows f;
+    const void *context;
+    koksma_points *out;
+} whole;
+
+static koksma_status group_of_rows(void *context, size_t g)
+{
+    const whole *w = context;
+    const size_t first = g * GROUP, left = w->out->n - first;
+    w->f(w->context, first, left < GROUP ? left : GROUP, koksma__is_large(w->out), w->out);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context)
+{
+    whole w = {f, context, out};
+    const size_t n_groups = (out->n + GROUP - 1) / GROUP;
+    return n_groups == 1 ? group_of_rows(&w, 0) : koksma__parallel(run, n_groups, group_of_rows, &w);
 }

@@ -19,6 +19,14 @@ typedef void (*koksma__block)(const void *context, int k, int some, size_t first
 koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context);
 koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context);
 
+/* All coordinates of points first .. first + count - 1 of out, first a multiple of 32768; stream: past the caches. */
+typedef void (*koksma__rows)(const void *context, size_t first, size_t count, bool stream, koksma_points *out);
+
+koksma_status koksma__fill_rows(const koksma_run *run, koksma_points *out, koksma__rows f, const void *context);
+
+/* Whether points are better stored past the caches: they are larger than these. */
+bool koksma__is_large(const koksma_points *out);
+
 /* out[i*dim + k] = xs[i] for i < count. */
 void koksma__store_column(size_t count, const double *xs, int dim, int k, double *out);
 

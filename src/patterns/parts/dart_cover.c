@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -28,6 +29,7 @@ static bool get_room(void **things, size_t *room, size_t count, size_t size)
         free(*things);
         *things = malloc(count * size);
         *room = *things ? count : 0;
+        koksma__large_pages(*things, count * size);
     }
     return *things != NULL;
 }
@@ -87,6 +89,7 @@ koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
     if (!s->xs) {
         return koksma__fail_memory(2 * s->room * sizeof *s->xs);
     }
+    koksma__large_pages(s->xs, 2 * s->room * sizeof *s->xs);
     return make_grid(s, d);
 }
 

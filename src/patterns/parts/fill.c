@@ -39,15 +39,5 @@ koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma
 
 void koksma__fill_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation)
 {
-    enum { COUNTERS = 64 };
-    uint32_t words[4 * COUNTERS];
-    for (uint32_t first = 0; first < n; first += 4 * COUNTERS) {
-        const uint32_t count = n - first < 4 * COUNTERS ? n - first : 4 * COUNTERS;
-        koksma__kernels()->words(seed, KOKSMA__PURPOSE_SHUFFLE, first / 4, lane, (count + 3) / 4, words);
-        for (uint32_t i = first; i < first + count; i++) {
-            const uint32_t j = koksma__below(words[i - first], i + 1);
-            permutation[i] = permutation[j];
-            permutation[j] = i;
-        }
-    }
+    koksma__kernels()->permutation(seed, lane, n, permutation);
 }

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
@@ -87,8 +88,9 @@ static void store(const growth *g, koksma_points *out, size_t first, size_t coun
 {
     const koksma__kernel_table *kernels = koksma__kernels();
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
-    if (out->dim == 2) {
-        kernels->fraction_pairs(count, g->v + first, g->v + g->n + first, out->xs + 2 * first);
+    if (out->dim == 2 || out->dim == 4) {
+        kernels->fraction_rows(count, out->dim, g->v + first, g->n, koksma__is_large(out),
+                               out->xs + (size_t)out->dim * first);
         return;
     }
     for (int c = 0; c < g->dim; c++) {
@@ -109,6 +111,7 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
         if (!memory) {
             return koksma__fail_memory(bytes);
         }
+        koksma__large_pages(memory, bytes);
     }
     koksma_status status = KOKSMA_OK;
     for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {

@@ -9,6 +9,7 @@
 
 #include <stdlib.h>
 
+#include "core/pages.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -17,7 +18,7 @@
 #include "patterns/parts/grow.h"
 #include "patterns/parts/radical.h"
 
-enum { FEW = 256, MANY = 4096, STREAM = 1 << 20, MAX_BASE = 38880 };
+enum { FEW = 256, MANY = 4096, STREAM = 1 << 20, MAX_BASE = 38880, SMALL_BASE = 13 };
 
 typedef struct job {
     uint64_t seed;
@@ -70,71 +71,28 @@ static void place_relatives(const column *c, size_t r, size_t step, double width
     c->order[own] = (uint16_t)own;
 }
 
-/* Base 3, where most time goes: the two others in one of two orders, by a table and not by branches. */
-static void place_pairs(const column *c, size_t step, double width)
+/* Small bases: the same number of relatives at a time. Base 3 has draws of its own: the others of its digits come in
+   their cyclic order or in the opposite one. */
+static void place_small(const column *c, size_t step, double width)
 {
-    static const double others[3][2][2] = {{{1, 2}, {2, 1}}, {{2, 0}, {0, 2}}, {{0, 1}, {1, 0}}};
-    const size_t n = c->n, parents = n - step < step ? n - step : step;
-    const size_t whole = n > 2 * step ? n - 2 * step : 0; /* parents with both relatives */
-    const double inverse = 1 / width;
-    double *v = c->v;
-    for (size_t r = 0; r < parents; r++) {
-        double upper = whole_part(v[r] * inverse);
-        const double rest = v[r] - upper * width; /* exact: the estimate is off by one at most */
-        upper += (double)(rest >= width) - (double)(rest < 0);
-        const double prefix = whole_part((upper + 0.5) * (1.0 / 3)) * 3;
-        const double *digit = others[(int)(upper - prefix)][c->word[2 * (r + step)] >> 31];
-        v[r + step] = (prefix + digit[0]) * width + below(width, c->word[2 * (r + step) + 1]);
-        if (r < whole) {
-            v[r + 2 * step] = (prefix + digit[1]) * width + below(width, c->word[2 * (r + 2 * step) + 1]);
-        }
-    }
-}
-
-/* Bases below 16: the digits that are left as the 4-bit parts of one word. The same draws as place_relatives. */
-static inline __attribute__((always_inline)) void place_small(const column *c, uint32_t base, size_t step,
-                                                              double width)
-{
-    const size_t n = c->n, parents = n - step < step ? n - step : step;
-    double *v = c->v;
-    for (size_t r = 0; r < parents; r++) {
-        const double upper = whole_part(v[r] / width), prefix = whole_part(upper / base) * base;
-        const uint32_t own = (uint32_t)(upper - prefix);
-        uint64_t order = 0xfedcba9876543210u;
-        order = (order & ~((uint64_t)15 << 4 * own)) | own;
-        for (uint32_t d = 1; d < base; d++) {
-            const size_t i = r + d * step;
-            if (i >= n) {
-                break;
-            }
-            const uint32_t pick = d + koksma__below(c->word[2 * i], base - d);
-            const uint64_t digit = order >> 4 * pick & 15, kept = order >> 4 * d & 15;
-            order ^= (digit ^ kept) << 4 * pick; /* place d is not looked at again */
-            v[i] = (prefix + (double)(int32_t)digit) * width + below(width, c->word[2 * i + 1]);
+    size_t first = 0;
+    for (uint32_t relatives = c->base - 1; relatives; relatives--) {
+        const size_t left = c->n > relatives * step ? c->n - relatives * step : 0, end = left < step ? left : step;
+        if (end > first) {
+            koksma__kernels()->nested_digits(c->base, relatives, first, end - first, step, width, c->word, c->v);
+            first = end;
         }
     }
 }
 
 static void place_level(const column *c, size_t step, double width)
 {
-    switch (c->base) {
-    case 3:
-        place_pairs(c, step, width);
+    if (c->base <= SMALL_BASE) {
+        place_small(c, step, width);
         return;
-    case 5:
-        place_small(c, 5, step, width);
-        return;
-    case 7:
-        place_small(c, 7, step, width);
-        return;
-    case 11:
-    case 13:
-        place_small(c, c->base, step, width);
-        return;
-    default:
-        for (size_t r = 0; r < (c->n - step < step ? c->n - step : step); r++) {
-            place_relatives(c, r, step, width);
-        }
+    }
+    for (size_t r = 0; r < (c->n - step < step ? c->n - step : step); r++) {
+        place_relatives(c, r, step, width);
     }
 }
 
@@ -192,6 +150,7 @@ static koksma_status fill(void *context, size_t k)
         if (!memory) {
             return koksma__fail_memory(bytes);
         }
+        koksma__large_pages(memory, bytes);
         c.v = j->columns ? j->columns + k * n : memory;
         word = j->columns ? memory : (uint32_t *)(c.v + n);
     }
@@ -221,11 +180,12 @@ koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_p
         }
         return status;
     }
-    if (dim == 2) { /* with more the fresh pages cost more than the long steps */
+    if (dim == 2 || dim == 4) {
         j.columns = malloc(dim * n * sizeof *j.columns);
         if (!j.columns) {
             return koksma__fail_memory(dim * n * sizeof *j.columns);
         }
+        koksma__large_pages(j.columns, dim * n * sizeof *j.columns);
     }
     status = koksma__parallel(run, dim, fill, &j);
     if (!status && j.columns) {

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Nested scrambling in a small odd base, several strata at once. The digits that are left are the 4-bit parts of one
+   word. Doubles hold whole numbers below 2^53; those that are cut off are below 2^52. */
+#include <string.h>
+
+#include "core/random.h"
+#include "kernels/kernels.h"
+#include "kernels/lanes64.h"
+
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
+                                double width, const uint32_t *word, double *v);
+
+enum { CHAINS = 2, LANES = CHAINS * LANES64 };
+
+#define EVERY_DIGIT 0xfedcba9876543210u
+
+typedef struct strata {
+    lanes64_d prefix[CHAINS]; /* the digits above, as a multiple of the base */
+    lanes64_u order[CHAINS];  /* digit d at bit 4 d; the first is the stratum's own */
+} strata;
+
+static inline lanes64_u splat(uint64_t x)
+{
+    return x - (lanes64_u){0};
+}
+
+/* Doubles of whole numbers below 2^32, and back. */
+static inline lanes64_d to_doubles(lanes64_u x)
+{
+    return (lanes64_d)(x | 0x4330000000000000u) - 0x1p52;
+}
+
+static inline lanes64_u to_words(lanes64_d x)
+{
+    return (lanes64_u)(x + 0x1p52) & 0xffffffffu;
+}
+
+static inline lanes64_u chosen(lanes64_i mask, lanes64_u x, lanes64_u y)
+{
+    return ((lanes64_u)mask & x) | (~(lanes64_u)mask & y);
+}
+
+static inline __attribute__((always_inline)) void look_at(uint32_t base, double width, const double *v, strata *s)
+{
+    const double inverse = 1 / width, part = 1.0 / base;
+    for (int c = 0; c < CHAINS; c++) {
+        lanes64_d x;
+        memcpy(&x, v + c * LANES64, sizeof x);
+        /* The estimate is off by one at most, and the product by width is exact. */
+        lanes64_d upper = lanes64_floor(x * inverse);
+        const lanes64_d rest = x - upper * width;
+        upper += __builtin_convertvector((lanes64_i)(rest < 0) - (lanes64_i)(rest >= width), lanes64_d);
+        s->prefix[c] = lanes64_floor((upper + 0.5) * part) * base;
+        const lanes64_u own = to_words(upper - s->prefix[c]);
+        if (base == 3) { /* own, own + 1, own + 2 modulo 3 */
+            const lanes64_u two = chosen((lanes64_i)(own == 1), splat(0x021), splat(0x102));
+            s->order[c] = chosen((lanes64_i)(own == 0), splat(0x210), two);
+        } else {
+            s->order[c] = ((EVERY_DIGIT & ~(splat(15) << 4 * own)) & ~splat(15)) | own;
+        }
+    }
+}
+
+/* Relatives number d, whose words are at `word`. */
+static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, const uint32_t *word,
+                                                        strata *s, double *v)
+{
+    for (int c = 0; c < CHAINS; c++) {
+        lanes64_u w;
+        memcpy(&w, word + 2 * c * LANES64, sizeof w);
+        const lanes64_u product =
+            (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)splat(base - d));
+        const lanes64_u pick = ((product >> 32) + d) << 2, kept = s->order[c] >> 4 * d & 15;
+        const lanes64_u digit = s->order[c] >> pick & 15;
+        s->order[c] ^= (digit ^ kept) << pick; /* place d is not looked at again */
+        const lanes64_d below = lanes64_floor(width * (to_doubles(lanes64_odd_words(w)) * 0x1p-32));
+        const lanes64_d x = (s->prefix[c] + to_doubles(digit)) * width + below;
+        memcpy(v + c * LANES64, &x, sizeof x);
+    }
+}
+
+static inline __attribute__((always_inline)) void place_all(uint32_t base, uint32_t relatives, size_t first,
+                                                            size_t count, size_t step, double width,
+                                                            const uint32_t *word, double *v)
+{
+    for (size_t r = first; r + LANES <= first + count; r += LANES) {
+        strata s;
+        look_at(base, width, v + r, &s);
+        for (uint32_t d = 1; d <= relatives; d++) {
+            place(base, d, width, word + 2 * (r + d * step), &s, v + r + d * step);
+        }
+    }
+}
+
+static double whole_part(double x)
+{
+    return (double)(int64_t)x;
+}
+
+static void place_one(uint32_t base, uint32_t relatives, size_t r, size_t step, double width, const uint32_t *word,
+                      double *v)
+{
+    const double upper = whole_part(v[r] / width), prefix = whole_part(upper / base) * base;
+    const uint32_t own = (uint32_t)(upper - prefix);
+    uint64_t order = (EVERY_DIGIT & ~((uint64_t)15 << 4 * own) & ~(uint64_t)15) | own;
+    if (base == 3) {
+        order = own == 0 ? 0x210 : own == 1 ? 0x021 : 0x102;
+    }
+    for (uint32_t d = 1; d <= relatives; d++) {
+        const size_t i = r + d * step;
+        const uint32_t pick = d + koksma__below(word[2 * i], base - d);
+        const uint64_t digit = order >> 4 * pick & 15, kept = order >> 4 * d & 15;
+        order ^= (digit ^ kept) << 4 * pick;
+        v[i] = (prefix + (double)(int32_t)digit) * width + whole_part(width * (word[2 * i + 1] * 0x1p-32));
+    }
+}
+
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
+                                double width, const uint32_t *word, double *v)
+{
+    if (base == 3 && relatives == 1) {
+        place_all(3, 1, first, count, step, width, word, v);
+    } else if (base == 3) {
+        place_all(3, 2, first, count, step, width, word, v);
+    } else {
+        place_all(base, relatives, first, count, step, width, word, v);
+    }
+    for (size_t r = first + count / LANES * LANES; r < first + count; r++) {
+        place_one(base, relatives, r, step, width, word, v);
+    }
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Coordinates side by side. For the points of a digital net without columns in between: words in 64-bit lanes with
+   the exponent of 2^20 above them are doubles 2^20 + w 2^-32, and those of an aligned group of 32 points are the
+   words of the first group, xor one word a coordinate. */
+#include <string.h>
+
+#include "kernels/kernels.h"
+#include "kernels/lanes64.h"
+
+void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
+                               bool stream, double *out);
+
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out);
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out);
+
+#define EXPONENT 0x4130000000000000u
+
+enum { BITS = 5, GROUP = 1 << BITS, MOST_DIM = 16, RUN = MOST_DIM * LANES64, TURN = GROUP / LANES64 };
+
+/* The first group; and as vectors over LANES64 points what group g has to be xored with, and what that is xored with
+   from group g to g + 1, when g + 1 ends in j zeros. */
+typedef struct net {
+    uint64_t group[GROUP * MOST_DIM], start[RUN], change[32 - BITS][RUN];
+} net;
+
+/* out[p dim + c] = word[c] for LANES64 points p. */
+static void repeat(int dim, const uint32_t *word, uint64_t *out)
+{
+    for (int i = 0; i < dim * LANES64; i++) {
+        out[i] = word[i % dim];
+    }
+}
+
+static void make_net(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts, net *s)
+{
+    uint32_t word[MOST_DIM];
+    for (int c = 0; c < dim; c++) {
+        s->group[c] = EXPONENT;
+        for (int i = 1; i < GROUP; i++) {
+            s->group[i * dim + c] = s->group[(i & (i - 1)) * dim + c] ^ directions[c][__builtin_ctz((unsigned)i)];
+        }
+        word[c] = 0;
+    }
+    repeat(dim, starts, s->start);
+    for (int j = 0; j < 32 - BITS && (size_t)GROUP << j < count; j++) {
+        for (int c = 0; c < dim; c++) {
+            word[c] ^= directions[c][BITS + j];
+        }
+        repeat(dim, word, s->change[j]);
+    }
+}
+
+static inline lanes64_u load(const uint64_t *from)
+{
+    lanes64_u v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
+static inline __attribute__((always_inline)) void store_group(const net *s, int dim, bool stream, double *out)
+{
+    const uint64_t *word = s->group;
+    for (int turn = 0; turn < TURN; turn++) {
+        for (int v = 0; v < dim; v++, word += LANES64, out += LANES64) {
+            lanes64_store((lanes64_d)(load(word) ^ load(s->start + v * LANES64)) - 0x1p20, stream, out);
+        }
+    }
+}
+
+static inline __attribute__((always_inline)) void rows(net *s, size_t count, int dim, bool stream, double *out)
+{
+    const size_t groups = count / GROUP;
+    for (size_t g = 0; g < groups; g++, out += GROUP * dim) {
+        store_group(s, dim, stream, out);
+        const uint64_t *change = s->change[__builtin_ctzll(g + 1)];
+        for (int i = 0; i < dim * LANES64 && (g + 1) * GROUP < count; i++) {
+            s->start[i] ^= change[i];
+        }
+    }
+    if (count % GROUP) {
+        double last[GROUP * MOST_DIM];
+        store_group(s, dim, false, last);
+        memcpy(out, last, count % GROUP * (size_t)dim * sizeof *out);
+    }
+}
+
+void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
+                               bool stream, double *out)
+{
+    net s;
+    make_net(count, dim, directions, starts, &s);
+    stream = stream && (uintptr_t)out % 16 == 0;
+    if (dim == 2 && stream) {
+        rows(&s, count, 2, true, out);
+    } else if (dim == 4 && stream) {
+        rows(&s, count, 4, true, out);
+    } else if (dim == 2) {
+        rows(&s, count, 2, false, out);
+    } else if (dim == 4) {
+        rows(&s, count, 4, false, out);
+    } else {
+        rows(&s, count, dim, stream, out);
+    }
+    if (stream) {
+        lanes64_stored();
+    }
+}
+
+typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
+
+/* Columns of doubles, or of words w for w 2^-32: one of them is NULL. */
+static inline __attribute__((always_inline)) void store_columns(size_t count, int dim, const double *doubles,
+                                                                const uint32_t *words, size_t stride, bool stream,
+                                                                double *out)
+{
+    size_t i = 0;
+    for (; i + LANES64 <= count; i += LANES64) {
+        lanes64_d v[4];
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            if (doubles) {
+                memcpy(&v[c], doubles + c * stride + i, sizeof v[c]);
+            } else {
+                half_lanes w;
+                memcpy(&w, words + c * stride + i, sizeof w);
+                v[c] = (lanes64_d)(__builtin_convertvector(w, lanes64_u) | EXPONENT) - 0x1p20;
+            }
+        }
+        lanes64_store_rows(v, dim, stream, out + (size_t)dim * i);
+    }
+    for (; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = doubles ? doubles[c * stride + i] : words[c * stride + i] * 0x1p-32;
+        }
+    }
+}
+
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    stream = stream && (uintptr_t)out % 16 == 0;
+    if (dim == 2 && stream) {
+        store_columns(count, 2, columns, NULL, stride, true, out);
+    } else if (dim == 2) {
+        store_columns(count, 2, columns, NULL, stride, false, out);
+    } else if (stream) {
+        store_columns(count, 4, columns, NULL, stride, true, out);
+    } else {
+        store_columns(count, 4, columns, NULL, stride, false, out);
+    }
+    if (stream) {
+        lanes64_stored();
+    }
+}
+
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out)
+{
+    stream = stream && (uintptr_t)out % 16 == 0;
+    if (dim == 2 && stream) {
+        store_columns(count, 2, NULL, columns, stride, true, out);
+    } else if (dim == 2) {
+        store_columns(count, 2, NULL, columns, stride, false, out);
+    } else if (stream) {
+        store_columns(count, 4, NULL, columns, stride, true, out);
+    } else {
+        store_columns(count, 4, NULL, columns, stride, false, out);
+    }
+    if (stream) {
+        lanes64_stored();
+    }
+}

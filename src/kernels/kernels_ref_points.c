@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reference twins of what makes points: plain loops, no intrinsics, no blocking. The judge of fast_*.c. */
+#define KOKSMA_ISA ref
+#include <math.h>
+
+#include <koksma/sampler.h>
+
+#include "core/random.h"
+#include "kernels/kernels.h"
+
+#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
+#include "kernels/kernels.def"
+#undef KERNEL
+
+void KERNEL_NAME(quotients)(size_t count, const double *xs, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (xs[i] + add) / whole;
+    }
+}
+
+void KERNEL_NAME(steps)(size_t count, double first, double add, double whole, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = (first + (double)i + add) / whole;
+    }
+}
+
+void KERNEL_NAME(fractions)(size_t count, const uint32_t *v, double *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = ldexp(v[i], -32);
+    }
+}
+
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = columns[c * stride + i];
+        }
+    }
+}
+
+void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
+                                double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[(size_t)dim * i + c] = ldexp(columns[c * stride + i], -32);
+        }
+    }
+}
+
+static uint32_t sum_of_directions(uint32_t i, const uint32_t *directions)
+{
+    uint32_t x = 0;
+    for (int b = 0; b < 32; b++) {
+        x ^= i >> b & 1 ? directions[b] : 0;
+    }
+    return x;
+}
+
+void KERNEL_NAME(digital)(size_t count, const uint32_t *directions, uint32_t start, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = start ^ sum_of_directions((uint32_t)i, directions);
+    }
+}
+
+void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
+                               bool stream, double *out)
+{
+    (void)stream;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < (size_t)dim; c++) {
+            out[i * (size_t)dim + c] = ldexp(starts[c] ^ sum_of_directions((uint32_t)i, directions[c]), -32);
+        }
+    }
+}
+
+void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
+                            uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t x = koksma_owen_hash(mirror_in ? koksma_mirror(v[i]) : v[i], seed);
+        out[i] = mirror_out ? koksma_mirror(x) : x;
+    }
+}
+
+/* Column c of the Pascal matrix: the binomial coefficients c over r modulo 2, odd where r's bits are among c's. */
+void KERNEL_NAME(pascal)(size_t count, const uint32_t *v, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t x = 0;
+        for (uint32_t c = 0; c < 32; c++) {
+            for (uint32_t r = 0; r < 32 && (v[i] >> c & 1); r++) {
+                x ^= (r & ~c) == 0 ? 1u << r : 0;
+            }
+        }
+        out[i] = x;
+    }
+}
+
+void KERNEL_NAME(digital_at)(size_t count, const uint32_t *index, const uint32_t *directions, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = sum_of_directions(index[i], directions);
+    }
+}
+
+void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint32_t partner, const uint32_t *word)
+{
+    const double n = ldexp(1, level);
+    for (size_t i = first; i < first + count; i++) {
+        const double stratum = floor(ldexp(v[i ^ partner], -32) * 2 * n);
+        const double other = fmod(stratum, 2) == 0 ? stratum + 1 : stratum - 1;
+        v[((size_t)1 << level) + i] = (uint32_t)ldexp(other / (2 * n), 32) + (word[i - first] >> level >> 1);
+    }
+}
+
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
+                                double width, const uint32_t *word, double *v)
+{
+    for (size_t r = first; r < first + count; r++) {
+        const double upper = floor(v[r] / width), prefix = floor(upper / base) * base;
+        uint32_t order[13];
+        for (uint32_t d = 0; d < base; d++) {
+            order[d] = base == 3 ? ((uint32_t)(upper - prefix) + d) % 3 : d;
+        }
+        if (base > 3) {
+            order[(uint32_t)(upper - prefix)] = 0;
+            order[0] = (uint32_t)(upper - prefix);
+        }
+        for (uint32_t d = 1; d <= relatives; d++) {
+            const size_t i = r + d * step;
+            const uint32_t pick = d + koksma__below(word[2 * i], base - d), digit = order[pick];
+            order[pick] = order[d];
+            order[d] = digit;
+            v[i] = (prefix + digit) * width + floor(width * ldexp(word[2 * i + 1], -32));
+        }
+    }
+}
+
+/* koksma__in_cell of patterns/parts/cells.h. */
+static double in_cell(double cell, double u, double m)
+{
+    const double x = (cell + u) / m, end = (cell + 1) / m;
+    return x < end ? x : end * (1 - 0x1p-53);
+}
+
+void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs)
+{
+    for (size_t i = 0; i < nx * ny; i++) {
+        xs[2 * i] = in_cell((double)(i / ny), start + width * xs[2 * i], (double)nx);
+        xs[2 * i + 1] = in_cell((double)(i % ny), start + width * xs[2 * i + 1], (double)ny);
+    }
+}
+
+void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs)
+{
+    for (size_t i = 0; i < count; i++) {
+        const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_POINT, (first + i) / 2, 0);
+        const uint32_t *words = r.w + (first + i) % 2 * 2;
+        xs[2 * i] = in_cell((double)(first + i), ldexp(words[0], -32), (double)n);
+        xs[2 * i + 1] = in_cell((double)rows[i], ldexp(words[1], -32), (double)n);
+    }
+}
+
+unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride, float x, float y, float low,
+                                float high)
+{
+    unsigned found = 0;
+    for (int r = 0; r < 5; r++) {
+        for (int c = 0; c < 8; c++) {
+            const float a = xs[(size_t)r * stride + (size_t)c] - ((x + 2) - (float)c);
+            const float b = ys[(size_t)r * stride + (size_t)c] - ((y + 2) - (float)r);
+            found |= (unsigned)(a * a + b * b < low) | (unsigned)(a * a + b * b < high) << 1;
+        }
+    }
+    return found;
+}
+
+size_t KERNEL_NAME(look_around)(const float *xs, const float *ys, size_t stride, float *around_xs, float *around_ys)
+{
+    size_t count = 0;
+    for (int r = 0; r < 5; r++) {
+        for (int c = 0; c < 5; c++) {
+            const size_t at = (size_t)r * stride + (size_t)c;
+            if (xs[at] < 2) {
+                around_xs[count] = xs[at] + (float)(c - 2);
+                around_ys[count++] = ys[at] + (float)(r - 2);
+            }
+        }
+    }
+    for (int far = 0; far < 8; far++) {
+        around_xs[count + (size_t)far] = around_ys[count + (size_t)far] = 1e9F;
+    }
+    return count;
+}
+
+unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float *ys, float x, float y, float step,
+                                     float h, float d2)
+{
+    unsigned found = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned q = 0; q < 4; q++) {
+            const float a = fabsf(xs[i] - (q & 1 ? x + step : x - step)) + h;
+            const float b = fabsf(ys[i] - (q & 2 ? y + step : y - step)) + h;
+            found |= (unsigned)(a * a + b * b < d2) << q;
+        }
+    }
+    return found;
+}
+
+unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
+                             double h, double d2)
+{
+    unsigned found = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (unsigned q = 0; q < 4; q++) {
+            const double a = fabs(xs[i] - (q & 1 ? x + step : x - step)) + h;
+            const double b = fabs(ys[i] - (q & 2 ? y + step : y - step)) + h;
+            found |= (unsigned)(a * a + b * b < d2) << q;
+        }
+    }
+    return found;
+}
+
+void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
+                                 double scale, double *least)
+{
+    for (size_t c = 0; c < count; c++) {
+        least[c] = 1;
+        for (size_t j = 0; j < near; j++) {
+            const double a = dx[j] - scale * pairs[2 * c], b = dy[j] - scale * pairs[2 * c + 1];
+            least[c] = a * a + b * b < least[c] ? a * a + b * b : least[c];
+        }
+    }
+}
