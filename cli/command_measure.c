@@ -288,9 +288,11 @@ const cli_command cli_command_measure = {
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
         "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
         "points\n"
-        "can have, powers of logarithms aside. With --time-limit, rows say lower and upper, bounds that hold for "
-        "certain;\n"
-        "those of trials say for how many of them the value is exact.",
+        "can have, powers of logarithms aside. With --time-limit, star, star-lower, extreme, edge and disk end in "
+        "time\n"
+        "and rows say lower and upper, bounds that hold for certain; those of trials say for how many of them the "
+        "value\n"
+        "is exact. The other measures have no bounds to give and take the time they need.",
     .options = options,
     .run = run,
 };

@@ -9,12 +9,14 @@
  * Limits: the witness proves the bound; how far below the supremum it is, is not known: upper is 1.
  */
 #include "measures/measures.h"
+#include "measures/parts/clock.h"
 #include "measures/parts/star.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    const koksma_status status = koksma__star_search(points, args->run, (uint64_t)args->params[2],
-                                                     (size_t)args->params[0], (size_t)args->params[1], out);
+    const koksma_status status =
+        koksma__star_search(points, args->run, (uint64_t)args->params[2], (size_t)args->params[0],
+                            (size_t)args->params[1], koksma__deadline_s(args->run, 0.95), out);
     out->exact = false;
     out->lower = out->value;
     out->upper = 1;

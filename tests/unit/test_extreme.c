@@ -2,6 +2,7 @@
 /* Branch and bound for boxes in the plane against the plain search and a published value; its kernel against the
    twin; bounds when time is short; threads. */
 #include <string.h>
+#include <time.h>
 
 #include "kernels/kernels.h"
 #include "measures/parts/extreme.h"
@@ -120,6 +121,35 @@ static void short_time_gives_bounds(void **state)
     koksma_points_fini(&p);
 }
 
+/* Sets that take minutes end in time, with bounds that say something. */
+static void large_sets_obey_the_time_limit(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *measure, *pattern;
+        size_t n;
+        int dim;
+        double upper;
+    } cases[] = {
+        {"extreme", "hammersley", 16384, 2, 0.1},
+        {"extreme", "random", 200000, 2, 0.2},
+        {"star", "random", 50000, 6, 1},
+        {"star-lower:steps=1000000000", "random", 50000, 6, 1},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        koksma_points p = test_points(cases[c].pattern, cases[c].n, cases[c].dim, 0);
+        koksma_spec spec;
+        koksma_value v;
+        assert_ok(koksma_measure_spec(cases[c].measure, &spec));
+        const clock_t start = clock();
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = 0.05}, &v));
+        assert_true((double)(clock() - start) < 20.0 * CLOCKS_PER_SEC);
+        assert_true(!v.exact && v.value == v.lower && v.lower > 0 && v.lower < v.upper);
+        assert_true(v.upper <= cases[c].upper);
+        koksma_points_fini(&p);
+    }
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -141,7 +171,7 @@ int main(void)
         cmocka_unit_test(plane_equals_plain_search), cmocka_unit_test(hammersley_has_its_value),
         cmocka_unit_test(sweep_equals_plain_search), cmocka_unit_test(sweep_equals_bounding),
         cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
-        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(large_sets_obey_the_time_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

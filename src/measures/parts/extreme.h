@@ -22,4 +22,8 @@ typedef enum koksma__extreme_method {
 koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koksma_points *points,
                                        const koksma_run *run, koksma_value *out);
 
+/* Points in order of y; the best box between x = left and right. */
+void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,
+                              koksma_value *out);
+
 #endif

@@ -20,7 +20,7 @@
 #include "measures/parts/extreme_sweep.h"
 #include "measures/parts/order.h"
 
-enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48 };
+enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48, MAX_ROWS = 64 };
 
 #define SWEEP_COST 20.0
 
@@ -28,7 +28,8 @@ enum { LANES = 16, COARSE = 32, DEPTH = 4, GROUPS = 8, FIRST_LEVELS = 48 };
 static const size_t tile_sides[DEPTH] = {COARSE, 8, 2, 1};
 
 typedef struct tile {
-    size_t a, b; /* first levels; the last are a + side - 1, b + side - 1, where there are so many */
+    size_t a, b;  /* first levels; the last are a + side - 1, b + side - 1, where there are so many */
+    double bound; /* of the tile that it was cut from; infinite at first */
 } tile;
 
 typedef struct best_strip {
@@ -39,10 +40,12 @@ typedef struct best_strip {
 
 typedef struct plane {
     size_t n, n_levels;
-    double *x, *y;    /* points in order of y */
-    double *levels;   /* of x: 0, 1 and those of points, without repeats */
-    best_strip *best; /* one a block of left sides */
-    double *upper;    /* of tiles left when time was up */
+    double *x, *y;     /* points in order of y */
+    double *levels;    /* of x: 0, 1 and those of points, without repeats */
+    best_strip *best;  /* one a block of left sides */
+    double *upper;     /* of tiles left when time was up: by block, infinite where some were never bounded */
+    double *row_upper; /* then: of rows of wide tiles, row_side left sides each */
+    size_t row_side;
     double deadline_s;
     koksma__extreme_method method;
     koksma__sweep_plane sweep;
@@ -84,7 +87,7 @@ static void add_children(searcher *s, int depth, tile t)
     for (size_t a = t.a; a < t.a + side && a < s->p->n_levels; a += child) {
         for (size_t b = t.b; b < t.b + side && b < s->p->n_levels; b += child) {
             if (last(s->p, b, child) >= a) {
-                add_tile(s, depth + 1, (tile){a, b});
+                add_tile(s, depth + 1, (tile){a, b, t.bound});
             }
         }
     }
@@ -103,11 +106,17 @@ static void flush(searcher *s, int depth)
     if (s->work > s->budget) {
         return;
     }
+    for (int l = 0; l < count && s->late; l++) {
+        s->upper = fmax(s->upper, tiles[l].bound);
+    }
+    if (s->late) {
+        return;
+    }
     s->work += (double)s->count + 32;
     koksma__kernels()->extreme_strips(s->count, s->x, s->y, (const double(*)[LANES])sides, excess, deficit);
     s->late = s->late || koksma__now_s() > s->p->deadline_s;
     for (int l = 0; l < count; l++) {
-        const double bound = fmax(excess[l], deficit[l]);
+        const double bound = tiles[l].bound = fmax(excess[l], deficit[l]);
         if (bound <= s->best.value) {
             continue;
         }
@@ -172,15 +181,15 @@ static double budget_of(const plane *p, size_t a)
                                                 : SWEEP_COST * left * points * log2((double)p->n + 2);
 }
 
-/* What is too hard to bound. Cut short, all that is known is that no box has a value above n. */
+/* What is too hard to bound. */
 static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
 {
     koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};
     const koksma_status status =
         koksma__extreme_sweep(&p->sweep, a, last(p, a, COARSE) + 1, p->deadline_s, &best, &s->late);
-    s->best = (best_strip){best.value, {best.left, best.right}, best.closed};
+    s->best = (best_strip){best.value, {best.left, best.right, 0}, best.closed};
     if (s->late) {
-        s->upper = (double)p->n;
+        s->upper = HUGE_VAL;
     }
     return status;
 }
@@ -189,20 +198,23 @@ static koksma_status search_block(void *context, size_t block)
 {
     const plane *p = context;
     searcher s;
+    p->upper[block] = HUGE_VAL;
+    if (koksma__now_s() > p->deadline_s) {
+        return KOKSMA_OK;
+    }
     if (!open_searcher(p, &s)) {
         return KOKSMA_MEMORY;
     }
     s.best = p->best[block];
-    s.late = koksma__now_s() > p->deadline_s;
     s.budget = budget_of(p, block * COARSE);
     const size_t a = block * COARSE, tiles = (p->n_levels - a + COARSE - 1) / COARSE;
     for (size_t group = 0; group < GROUPS; group++) {
         const size_t first = tiles * group / GROUPS, end = tiles * (group + 1) / GROUPS;
-        if (first < end) {
+        if (first < end && !s.late) {
             gather(&s, a, last(p, a + first * COARSE, (end - first) * COARSE));
         }
         for (size_t t = first; t < end; t++) {
-            add_tile(&s, 0, (tile){a, a + t * COARSE});
+            add_tile(&s, 0, (tile){a, a + t * COARSE, HUGE_VAL});
         }
         flush_all(&s);
     }
@@ -216,6 +228,51 @@ static koksma_status search_block(void *context, size_t block)
     return status;
 }
 
+/* Bounds for a row of wide tiles, so that what time did not suffice for has one as well. */
+static koksma_status bound_row(void *context, size_t row)
+{
+    const plane *p = context;
+    searcher s;
+    if (!open_searcher(p, &s)) {
+        return KOKSMA_MEMORY;
+    }
+    const size_t a = row * p->row_side;
+    gather(&s, a, p->n_levels - 1);
+    for (size_t b = a; b < p->n_levels; b += LANES * p->row_side) {
+        double sides[6][LANES] = {{0}}, excess[LANES], deficit[LANES];
+        for (size_t l = 0; l < LANES; l++) {
+            const size_t right = b + l * p->row_side;
+            set_sides(p, (tile){a, right < p->n_levels ? right : b, 0}, p->row_side, sides, (int)l);
+        }
+        koksma__kernels()->extreme_strips(s.count, s.x, s.y, (const double(*)[LANES])sides, excess, deficit);
+        for (int l = 0; l < LANES; l++) {
+            s.upper = fmax(s.upper, fmax(excess[l], deficit[l]));
+        }
+    }
+    p->row_upper[row] = s.upper;
+    free(s.x);
+    return KOKSMA_OK;
+}
+
+/* Where the deadline left something undone. Few rows for many points: this has no deadline of its own. */
+static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run)
+{
+    bool all = true;
+    for (size_t block = 0; block < n_blocks; block++) {
+        all &= p->upper[block] < 0;
+    }
+    const size_t rows = p->n <= (size_t)1 << 17 ? MAX_ROWS : p->n <= (size_t)1 << 20 ? MAX_ROWS / 2 : MAX_ROWS / 4;
+    double row_upper[MAX_ROWS];
+    p->row_side = COARSE * ((n_blocks + rows - 1) / rows);
+    p->row_upper = row_upper;
+    const size_t n_rows = (p->n_levels + p->row_side - 1) / p->row_side;
+    const koksma_status status = all ? KOKSMA_OK : koksma__parallel(run, n_rows, bound_row, p);
+    for (size_t block = 0; block < n_blocks && !all && !status; block++) {
+        p->upper[block] = fmin(p->upper[block], row_upper[block * COARSE / p->row_side]);
+    }
+    return status;
+}
+
 /* Some strips, to begin with a good value: what is dropped does not depend on luck then. */
 static koksma_status first_value(plane *p)
 {
@@ -226,58 +283,16 @@ static koksma_status first_value(plane *p)
     s.best.value = -1;
     gather(&s, 0, p->n_levels - 1);
     const size_t step = 1 + (p->n_levels - 1) / FIRST_LEVELS;
-    for (size_t a = 0; a < p->n_levels; a += step) {
-        for (size_t b = a; b < p->n_levels; b += step) {
-            add_tile(&s, DEPTH - 1, (tile){a, b});
+    for (size_t a = 0; a < p->n_levels && !s.late; a += step) {
+        for (size_t b = a; b < p->n_levels && !s.late; b += step) {
+            add_tile(&s, DEPTH - 1, (tile){a, b, HUGE_VAL});
         }
-        add_tile(&s, DEPTH - 1, (tile){a, p->n_levels - 1});
+        add_tile(&s, DEPTH - 1, (tile){a, p->n_levels - 1, HUGE_VAL});
     }
     flush_all(&s);
     p->best[0] = s.best;
     free(s.x);
     return KOKSMA_OK;
-}
-
-/* The box of the best strip: the same pass, with the sides kept and the value in its final form. */
-static void find_witness(const plane *p, const best_strip *best, koksma_value *out)
-{
-    const bool closed = best->closed;
-    const double left = p->levels[best->strip.a], right = p->levels[best->strip.b], n = (double)p->n;
-    double low = 0, low_at = 0;
-    size_t inside = 0, low_inside = 0;
-    bool any = !closed;
-    out->value = -1;
-    for (size_t i = 0; i < p->n + !closed; i++) {
-        const double y = i < p->n ? p->y[i] : 1, area = (right - left) * y;
-        const bool in =
-            i < p->n && (closed ? p->x[i] >= left && p->x[i] <= right : p->x[i] > left && p->x[i] < right);
-        if (closed && in && (!any || (double)inside / n - area < low)) {
-            low = (double)inside / n - area;
-            low_at = y;
-            low_inside = inside;
-            any = true;
-        }
-        inside += closed && in;
-        const size_t count = inside - low_inside;
-        const double volume = (right - left) * (y - low_at), share = (double)count / n;
-        const double value = closed ? share - volume : volume - share;
-        if (any && value > out->value) {
-            out->value = value;
-            out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_BOX,
-                                            .dim = 2,
-                                            .closed = closed,
-                                            .count = count,
-                                            .volume = volume,
-                                            .lo = {left, low_at},
-                                            .hi = {right, y}};
-        }
-        inside += !closed && in;
-        if (!closed && area - (double)inside / n < low) {
-            low = area - (double)inside / n;
-            low_at = y;
-            low_inside = inside;
-        }
-    }
 }
 
 /* Places in order of y, in order of x, and where in these each level begins. */
@@ -333,7 +348,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
     const size_t n = points->n, max_blocks = (n + 2) / COARSE + 1;
     const size_t bytes =
         max_blocks * (sizeof(best_strip) + sizeof(double)) + (3 * n + 4) * sizeof(double) + (2 * n + 4) * 4;
-    plane p = {.n = n, .best = malloc(bytes), .deadline_s = koksma__deadline_s(run, 0.9), .method = method};
+    plane p = {.n = n, .best = malloc(bytes), .deadline_s = koksma__deadline_s(run, 0.8), .method = method};
     if (!p.best) {
         return koksma__fail_memory(bytes);
     }
@@ -352,6 +367,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
     if (!status) {
         status = koksma__parallel(run, n_blocks, search_block, &p);
     }
+    status = status ? status : bound_rest(&p, n_blocks, run);
     if (!status) {
         best_strip best = p.best[0];
         double upper = -1;
@@ -359,7 +375,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
             best = p.best[block].value > best.value ? p.best[block] : best;
             upper = fmax(upper, p.upper[block]);
         }
-        find_witness(&p, &best, out);
+        koksma__extreme_of_strip(n, p.x, p.y, p.levels[best.strip.a], p.levels[best.strip.b], best.closed, out);
         out->exact = upper <= best.value;
         out->lower = out->value;
         out->upper = fmax(out->value, upper / (double)n);

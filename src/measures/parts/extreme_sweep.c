@@ -36,6 +36,8 @@ typedef struct tree {
     double width;
 } tree;
 
+enum { CHECK_EVERY = 4096 };
+
 static const line none = {-INFINITY, 0};
 
 static inline line shifted(line l, double count)
@@ -129,11 +131,16 @@ static void consider(tree *t, size_t left, size_t right, koksma__sweep_best *bes
     }
 }
 
-static void sweep_right(const koksma__sweep_plane *p, size_t left, tree *closed, tree *open, koksma__sweep_best *best)
+/* True if the deadline came before the end. */
+static bool sweep_right(const koksma__sweep_plane *p, size_t left, double deadline_s, tree *closed, tree *open,
+                        koksma__sweep_best *best)
 {
     clear(closed, p->n, (double)p->n);
     clear(open, p->n, (double)p->n);
     for (size_t right = left; right < p->n_levels; right++) {
+        if (right % CHECK_EVERY == 0 && koksma__now_s() > deadline_s) {
+            return true;
+        }
         closed->width = open->width = p->levels[right] - p->levels[left];
         advance(closed, 1);
         add_level(closed, p, right);
@@ -144,6 +151,7 @@ static void sweep_right(const koksma__sweep_plane *p, size_t left, tree *closed,
             add_level(open, p, right);
         }
     }
+    return false;
 }
 
 koksma_status koksma__extreme_sweep(const koksma__sweep_plane *p, size_t from, size_t end, double deadline_s,
@@ -162,8 +170,7 @@ koksma_status koksma__extreme_sweep(const koksma__sweep_plane *p, size_t from, s
     }
     open.nodes = closed.nodes + 2 * closed.leaves;
     for (size_t left = from; left < end && !*late; left++) {
-        sweep_right(p, left, &closed, &open, best);
-        *late = koksma__now_s() > deadline_s;
+        *late = sweep_right(p, left, deadline_s, &closed, &open, best) || koksma__now_s() > deadline_s;
     }
     free(closed.nodes);
     return KOKSMA_OK;

@@ -20,7 +20,7 @@ typedef struct koksma__sweep_best {
 } koksma__sweep_best;
 
 /* Looks for boxes better than *best whose left sides are levels from .. end - 1; O((end - from) n log^2 n). Sets
-   late, and ends, when it is later than deadline_s after a left side. Errors: MEMORY. */
+   late, and ends, when it is later than deadline_s. Errors: MEMORY. */
 koksma_status koksma__extreme_sweep(const koksma__sweep_plane *plane, size_t from, size_t end, double deadline_s,
                                     koksma__sweep_best *best, bool *late);
 

@@ -22,9 +22,10 @@ koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *ra
 koksma_status koksma__star_partition(const koksma_points *points, const koksma_run *run, double deadline_s,
                                      koksma_value *out, bool *complete);
 
-/* A lower bound by threshold accepting: the best of `restarts` walks of `steps` steps for each sign. */
+/* A lower bound by threshold accepting: the best of `restarts` walks of `steps` steps for each sign, or of as many as
+   the deadline leaves time for. Errors: MEMORY, INTERRUPTED. */
 koksma_status koksma__star_search(const koksma_points *points, const koksma_run *run, uint64_t seed, size_t steps,
-                                  size_t restarts, koksma_value *out);
+                                  size_t restarts, double deadline_s, koksma_value *out);
 
 /* An upper bound by refining a cover of the corners until the deadline. */
 koksma_status koksma__star_cover(const koksma_points *points, const koksma_run *run, double deadline_s, double lower,

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "measures/parts/clock.h"
 #include "measures/parts/order.h"
 #include "measures/parts/star.h"
 
@@ -17,7 +18,10 @@ typedef struct walk {
     size_t n, dim;
     double *levels; /* dim rows of n + 1: coordinates in order, then 1 */
     uint64_t seed, index;
-    uint32_t lane;
+    uint32_t lane, n_walks; /* lane: which walk this is */
+    const koksma_run *run;
+    double deadline_s;
+    bool stopped, late;
 } walk;
 
 static double draw(walk *w)
@@ -123,12 +127,21 @@ static void keep_best(const walk *w, double value, const double *corner, bool cl
     }
 }
 
+/* True when the walk is to end: out of time, or told to stop. */
+static bool ends(walk *w, double fraction_done)
+{
+    w->stopped = w->stopped || !koksma__keep_going(w->run, (w->lane + fraction_done) / w->n_walks);
+    w->late = w->late || koksma__now_s() > w->deadline_s;
+    return w->stopped || w->late;
+}
+
+/* One corner is looked at in any case. */
 static void run_walk(walk *w, size_t steps, bool closed, koksma_value *out)
 {
     double corner[KOKSMA__STAR_MAX_DIM], other[KOKSMA__STAR_MAX_DIM], spread = 0;
     random_corner(w, corner);
     double value = snap(w, corner, closed);
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8 && !(i > 0 && ends(w, 0)); i++) {
         random_corner(w, other);
         const double gained = snap(w, other, closed);
         keep_best(w, gained, other, closed, out);
@@ -138,7 +151,7 @@ static void run_walk(walk *w, size_t steps, bool closed, koksma_value *out)
             memcpy(corner, other, sizeof corner);
         }
     }
-    for (size_t step = 0; step < steps; step++) {
+    for (size_t step = 0; step < steps && !ends(w, (double)step / (double)steps); step++) {
         const double left = 1 - (double)step / (double)steps;
         const size_t reach = 1 + (size_t)((double)w->n / 8 * left);
         const size_t m = 1 + (size_t)(draw(w) * (double)(w->dim < 2 ? 1 : w->dim));
@@ -153,10 +166,17 @@ static void run_walk(walk *w, size_t steps, bool closed, koksma_value *out)
 }
 
 koksma_status koksma__star_search(const koksma_points *points, const koksma_run *run, uint64_t seed, size_t steps,
-                                  size_t restarts, koksma_value *out)
+                                  size_t restarts, double deadline_s, koksma_value *out)
 {
     const size_t n = points->n, dim = (size_t)points->dim, bytes = dim * (n + 1) * sizeof(double) + n * 4;
-    walk w = {.points = points, .n = n, .dim = dim, .levels = malloc(bytes), .seed = seed};
+    walk w = {.points = points,
+              .n = n,
+              .dim = dim,
+              .levels = malloc(bytes),
+              .seed = seed,
+              .n_walks = 2 * (uint32_t)restarts,
+              .run = run,
+              .deadline_s = deadline_s};
     if (!w.levels) {
         return koksma__fail_memory(bytes);
     }
@@ -169,13 +189,11 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         }
         w.levels[k * (n + 1) + n] = 1;
     }
-    for (size_t r = 0; r < 2 * restarts && !status; r++) {
+    for (size_t r = 0; r < 2 * restarts && !status && !w.late; r++) {
         w.lane = (uint32_t)r;
         w.index = 0;
         run_walk(&w, steps, r % 2, out);
-        if (!koksma__keep_going(run, (double)(r + 1) / (double)(2 * restarts))) {
-            status = koksma__fail_interrupted();
-        }
+        status = w.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
     }
     free(w.levels);
     return status;
