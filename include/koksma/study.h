@@ -72,8 +72,9 @@ typedef struct koksma_study_cost {
     double bytes;             /* on disk */
 } koksma_study_cost;
 
-/* What the whole study would cost, from one job of every kind, as many as fit in run->time_limit_s (0: 5 s); the rest
-   is extrapolated by the number of points or samples. */
+/* What the whole study would cost, without its report: from jobs of those tasks whose cost is the largest and the
+   least certain, as many as fit in run->time_limit_s (0: 5 s), but one of every block and scene; the rest is
+   extrapolated from them by the number of points or samples. */
 KOKSMA_API koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out);
 
 typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSMA_EXPORT_NPY } koksma_export_format;

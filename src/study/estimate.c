@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a study would cost. Some jobs of every task are timed, those of few points first, until the time for it is up.
- * A task that was not timed is taken to grow from the nearest smaller one of the same pattern, scene and variant:
- * renders with the samples, point sets with the power of n that the two largest timed ones show (2 when there is one
- * only).
+ * What a study would cost. Some jobs are timed until the time for it is up, and every other task is taken to cost
+ * what the nearest timed one of the same block and scene costs, by the power of n that its pattern showed between two
+ * timed numbers (before there are two: 1 for renders, 2 for point sets). Nearest is the one whose n, pattern and
+ * variant tell the most (distance()). First the smallest n of every block and scene is timed; then, again and again,
+ * the task whose cost in the study is the largest and the least certain, among those that fit into the time that is
+ * left.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,37 +20,87 @@
  */
 static const double DISCREPANCY_ROW = 38, IMAGE_ROW = 66, REFERENCE_PIXEL = 4;
 
+typedef struct guess {
+    koksma__task *task;
+    size_t nearest; /* the timed task that it is taken from; itself when it was timed, NONE */
+    double seconds; /* of a job */
+} guess;
+
+enum { NONE = -1 };
+
+typedef struct guesses {
+    guess *at; /* those of few points first */
+    size_t n;
+} guesses;
+
 static int by_n(const void *a, const void *b)
 {
-    const koksma__task *s = *(koksma__task *const *)a, *t = *(koksma__task *const *)b;
+    const koksma__task *s = ((const guess *)a)->task, *t = ((const guess *)b)->task;
     return s->n != t->n ? (s->n > t->n) - (s->n < t->n) : (s->place > t->place) - (s->place < t->place);
+}
+
+/* Tasks that tell something of each other. */
+static bool same_block(const koksma__task *s, const koksma__task *t)
+{
+    return s->image == t->image && s->discrepancy == t->discrepancy && s->scene == t->scene;
 }
 
 static bool same_kind(const koksma__task *s, const koksma__task *t)
 {
-    return s->image == t->image && s->discrepancy == t->discrepancy && s->scene == t->scene &&
-           !strcmp(s->pattern, t->pattern) && !strcmp(s->variant, t->variant);
+    return same_block(s, t) && !strcmp(s->pattern, t->pattern) && !strcmp(s->variant, t->variant);
 }
 
-/* From the timed tasks before `at` in the order of n. */
-static double extrapolate(koksma__task *const *tasks, const double *seconds, size_t at)
+static bool is_timed(const guesses *g, size_t i)
 {
-    size_t last = at, before = at;
-    for (size_t i = at; i-- > 0;) {
-        if (same_kind(tasks[i], tasks[at])) {
-            before = last < at && before == at && tasks[i]->n < tasks[last]->n ? i : before;
-            last = last == at ? i : last;
+    return g->at[i].nearest == i;
+}
+
+/* How little one task tells of another of its block: another variant about as little as 1.4 times the points, another
+   pattern as twice as many. */
+static double distance(const koksma__task *s, const koksma__task *t)
+{
+    return fabs(log2((double)s->n / (double)t->n)) + (strcmp(s->pattern, t->pattern) ? 1 : 0) +
+           (strcmp(s->variant, t->variant) ? 0.5 : 0);
+}
+
+/* The power of n by which timed task i grows towards n: to the timed one of its kind that is nearest to it. */
+static double power_at(const guesses *g, size_t i, long long n)
+{
+    const koksma__task *t = g->at[i].task;
+    const bool up = n > t->n;
+    double best = INFINITY, power = t->image ? 1 : 2;
+    for (size_t j = 0; j < g->n; j++) {
+        const koksma__task *other = g->at[j].task;
+        if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
+            const double ratio = log((double)other->n / (double)t->n);
+            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100); /* the far side is better than nothing */
+            if (far < best) {
+                best = far;
+                power = log(g->at[j].seconds / g->at[i].seconds) / ratio;
+            }
         }
     }
-    if (last == at) {
-        return at ? seconds[at - 1] * (double)tasks[at]->n / (double)tasks[at - 1]->n : 0;
+    return fmin(fmax(power, 0), 3);
+}
+
+/* What is known now of the tasks that task `timed` tells something of. */
+static void learn(guesses *g, size_t timed)
+{
+    g->at[timed].nearest = timed;
+    for (size_t i = 0; i < g->n; i++) {
+        guess *to = &g->at[i];
+        if (is_timed(g, i) || !same_block(to->task, g->at[timed].task)) {
+            continue;
+        }
+        if (to->nearest == (size_t)NONE ||
+            distance(to->task, g->at[timed].task) < distance(to->task, g->at[to->nearest].task)) {
+            to->nearest = timed;
+        }
+        const guess *from = &g->at[to->nearest];
+        const double ratio = (double)to->task->n / (double)from->task->n;
+        to->seconds =
+            from->seconds * (to->task->n == from->task->n ? 1 : pow(ratio, power_at(g, to->nearest, to->task->n)));
     }
-    double power = tasks[at]->image ? 1 : 2;
-    if (!tasks[at]->image && before < at && seconds[before] > 0) {
-        power = log(seconds[last] / seconds[before]) / log((double)tasks[last]->n / (double)tasks[before]->n);
-        power = fmin(fmax(power, 0), 3);
-    }
-    return seconds[last] * pow((double)tasks[at]->n / (double)tasks[last]->n, power);
 }
 
 /* A picture of zeros in place of a reference: it only has to have its size. */
@@ -66,7 +118,7 @@ static koksma_status stand_in(koksma_study *study, const koksma__task *task)
 
 /* One timing may be anything on a machine with other work: trials are timed until they took LONG_JOB together. */
 enum { MOST_LOOKS = 9 };
-static const double LONG_JOB = 0.05;
+static const double LONG_JOB = 0.02;
 
 static int compare_seconds(const void *a, const void *b)
 {
@@ -119,6 +171,53 @@ static void add_references(koksma_study *study, const koksma__task *t, double se
     }
 }
 
+static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i)
+{
+    const koksma_status status = time_job(study, g->at[i].task, &g->at[i].seconds);
+    if (!status) {
+        learn(g, i);
+    }
+    return status;
+}
+
+/* The task whose timing would tell the most and be done before the end; g->n: there is none. */
+static size_t choose(const guesses *g, double left_s)
+{
+    double most = 0;
+    size_t best = g->n;
+    for (size_t i = 0; i < g->n; i++) {
+        const guess *from = &g->at[i];
+        if (is_timed(g, i) || from->seconds > left_s) {
+            continue;
+        }
+        const double gain =
+            from->seconds * (double)from->task->trials * distance(from->task, g->at[from->nearest].task);
+        best = gain > most ? i : best;
+        most = fmax(gain, most);
+    }
+    return best;
+}
+
+static koksma_status time_tasks(koksma_study *study, guesses *g, const koksma_run *run, double budget_s)
+{
+    const double start_s = koksma__now_s();
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < g->n; i++) {
+        if (g->at[i].nearest == (size_t)NONE) {
+            status = koksma__keep_going(run, 0) ? time_and_learn(study, g, i) : koksma__fail_interrupted();
+        }
+    }
+    for (;;) {
+        const double passed_s = koksma__now_s() - start_s;
+        const size_t i = status || passed_s > budget_s ? g->n : choose(g, budget_s - passed_s);
+        if (i == g->n) {
+            return status;
+        }
+        status =
+            koksma__keep_going(run, passed_s / budget_s) ? time_and_learn(study, g, i) : koksma__fail_interrupted();
+    }
+}
+
 static koksma_status estimate_kind(koksma_study *study, bool images, const koksma_run *run, double budget_s,
                                    koksma_study_cost *cost)
 {
@@ -127,33 +226,22 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
     if (status) {
         return status;
     }
-    koksma__task **order = calloc(tasks.n + 1, sizeof *order);
-    double *seconds = calloc(tasks.n + 1, sizeof *seconds);
+    guesses g = {calloc(tasks.n + 1, sizeof *g.at), tasks.n};
     bool *counted = calloc(study->n_references + 1, sizeof *counted);
-    status = order && seconds && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *order);
-    for (size_t i = 0; order && i < tasks.n; i++) {
-        order[i] = &tasks.at[i];
+    status = g.at && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
+    for (size_t i = 0; !status && i < g.n; i++) {
+        g.at[i] = (guess){&tasks.at[i], (size_t)NONE, 0};
     }
     if (!status && tasks.n) {
-        qsort(order, tasks.n, sizeof *order, by_n);
+        qsort(g.at, g.n, sizeof *g.at, by_n);
+        status = time_tasks(study, &g, run, budget_s);
     }
-    const double end = koksma__now_s() + budget_s;
-    for (size_t i = 0; !status && i < tasks.n; i++) {
-        if (!koksma__keep_going(run, (double)i / (double)tasks.n)) {
-            status = koksma__fail_interrupted();
-        } else if (koksma__now_s() + extrapolate(order, seconds, i) < end) {
-            status = time_job(study, order[i], &seconds[i]);
-        } else {
-            seconds[i] = extrapolate(order, seconds, i);
-        }
-        if (!status) {
-            add_task(order[i], seconds[i], cost);
-            add_references(study, order[i], seconds[i], counted, cost);
-        }
+    for (size_t i = g.n; !status && i-- > 0;) { /* a reference has many samples */
+        add_task(g.at[i].task, g.at[i].seconds, cost);
+        add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);
     }
     cost->jobs += tasks.n_jobs;
-    free(order);
-    free(seconds);
+    free(g.at);
     free(counted);
     koksma__tasks_close(&tasks);
     return status;
@@ -161,10 +249,12 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
 
 koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out)
 {
-    const double budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
+    const double start_s = koksma__now_s(), budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
+    const bool both = study->plan.n_discrepancies && study->plan.n_images;
     *out = (koksma_study_cost){0};
-    koksma_status status = estimate_kind(study, false, run, budget_s / 2, out);
-    status = status ? status : estimate_kind(study, true, run, budget_s / 2, out);
+    koksma_status status = estimate_kind(study, false, run, both ? budget_s / 2 : budget_s, out);
+    const double left_s = budget_s - (koksma__now_s() - start_s);
+    status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);
     out->seconds += out->reference_seconds;
     for (size_t i = 0; i < study->n_references; i++) { /* the stand-ins must not be taken for references */
         koksma_image_fini(&study->references[i].image);
