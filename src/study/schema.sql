@@ -7,7 +7,7 @@ CREATE TABLE IF NOT EXISTS meta (          -- what made this file: 'schema', 've
 ) WITHOUT ROWID;
 
 CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the trial: one row a mean in a table
-  id INTEGER PRIMARY KEY,
+  id INTEGER PRIMARY KEY,                  -- of an image a multiple of 4; measures of the same point sets follow it
   kind TEXT NOT NULL,                      -- 'discrepancy' or 'image'
   scene TEXT NOT NULL,                     -- '' for discrepancies, as the next
   scene_hash TEXT NOT NULL,                -- of the scene's text, hexadecimal
@@ -21,13 +21,14 @@ CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the tria
   UNIQUE (kind, scene, scene_hash, options, pattern, n, dim, width, height, what)
 );
 
-CREATE TABLE IF NOT EXISTS result (        -- one measure of one point set, or one render compared with one reference
-  id INTEGER PRIMARY KEY,                  -- 2^32 trial + series: rows are appended as they are made
+CREATE TABLE IF NOT EXISTS result (        -- up to four measures of one point set, or one render and one reference
+  id INTEGER PRIMARY KEY,                  -- 2^32 trial + series, a multiple of 4: rows are appended as they are made
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
-  value REAL NOT NULL,                     -- the measure, or the mean of the absolute error in luminance over the pixels
-  sd REAL,                                 -- of an image: of the absolute error over the pixels
-  max REAL,
-  rmse REAL
+  v0 REAL,                                 -- that series' measure; of an image the mean over the pixels of the absolute
+                                           -- error in luminance
+  v1 REAL,                                 -- the measure of series + 1; of an image the SD of the absolute error,
+  v2 REAL,                                 -- its maximum,
+  v3 REAL                                  -- and the root of the mean square
 );
 
 CREATE TABLE IF NOT EXISTS reference (     -- how good a reference image is
@@ -55,6 +56,10 @@ CREATE TABLE IF NOT EXISTS run (           -- when, where and how long somebody 
 );
 
 CREATE VIEW IF NOT EXISTS rows AS
-  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, result.id >> 32 AS trial, seed, value,
-         sd, max, rmse
-  FROM result JOIN series ON series.id = result.id & 4294967295;
+  SELECT kind, scene, scene_hash, options, pattern, n, dim, width, height, what, result.id >> 32 AS trial, seed,
+         CASE series.id & 3 WHEN 0 THEN v0 WHEN 1 THEN v1 WHEN 2 THEN v2 ELSE v3 END AS value,
+         CASE kind WHEN 'image' THEN v1 END AS sd,
+         CASE kind WHEN 'image' THEN v2 END AS max,
+         CASE kind WHEN 'image' THEN v3 END AS rmse
+  FROM result JOIN series ON series.id BETWEEN result.id & 4294967295 AND (result.id & 4294967295) + 3
+  WHERE value IS NOT NULL;

@@ -15,27 +15,32 @@
 #include "core/status.h"
 #include "study/clocks.h"
 #include "study/schema.h"
+#include "study/schema_upgrade.h"
 
-#define SCHEMA_VERSION "3"
-#define SERIES_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what"
+#define SCHEMA_VERSION "4"
+#define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height"
+#define SERIES_KEY GROUP_KEY ", what"
 
 #define ROW "(?,?,?,?,?,?)"
-#define PLAIN_ROW "(?,?,?,NULL,NULL,NULL)"
+#define PUT_TEXT_OF(rows)                                                                                            \
+    "INSERT INTO result VALUES " rows " ON CONFLICT (id) DO UPDATE SET v0 = coalesce(v0, excluded.v0), v1 = "        \
+    "coalesce(v1, excluded.v1), v2 = coalesce(v2, excluded.v2), v3 = coalesce(v3, excluded.v3)"
 #define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
 #define TIMES_MANY(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
 
-/* Rows of a statement that puts many, and columns of a row; of a plain one, which has the value only. */
-enum { MANY = 32, ROW_COLUMNS = 6, PLAIN_COLUMNS = 3 };
+/* Rows of a statement that puts many, and columns of a row. */
+enum { MANY = 32, ROW_COLUMNS = 6, SERIES_COLUMNS = 10 };
 
 enum {
     FIND_SERIES,
+    NEXT_SERIES,
     ADD_SERIES,
     PUT,
     PUT_MANY,
-    PUT_MANY_PLAIN,
     GET_RESULTS,
     GET_IDS,
     GET_SERIES,
+    LAST_SERIES,
     PUT_REFERENCE,
     GET_REFERENCE,
     PUT_TEXT,
@@ -47,15 +52,17 @@ enum {
 
 static const char *const statements[N_STATEMENTS] = {
     [FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?)",
-    [ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ") VALUES (?,?,?,?,?,?,?,?,?,?)",
-    [PUT] = "INSERT OR IGNORE INTO result VALUES " ROW,
-    [PUT_MANY] = "INSERT OR IGNORE INTO result VALUES " TIMES_MANY(ROW),
-    [PUT_MANY_PLAIN] = "INSERT OR IGNORE INTO result VALUES " TIMES_MANY(PLAIN_ROW),
+    [NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY ") = "
+                    "(?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
+    [ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?)",
+    [PUT] = PUT_TEXT_OF(ROW),
+    [PUT_MANY] = PUT_TEXT_OF(TIMES_MANY(ROW)),
     [GET_RESULTS] =
         "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
-        "SELECT trial, seed, value, sd, max, rmse FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
-    [GET_IDS] = "SELECT id FROM result",
+        "SELECT trial, seed, v0, v1, v2, v3 FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
+    [GET_IDS] = "SELECT id, v0, v1, v2, v3 FROM result",
     [GET_SERIES] = "SELECT " SERIES_KEY ", id FROM series ORDER BY " SERIES_KEY,
+    [LAST_SERIES] = "SELECT max(id) FROM series",
     [PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?)",
     [GET_REFERENCE] = "SELECT standard_error FROM reference WHERE scene=? AND scene_hash=? AND options=? AND width=? "
                       "AND height=? AND reference=?",
@@ -74,6 +81,9 @@ static const char *const statements[N_STATEMENTS] = {
 static const double WRITE_AFTER_S = 0.2;
 enum { MOST_GATHERED = 1 << 14 };
 
+/* A plan's tasks are in memory, too, and each is far more than a number. */
+static const long long MOST_SERIES = 1 << 28;
+
 typedef struct row {
     long long id;
     uint64_t seed;
@@ -85,6 +95,11 @@ typedef struct rows {
     row *at;
 } rows;
 
+typedef struct known_series {
+    bool image;
+    long long end; /* all its trials are below */
+} known_series;
+
 struct koksma__store {
     sqlite3 *database;
     sqlite3_stmt *prepared[N_STATEMENTS];
@@ -93,17 +108,27 @@ struct koksma__store {
     bool in_transaction;
     double began_s, entered_s, seconds;
     rows spare;
-    size_t n_ends;               /* of `ends`, which is filled when it is first wanted */
-    long long *ends;             /* of a series, by its id: all its trials are below */
+    size_t n_known;      /* of `known`, by the id of a series */
+    known_series *known; /* read when it is first wanted */
+    bool knows_ends;
     pthread_mutex_t gather_lock; /* taken within the other; guards what follows */
     rows gathered;
     double written_s; /* when something was last written */
 };
 
-/* The id of a row: in the order in which a run makes rows, so that they are appended to the table. */
+/* Results lie four in a row. Of an image its four values are one; of point sets one value each of four measures: the
+   series of one pattern, n, dim and options have ids that follow each other from a multiple of GROUP, as far as they
+   were made one after the other. A row's id is in the order in which a run makes rows, so that they are appended. */
+enum { GROUP = KOKSMA__RESULT_VALUES };
+
+static long long group_of(long long series)
+{
+    return series - series % GROUP;
+}
+
 static long long row_id(long long series, long long trial)
 {
-    return (long long)((unsigned long long)trial << 32 | (unsigned long long)series);
+    return (long long)((unsigned long long)trial << 32 | (unsigned long long)group_of(series));
 }
 
 static void enter(koksma__store *store)
@@ -175,7 +200,8 @@ static void bind_whole(sqlite3_stmt *s, int *column, long long value)
     sqlite3_bind_int64(s, (*column)++, value);
 }
 
-static void bind_series(sqlite3_stmt *s, const koksma__series *key)
+/* All that the series of a group have in common; the next column comes back. */
+static int bind_group(sqlite3_stmt *s, const koksma__series *key)
 {
     int column = 1;
     bind_text(s, &column, key->kind);
@@ -187,6 +213,12 @@ static void bind_series(sqlite3_stmt *s, const koksma__series *key)
     bind_whole(s, &column, key->dim);
     bind_whole(s, &column, key->width);
     bind_whole(s, &column, key->height);
+    return column;
+}
+
+static void bind_series(sqlite3_stmt *s, const koksma__series *key)
+{
+    int column = bind_group(s, key);
     bind_text(s, &column, key->what);
 }
 
@@ -203,16 +235,11 @@ static koksma_status step_put(koksma__store *store, sqlite3_stmt *s)
     return status;
 }
 
-static bool is_plain(const row *r)
-{
-    return isnan(r->values[1]) && isnan(r->values[2]) && isnan(r->values[3]);
-}
-
-static void bind_row(sqlite3_stmt *s, int column, const row *from, bool plain)
+static void bind_row(sqlite3_stmt *s, int column, const row *from)
 {
     sqlite3_bind_int64(s, column++, from->id);
     sqlite3_bind_int64(s, column++, (long long)from->seed);
-    for (int k = 0; k < (plain ? 1 : KOKSMA__RESULT_VALUES); k++) {
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
         sqlite3_bind_double(s, column++, from->values[k]); /* NaN is stored as NULL */
     }
 }
@@ -227,15 +254,18 @@ static koksma_status step_rows(koksma__store *store, sqlite3_stmt *s)
 
 static koksma_status put_many(koksma__store *store, const row *from)
 {
-    bool plain = true;
     for (int k = 0; k < MANY; k++) {
-        plain &= is_plain(&from[k]);
+        bind_row(store->prepared[PUT_MANY], 1 + ROW_COLUMNS * k, &from[k]);
     }
-    sqlite3_stmt *s = store->prepared[plain ? PUT_MANY_PLAIN : PUT_MANY];
-    for (int k = 0; k < MANY; k++) {
-        bind_row(s, 1 + (plain ? PLAIN_COLUMNS : ROW_COLUMNS) * k, &from[k], plain);
-    }
-    return step_rows(store, s);
+    return step_rows(store, store->prepared[PUT_MANY]);
+}
+
+static void forget(koksma__store *store)
+{
+    free(store->known);
+    store->known = NULL;
+    store->n_known = 0;
+    store->knows_ends = false;
 }
 
 /* Writes and commits all rows that were gathered. The lock must be held, so that the spare room is free. */
@@ -248,9 +278,7 @@ static koksma_status write_gathered(koksma__store *store)
     store->written_s = koksma__now_s();
     pthread_mutex_unlock(&store->gather_lock);
     if (taken.n) { /* what is known of the rows is known no more */
-        free(store->ends);
-        store->ends = NULL;
-        store->n_ends = 0;
+        forget(store);
     }
     size_t i = 0;
     koksma_status status = taken.n || store->in_transaction ? begin(store) : KOKSMA_OK;
@@ -258,7 +286,7 @@ static koksma_status write_gathered(koksma__store *store)
         status = put_many(store, &taken.at[i]);
     }
     for (; !status && i < taken.n; i++) {
-        bind_row(store->prepared[PUT], 1, &taken.at[i], false);
+        bind_row(store->prepared[PUT], 1, &taken.at[i]);
         status = step_rows(store, store->prepared[PUT]);
     }
     return status ? status : commit(store);
@@ -272,14 +300,22 @@ static koksma_status step_get(koksma__store *store, sqlite3_stmt *s, bool *found
     return code == SQLITE_ROW || code == SQLITE_DONE ? KOKSMA_OK : fail(store);
 }
 
-static void read_result(sqlite3_stmt *s, koksma__result *result)
+static double read_value(sqlite3_stmt *s, int column)
 {
+    return sqlite3_column_type(s, column) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, column);
+}
+
+/* False where the row has no result of the series, only of others of its group. */
+static bool read_result(sqlite3_stmt *s, const koksma__store *store, long long series, koksma__result *result)
+{
+    const int place = (int)(series - group_of(series));
     result->trial = sqlite3_column_int64(s, 0);
     result->seed = (uint64_t)sqlite3_column_int64(s, 1);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        result->values[k] =
-            sqlite3_column_type(s, 2 + k) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, 2 + k);
+    result->values[0] = read_value(s, 2 + place);
+    for (int k = 1; k < KOKSMA__RESULT_VALUES; k++) {
+        result->values[k] = store->known[series].image ? read_value(s, 2 + k) : (double)NAN;
     }
+    return !isnan(result->values[0]);
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------- */
@@ -330,6 +366,22 @@ static koksma_status prepare_statement(koksma__store *store, int i)
                : fail(store);
 }
 
+/* A store of schema 3 is made one of this. */
+static koksma_status upgrade(koksma__store *store)
+{
+    char *found;
+    koksma_status status = get_text(store, "schema", &found);
+    if (!status && found && !strcmp(found, "3")) {
+        status = execute(store, "DROP VIEW IF EXISTS rows; ALTER TABLE series RENAME TO series_3; ALTER TABLE result "
+                                "RENAME TO result_3");
+        status = status ? status : execute(store, koksma__schema_sql);
+        status = status ? status : execute(store, koksma__schema_upgrade_sql);
+        status = status ? status : put_text(store, "schema", SCHEMA_VERSION);
+    }
+    free(found);
+    return status;
+}
+
 /* One run at a time: a second one on the same folder is told so instead of doing the same work. A store of an older
    schema is known by its `meta`, before anything is made in it. */
 static koksma_status prepare(koksma__store *store, bool write, const char *plan_name)
@@ -345,6 +397,7 @@ static koksma_status prepare(koksma__store *store, bool write, const char *plan_
     }
     status = status ? status : prepare_statement(store, PUT_TEXT);
     status = status ? status : prepare_statement(store, GET_TEXT);
+    status = status ? status : upgrade(store);
     status = status ? status : check_text(store, "schema", SCHEMA_VERSION, write);
     status = status ? status : check_text(store, "version", koksma_version(), write);
     if (!status && plan_name) {
@@ -385,7 +438,7 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
                errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
         status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
     }
-    const int flags = SQLITE_OPEN_READWRITE | (write ? SQLITE_OPEN_CREATE : 0);
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | (write ? SQLITE_OPEN_CREATE : 0);
     if (!status && sqlite3_open_v2(path, &store->database, flags, NULL) != SQLITE_OK) {
         status = fail(store);
     }
@@ -415,7 +468,7 @@ koksma_status koksma__store_close(koksma__store *store)
     pthread_mutex_destroy(&store->gather_lock);
     free(store->gathered.at);
     free(store->spare.at);
-    free(store->ends);
+    forget(store);
     free(store->path);
     free(store);
     return status;
@@ -449,6 +502,20 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
 
 /* ---- Rows ---------------------------------------------------------------------------------------------- */
 
+/* The id for a new series: the next of its group, or the first of a new one. */
+static koksma_status next_series(koksma__store *store, const koksma__series *series, long long *id)
+{
+    sqlite3_stmt *s = store->prepared[NEXT_SERIES];
+    bool found;
+    bind_group(s, series);
+    const koksma_status status = step_get(store, s, &found);
+    const long long last = found ? sqlite3_column_int64(s, 0) : 0,
+                    last_of_all = found ? sqlite3_column_int64(s, 1) : 0;
+    *id = (last + 1) % GROUP && last ? last + 1 : group_of(last_of_all) + GROUP;
+    sqlite3_reset(s);
+    return status;
+}
+
 koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id)
 {
     bool found;
@@ -458,11 +525,27 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
     *id = found ? sqlite3_column_int64(store->prepared[FIND_SERIES], 0) : 0;
     sqlite3_reset(store->prepared[FIND_SERIES]);
     if (!status && !found && add) {
+        status = next_series(store, series, id);
         bind_series(store->prepared[ADD_SERIES], series);
-        status = step_put(store, store->prepared[ADD_SERIES]);
-        *id = sqlite3_last_insert_rowid(store->database);
+        sqlite3_bind_int64(store->prepared[ADD_SERIES], SERIES_COLUMNS + 1, *id);
+        status = status ? status : step_put(store, store->prepared[ADD_SERIES]);
+        forget(store);
     }
     return leave(store, status);
+}
+
+/* There must be room for one more. */
+static void gather(rows *to, long long series, const koksma__result *result)
+{
+    const long long id = row_id(series, result->trial);
+    const int place = (int)(series - group_of(series));
+    if (to->n == 0 || to->at[to->n - 1].id != id) {
+        to->at[to->n++] = (row){id, result->seed, {NAN, NAN, NAN, NAN}};
+    }
+    row *r = &to->at[to->n - 1];
+    for (int k = 0; place + k < KOKSMA__RESULT_VALUES; k++) {
+        r->values[place + k] = isnan(r->values[place + k]) ? result->values[k] : r->values[place + k];
+    }
 }
 
 koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
@@ -473,10 +556,7 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
         pthread_mutex_lock(&store->gather_lock);
         rows *to = &store->gathered;
         for (; i < n && to->n < MOST_GATHERED; i++) {
-            row *r = &to->at[to->n++];
-            r->id = row_id(series[i], results[i].trial);
-            r->seed = results[i].seed;
-            memcpy(r->values, results[i].values, sizeof r->values);
+            gather(to, series[i], &results[i]);
         }
         const bool write = i < n || koksma__now_s() - store->written_s > WRITE_AFTER_S;
         pthread_mutex_unlock(&store->gather_lock);
@@ -488,17 +568,56 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
     return status;
 }
 
-/* Reads the ids of all rows, in their order. */
+/* Which series are of images. */
+static koksma_status know_series(koksma__store *store)
+{
+    sqlite3_stmt *s = store->prepared[GET_SERIES];
+    if (store->known) {
+        return KOKSMA_OK;
+    }
+    bool found;
+    koksma_status status = step_get(store, store->prepared[LAST_SERIES], &found);
+    const long long last = found ? sqlite3_column_int64(store->prepared[LAST_SERIES], 0) : 0;
+    sqlite3_reset(store->prepared[LAST_SERIES]);
+    if (!status && (last < 0 || last > MOST_SERIES)) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: a series with the number %lld; move it away to begin anew",
+                              store->path, last);
+    }
+    if (status) {
+        return status;
+    }
+    store->n_known = (size_t)last + 1;
+    store->known = calloc(store->n_known, sizeof *store->known);
+    if (!store->known) {
+        return koksma__fail_memory(store->n_known * sizeof *store->known);
+    }
+    int code;
+    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
+        const long long id = sqlite3_column_int64(s, SERIES_COLUMNS);
+        const char *kind = (const char *)sqlite3_column_text(s, 0);
+        if (id >= 0 && (size_t)id < store->n_known) {
+            store->known[id].image = kind && !strcmp(kind, "image");
+        }
+    }
+    status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
+    sqlite3_reset(s);
+    return status;
+}
+
+/* Reads all rows, in the order of their ids. */
 static koksma_status scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
                           void *context)
 {
     sqlite3_stmt *s = store->prepared[GET_IDS];
     koksma_status status = write_gathered(store);
+    status = status ? status : know_series(store);
     int code = SQLITE_DONE;
     while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
-        const long long id = sqlite3_column_int64(s, 0);
-        if (id >= 0) {
-            see(context, id & 0xffffffff, id >> 32);
+        const long long id = sqlite3_column_int64(s, 0), first = id & 0xffffffff;
+        for (int k = 0; id >= 0 && k < GROUP && (size_t)(first + k) < store->n_known; k++) {
+            if (sqlite3_column_type(s, 1 + k) != SQLITE_NULL && (k == 0 || !store->known[first].image)) {
+                see(context, first + k, id >> 32);
+            }
         }
     }
     if (!status && code != SQLITE_DONE) {
@@ -518,35 +637,25 @@ koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context
 static void see_end(void *context, long long series, long long trial)
 {
     koksma__store *store = context;
-    if ((size_t)series < store->n_ends && trial >= store->ends[series]) {
-        store->ends[series] = trial + 1;
+    if (trial >= store->known[series].end) {
+        store->known[series].end = trial + 1;
     }
 }
 
 /* How far the trials of every series go. */
 static koksma_status find_ends(koksma__store *store)
 {
-    sqlite3_stmt *s = store->prepared[GET_SERIES];
-    const koksma_status written = write_gathered(store);
-    if (written || store->ends) {
-        return written;
+    koksma_status status = write_gathered(store);
+    if (!status && !store->knows_ends) {
+        status = scan(store, see_end, store);
+        store->knows_ends = !status;
     }
-    int code;
-    while ((code = sqlite3_step(s)) == SQLITE_ROW) {
-        const long long id = sqlite3_column_int64(s, 10);
-        store->n_ends = id >= 0 && (size_t)id >= store->n_ends ? (size_t)id + 1 : store->n_ends;
-    }
-    koksma_status status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
-    sqlite3_reset(s);
-    if (!status && !(store->ends = calloc(store->n_ends + 1, sizeof *store->ends))) {
-        status = koksma__fail_memory(store->n_ends * sizeof *store->ends);
-    }
-    return status ? status : scan(store, see_end, store);
+    return status;
 }
 
 static long long end_of(const koksma__store *store, long long series)
 {
-    return series >= 0 && (size_t)series < store->n_ends ? store->ends[series] : 0;
+    return series >= 0 && (size_t)series < store->n_known ? store->known[series].end : 0;
 }
 
 /* Shows a series' results with trials below `end`. */
@@ -556,12 +665,13 @@ static koksma_status each_result(koksma__store *store, long long series, long lo
     sqlite3_stmt *s = store->prepared[GET_RESULTS];
     koksma_status status = KOKSMA_OK;
     int code = SQLITE_DONE;
-    sqlite3_bind_int64(s, 1, series);
+    sqlite3_bind_int64(s, 1, group_of(series));
     sqlite3_bind_int64(s, 2, end);
     while (end > 0 && !status && (code = sqlite3_step(s)) == SQLITE_ROW) {
         koksma__result result;
-        read_result(s, &result);
-        status = visit(context, key, &result);
+        if (read_result(s, store, series, &result)) {
+            status = visit(context, key, &result);
+        }
     }
     if (!status && code != SQLITE_DONE) {
         status = fail(store);
