@@ -16,9 +16,10 @@
 #include "study/clocks.h"
 #include "study/tasks.h"
 
-/* Of a row of table result, with its share of the tree (measured on 1e5 rows of each kind), and a reference's pixel.
- */
-static const double DISCREPANCY_ROW = 38, IMAGE_ROW = 66, REFERENCE_PIXEL = 4;
+/* Bytes of a row of table result with its share of the tree, and of each of its up to VALUES values (measured on 1e5
+   rows of each kind); of a reference's pixel. */
+static const double ROW = 34, VALUE = 8, REFERENCE_PIXEL = 4;
+enum { VALUES = KOKSMA__RESULT_VALUES };
 
 typedef struct guess {
     koksma__task *task;
@@ -152,7 +153,9 @@ static void add_task(const koksma__task *t, double seconds, koksma_study_cost *c
     const double trials = (double)t->trials;
     cost->rows += (uint64_t)t->trials * t->n_series;
     cost->seconds += seconds * trials;
-    cost->bytes += trials * (double)t->n_series * (t->image ? IMAGE_ROW : DISCREPANCY_ROW);
+    const size_t rows = t->image ? t->n_series : (t->n_series + VALUES - 1) / VALUES;
+    const size_t values = t->image ? VALUES * t->n_series : t->n_series;
+    cost->bytes += trials * (ROW * (double)rows + VALUE * (double)values);
 }
 
 /* A reference takes the time of the tasks that are compared with it, sample for sample. */

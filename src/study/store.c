@@ -22,9 +22,6 @@
 #define SERIES_KEY GROUP_KEY ", what"
 
 #define ROW "(?,?,?,?,?,?)"
-#define PUT_TEXT_OF(rows)                                                                                            \
-    "INSERT INTO result VALUES " rows " ON CONFLICT (id) DO UPDATE SET v0 = coalesce(v0, excluded.v0), v1 = "        \
-    "coalesce(v1, excluded.v1), v2 = coalesce(v2, excluded.v2), v3 = coalesce(v3, excluded.v3)"
 #define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
 #define TIMES_MANY(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
 
@@ -55,8 +52,9 @@ static const char *const statements[N_STATEMENTS] = {
     [NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY ") = "
                     "(?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
     [ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?)",
-    [PUT] = PUT_TEXT_OF(ROW),
-    [PUT_MANY] = PUT_TEXT_OF(TIMES_MANY(ROW)),
+    [PUT] = "INSERT INTO result VALUES " ROW " ON CONFLICT (id) DO UPDATE SET v0 = coalesce(v0, excluded.v0), "
+            "v1 = coalesce(v1, excluded.v1), v2 = coalesce(v2, excluded.v2), v3 = coalesce(v3, excluded.v3)",
+    [PUT_MANY] = "INSERT OR IGNORE INTO result VALUES " TIMES_MANY(ROW),
     [GET_RESULTS] =
         "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
         "SELECT trial, seed, v0, v1, v2, v3 FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
@@ -252,12 +250,25 @@ static koksma_status step_rows(koksma__store *store, sqlite3_stmt *s)
     return status;
 }
 
+static koksma_status put_one(koksma__store *store, const row *from)
+{
+    bind_row(store->prepared[PUT], 1, from);
+    return step_rows(store, store->prepared[PUT]);
+}
+
+/* A row that exists may have room for what others of its group have: that is seldom, and looked at one by one. */
 static koksma_status put_many(koksma__store *store, const row *from)
 {
     for (int k = 0; k < MANY; k++) {
         bind_row(store->prepared[PUT_MANY], 1 + ROW_COLUMNS * k, &from[k]);
     }
-    return step_rows(store, store->prepared[PUT_MANY]);
+    koksma_status status = step_rows(store, store->prepared[PUT_MANY]);
+    if (!status && sqlite3_changes(store->database) < MANY) {
+        for (int k = 0; !status && k < MANY; k++) {
+            status = put_one(store, &from[k]);
+        }
+    }
+    return status;
 }
 
 static void forget(koksma__store *store)
@@ -286,8 +297,7 @@ static koksma_status write_gathered(koksma__store *store)
         status = put_many(store, &taken.at[i]);
     }
     for (; !status && i < taken.n; i++) {
-        bind_row(store->prepared[PUT], 1, &taken.at[i]);
-        status = step_rows(store, store->prepared[PUT]);
+        status = put_one(store, &taken.at[i]);
     }
     return status ? status : commit(store);
 }
