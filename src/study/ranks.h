@@ -32,7 +32,7 @@ enum { KOKSMA__PHASES = 2, KOKSMA__MAX_BATCH = 256, KOKSMA__RANK_TEXT = 480 };
 
 /* Seconds of work in a batch. A batch is in hand when the next is asked for, and rank 0 may be slow to answer where
    all processors are at work. */
-#define KOKSMA__BATCH_S 0.06
+#define KOKSMA__BATCH_S 0.25
 
 /* Seconds after which a rank sends what it has done: so much is lost with it, or a job if that takes longer. */
 #define KOKSMA__SEND_S 0.02

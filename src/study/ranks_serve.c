@@ -268,7 +268,7 @@ static size_t fill(server *s, double job_s, koksma__deal deals[KOKSMA__MAX_BATCH
     pthread_mutex_lock(&s->lock);
     const koksma__queue *queue = s->part_queue.next < s->part_queue.n ? &s->part_queue : &s->jobs;
     const size_t share = (queue->n - queue->next) / (size_t)(4 * s->size) + 1;
-    const double fit = queue == &s->part_queue ? 3 : job_s > 0 ? KOKSMA__BATCH_S / job_s : 1;
+    const double fit = queue == &s->part_queue ? 6 : job_s > 0 ? KOKSMA__BATCH_S / job_s : 1;
     pthread_mutex_unlock(&s->lock);
     size_t batch = fit < 1 ? 1 : fit > KOKSMA__MAX_BATCH ? KOKSMA__MAX_BATCH : (size_t)fit, n = 0;
     batch = batch < share ? batch : share;
