@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/status.h"
@@ -17,7 +18,9 @@ typedef struct pool {
     atomic_size_t next;
     atomic_size_t done;
     atomic_int status;
-    pthread_mutex_t lock; /* guards text */
+    pthread_mutex_t lock; /* guards what follows */
+    pthread_cond_t ended; /* a helper has */
+    int running;          /* helpers */
     char text[512];
 } pool;
 
@@ -69,30 +72,70 @@ static bool work_one(pool *p)
 
 static void *work(void *argument)
 {
-    while (work_one(argument)) {
+    pool *p = argument;
+    while (work_one(p)) {
     }
+    pthread_mutex_lock(&p->lock);
+    p->running--;
+    pthread_cond_signal(&p->ended);
+    pthread_mutex_unlock(&p->lock);
     return NULL;
+}
+
+static void look(pool *p, const koksma_run *run)
+{
+    if (!koksma__keep_going(run, (double)atomic_load(&p->done) / (double)(p->n_blocks ? p->n_blocks : 1))) {
+        koksma__fail_interrupted();
+        stop(p, KOKSMA_INTERRUPTED);
+    }
+}
+
+/* Looks as often as this while the helpers do their last blocks, which may take long. */
+static const long LOOK_NS = 50000000;
+
+static void wait_for_helpers(pool *p, const koksma_run *run)
+{
+    pthread_mutex_lock(&p->lock);
+    while (p->running > 0) {
+        struct timespec t;
+        clock_gettime(CLOCK_REALTIME, &t);
+        t.tv_nsec += LOOK_NS;
+        t.tv_sec += t.tv_nsec / 1000000000;
+        t.tv_nsec %= 1000000000;
+        if (pthread_cond_timedwait(&p->ended, &p->lock, &t)) {
+            pthread_mutex_unlock(&p->lock);
+            look(p, run);
+            pthread_mutex_lock(&p->lock);
+        }
+    }
+    pthread_mutex_unlock(&p->lock);
 }
 
 koksma_status koksma__parallel(const koksma_run *run, size_t n_blocks, koksma__block_function f, void *context)
 {
-    pool p = {.f = f, .context = context, .n_blocks = n_blocks, .lock = PTHREAD_MUTEX_INITIALIZER};
+    pool p = {.f = f,
+              .context = context,
+              .n_blocks = n_blocks,
+              .lock = PTHREAD_MUTEX_INITIALIZER,
+              .ended = PTHREAD_COND_INITIALIZER};
     pthread_t helpers[MAX_THREADS];
     int n_helpers = 0;
     size_t wanted = (size_t)koksma__threads(run);
     wanted = wanted < n_blocks ? wanted : n_blocks;
+    pthread_mutex_lock(&p.lock); /* so that none ends before it is counted */
     while ((size_t)n_helpers + 1 < wanted && !pthread_create(&helpers[n_helpers], NULL, work, &p)) {
         n_helpers++; /* a thread that can't be had only makes it slower */
     }
+    p.running = n_helpers;
+    pthread_mutex_unlock(&p.lock);
     do {
-        if (!koksma__keep_going(run, (double)atomic_load(&p.done) / (double)(n_blocks ? n_blocks : 1))) {
-            koksma__fail_interrupted();
-            stop(&p, KOKSMA_INTERRUPTED);
-        }
+        look(&p, run);
     } while (work_one(&p));
+    wait_for_helpers(&p, run);
     for (int i = 0; i < n_helpers; i++) {
         pthread_join(helpers[i], NULL);
     }
+    pthread_cond_destroy(&p.ended);
     pthread_mutex_destroy(&p.lock);
     const koksma_status status = (koksma_status)atomic_load(&p.status);
     return status ? koksma__fail(status, "%s", p.text) : KOKSMA_OK;

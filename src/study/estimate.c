@@ -15,6 +15,7 @@
 #include "core/status.h"
 #include "study/clocks.h"
 #include "study/tasks.h"
+#include "study/watch.h"
 
 /* Bytes of a row of table result with its share of the tree, and of each of its up to VALUES values (measured on 1e5
    rows of each kind); of a reference's pixel. */
@@ -128,7 +129,7 @@ static int compare_seconds(const void *a, const void *b)
 }
 
 /* The median of several trials, in processor time: that is what a thread of its own would take. */
-static koksma_status time_job(koksma_study *study, const koksma__task *task, double *seconds)
+static koksma_status time_job(koksma_study *study, const koksma__task *task, const koksma_run *job, double *seconds)
 {
     double looks[MOST_LOOKS], all = 0;
     int n = 0;
@@ -136,7 +137,7 @@ static koksma_status time_job(koksma_study *study, const koksma__task *task, dou
     koksma_status status = results ? stand_in(study, task) : koksma__fail_memory(task->n_series * sizeof *results);
     for (; !status && n < MOST_LOOKS && (n == 0 || all < LONG_JOB); n++) {
         const double start = koksma__thread_s();
-        status = koksma__task_do(study, task, n % task->trials, results);
+        status = koksma__task_do(study, task, n % task->trials, job, results);
         looks[n] = koksma__thread_s() - start;
         all += looks[n];
     }
@@ -174,9 +175,9 @@ static void add_references(koksma_study *study, const koksma__task *t, double se
     }
 }
 
-static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i)
+static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, const koksma_run *job)
 {
-    const koksma_status status = time_job(study, g->at[i].task, &g->at[i].seconds);
+    const koksma_status status = time_job(study, g->at[i].task, job, &g->at[i].seconds);
     if (!status) {
         learn(g, i);
     }
@@ -204,10 +205,12 @@ static size_t choose(const guesses *g, double left_s)
 static koksma_status time_tasks(koksma_study *study, guesses *g, const koksma_run *run, double budget_s)
 {
     const double start_s = koksma__now_s();
+    koksma__watch w;
+    koksma__watch_begin(run, 0, &w);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < g->n; i++) {
         if (g->at[i].nearest == (size_t)NONE) {
-            status = koksma__keep_going(run, 0) ? time_and_learn(study, g, i) : koksma__fail_interrupted();
+            status = koksma__keep_going(&w.run, 0) ? time_and_learn(study, g, i, &w.job) : koksma__fail_interrupted();
         }
     }
     for (;;) {
@@ -216,8 +219,8 @@ static koksma_status time_tasks(koksma_study *study, guesses *g, const koksma_ru
         if (i == g->n) {
             return status;
         }
-        status =
-            koksma__keep_going(run, passed_s / budget_s) ? time_and_learn(study, g, i) : koksma__fail_interrupted();
+        status = koksma__keep_going(&w.run, passed_s / budget_s) ? time_and_learn(study, g, i, &w.job)
+                                                                 : koksma__fail_interrupted();
     }
 }
 

@@ -80,14 +80,15 @@ void koksma__parts_close(koksma__parts *parts)
     *parts = (koksma__parts){0};
 }
 
-koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, koksma__replicates *out)
+koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, const koksma_run *run,
+                              koksma__replicates *out)
 {
     const koksma__reference_image *r = &study->references[part->reference];
     koksma_status status = KOKSMA_OK;
     *out = (koksma__replicates){0};
     for (long long i = 0; !status && i < r->reference->replicates; i++) {
         koksma_image image;
-        status = koksma__reference_replicate(r, i, (int)part->first_row, (int)part->rows, &image);
+        status = koksma__reference_replicate(r, i, (int)part->first_row, (int)part->rows, run, &image);
         if (!status) {
             status = koksma__replicates_add(out, &image);
             koksma_image_fini(&image);

@@ -27,7 +27,8 @@ koksma_status koksma__parts_open(const koksma__tasks *tasks, koksma__parts *part
 void koksma__parts_close(koksma__parts *parts);
 
 /* Renders a part: the sums of its rows, which the caller frees (out->sum). */
-koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, koksma__replicates *out);
+koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, const koksma_run *run,
+                              koksma__replicates *out);
 
 /* Takes a part's sums; *complete: they were the reference's last. One call at a time, each part once. */
 koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, const koksma__replicates *sums,

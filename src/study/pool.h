@@ -10,17 +10,19 @@
 #include <stdatomic.h>
 
 #include "study/tasks.h"
+#include "study/watch.h"
 
 typedef struct koksma__pool {
     koksma__tasks *tasks;
+    koksma__watch *watch;
     bool last; /* no other kind of jobs comes after */
     atomic_size_t done;
     atomic_ullong busy_ns; /* of all workers, on parts of references and on jobs */
     double others_s;       /* processor time of the other ranks */
 } koksma__pool;
 
-/* Does all jobs that are not done on run's threads. */
-koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run);
+/* Does all jobs that are not done on the watch's threads. */
+koksma_status koksma__pool_threads(koksma__pool *pool);
 
 /* Adds the time since start_s to what the workers were busy. */
 void koksma__pool_was_busy(koksma__pool *pool, double start_s);
@@ -32,7 +34,7 @@ int koksma__pool_size(void);
 koksma_status koksma__pool_check(void);
 
 /* The first rank's part, and the others': until the first says that all is done. */
-koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run);
-koksma_status koksma__pool_work(koksma_study *study);
+koksma_status koksma__pool_serve(koksma__pool *pool);
+koksma_status koksma__pool_work(koksma_study *study, const koksma_run *job);
 
 #endif

@@ -26,7 +26,7 @@ static koksma_status do_part(void *context, size_t i)
     const double start_s = koksma__now_s();
     koksma__replicates sums;
     bool complete = false;
-    koksma_status status = koksma__part_do(m->parts.study, part, &sums);
+    koksma_status status = koksma__part_do(m->parts.study, part, &m->pool->watch->job, &sums);
     if (!status) {
         pthread_mutex_lock(&m->lock);
         status = koksma__parts_put(&m->parts, part, &sums, &complete);
@@ -53,7 +53,7 @@ static koksma_status do_job(void *context, size_t i)
     if (!results) {
         return koksma__fail_memory(task->n_series * sizeof *results);
     }
-    koksma_status status = koksma__task_do(pool->tasks->study, task, trial, results);
+    koksma_status status = koksma__task_do(pool->tasks->study, task, trial, &pool->watch->job, results);
     status = status ? status : koksma__task_put(pool->tasks->study->store, task, results);
     free(results);
     atomic_fetch_add(&pool->done, !status);
@@ -61,14 +61,14 @@ static koksma_status do_job(void *context, size_t i)
     return status;
 }
 
-koksma_status koksma__pool_threads(koksma__pool *pool, const koksma_run *run)
+koksma_status koksma__pool_threads(koksma__pool *pool)
 {
     making m = {.pool = pool, .lock = PTHREAD_MUTEX_INITIALIZER};
     koksma_status status = koksma__parts_open(pool->tasks, &m.parts);
     if (!status) {
-        status = koksma__parallel(run, m.parts.n, do_part, &m);
+        status = koksma__parallel(&pool->watch->run, m.parts.n, do_part, &m);
         koksma__parts_close(&m.parts);
     }
     pthread_mutex_destroy(&m.lock);
-    return status ? status : koksma__parallel(run, pool->tasks->n_jobs, do_job, pool);
+    return status ? status : koksma__parallel(&pool->watch->run, pool->tasks->n_jobs, do_job, pool);
 }

@@ -7,16 +7,18 @@
  * wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95 %.
  */
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/parallel.h"
 #include "core/quantiles.h"
 #include "core/status.h"
+#include "study/clocks.h"
 #include "study/statistics.h"
 #include "study/study.h"
+#include "study/watch.h"
 
 static const double EQUAL = 0.02;
 
@@ -31,25 +33,10 @@ typedef struct ranking {
     double *errors;            /* pattern p, trial t: errors[p * room + t] */
     size_t room, first, n_now; /* trials of the round in work */
     size_t n;
-    size_t *patterns; /* those that can serve */
-    double end_s;
-    const koksma_run *run;
-    bool is_up;
+    size_t *patterns;   /* those that can serve */
+    atomic_uchar *done; /* by the job of the round, trial by trial: pattern i % n */
+    koksma__watch watch;
 } ranking;
-
-static double now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static bool keep_going(void *context, double fraction)
-{
-    ranking *r = context;
-    r->is_up = r->end_s > 0 && now_s() > r->end_s;
-    return !r->is_up && koksma__keep_going(r->run, fraction);
-}
 
 static koksma_status render(const ranking *r, const char *pattern, long long spp, uint64_t seed,
                             const koksma_run *run, koksma_image *out)
@@ -67,7 +54,6 @@ static koksma_status render(const ranking *r, const char *pattern, long long spp
 
 static koksma_status do_trial(void *context, size_t i)
 {
-    static const koksma_run single = {.threads = 1};
     ranking *r = context;
     const size_t p = i % r->n, trial = r->first + i / r->n;
     const char *pattern = r->options->patterns[r->patterns[p]];
@@ -75,12 +61,15 @@ static koksma_status do_trial(void *context, size_t i)
     koksma_image_error error = {0};
     const uint64_t seed =
         koksma__job_seed("rank|%s|%s|%s|%d|%zu", r->scene.name, r->scene.hash, pattern, r->options->spp, trial);
-    koksma_status status = render(r, pattern, r->options->spp, seed, &single, &image);
+    koksma_status status = render(r, pattern, r->options->spp, seed, &r->watch.job, &image);
     if (!status) {
         status = koksma_image_compare(&image, &r->reference, &error);
         koksma_image_fini(&image);
     }
     r->errors[p * r->room + trial] = error.mean;
+    if (!status && trial < FIRST_ROUND) {
+        atomic_store(&r->done[trial * r->n + p], 1);
+    }
     return status;
 }
 
@@ -95,8 +84,11 @@ static koksma_status try_patterns(ranking *r, koksma_rank_row *rows, size_t *n_r
         if (status) {
             return status;
         }
-        status = koksma_generate(&spec, 0, NULL, &points);
+        status = koksma_generate(&spec, 0, &r->watch.run, &points);
         koksma_points_fini(&points);
+        if (status == KOKSMA_INTERRUPTED) {
+            return status;
+        }
         if (status) {
             koksma_rank_row *row = &rows[r->options->n_patterns - 1 - (*n_refused)++];
             *row = (koksma_rank_row){.pattern = p, .mean = NAN, .low = NAN, .high = NAN, .behind = NAN};
@@ -114,7 +106,7 @@ static koksma_status pilot(ranking *r, double *smallest)
 {
     *smallest = INFINITY;
     r->first = 0;
-    const koksma_status status = koksma__parallel(r->run, r->n, do_trial, r);
+    const koksma_status status = koksma__parallel(&r->watch.run, r->n, do_trial, r);
     for (size_t p = 0; p < r->n; p++) {
         *smallest = fmin(*smallest, r->errors[p * r->room]);
     }
@@ -139,13 +131,13 @@ static koksma_status make_reference(ranking *r, double *error)
     const int side = reference_side(r);
     long long wanted = LEAST_REPLICATES;
     double smallest = INFINITY;
-    const double start = now_s(),
+    const double start = koksma__now_s(),
                  budget = r->options->time_limit_s > 0 ? r->options->time_limit_s / 3 : (double)INFINITY;
     do {
         for (; !status && sums.n < wanted;) {
             koksma_image image;
             const uint64_t seed = koksma__job_seed("rank-reference|%s|%s|%lld", r->scene.name, r->scene.hash, sums.n);
-            status = render(r, "jittered", (long long)side * side, seed, r->run, &image);
+            status = render(r, "jittered", (long long)side * side, seed, &r->watch.run, &image);
             if (!status) {
                 status = koksma__replicates_add(&sums, &image);
                 koksma_image_fini(&image);
@@ -157,7 +149,7 @@ static koksma_status make_reference(ranking *r, double *error)
         status = status ? status : pilot(r, &smallest);
         wanted *= 2;
     } while (!status && *error > REFERENCE_SHARE * smallest && wanted <= MOST_REPLICATES &&
-             2 * (now_s() - start) < budget);
+             2 * (koksma__now_s() - start) < budget);
     free(sums.sum);
     return status;
 }
@@ -216,23 +208,50 @@ static void fill_rows(const ranking *r, size_t trials, const size_t *order, koks
     }
 }
 
-/* Rounds until it is clear. A round that the time cut short is left out, unless it is the first. */
+/* The trials that all patterns have, when the time cut the first round short. */
+static size_t whole_trials(const ranking *r)
+{
+    size_t jobs = 0;
+    while (jobs < FIRST_ROUND * r->n && atomic_load(&r->done[jobs])) {
+        jobs++;
+    }
+    return jobs / r->n;
+}
+
+static koksma_status fail_too_short(const ranking *r)
+{
+    return koksma__fail(
+        KOKSMA_IMPOSSIBLE,
+        "%s at %d samples a pixel: %g s are too short for a reference and two pictures of %d x %d pixels "
+        "of every pattern",
+        r->options->scene, r->options->spp, r->options->time_limit_s, r->scene.width, r->scene.height);
+}
+
+/* Rounds until it is clear. A round that the time cut short is left out; of the first what is whole is taken. */
 static koksma_status run_rounds(ranking *r, size_t *order, koksma_ranking *out)
 {
-    const koksma_run run = {.threads = koksma__threads(r->run), .keep_going = keep_going, .context = r};
     koksma_status status = KOKSMA_OK;
     size_t trials = 0;
+    for (size_t i = 0; i < FIRST_ROUND * r->n; i++) { /* the pilot's were compared with another reference */
+        atomic_store(&r->done[i], 0);
+    }
     for (size_t wanted = FIRST_ROUND; !status && !out->clear && wanted <= r->room; wanted *= 2) {
         r->first = trials;
-        const koksma_run *how = trials ? &run : r->run;
-        status = koksma__parallel(how, (wanted - trials) * r->n, do_trial, r);
-        if (status == KOKSMA_INTERRUPTED && r->is_up) {
-            status = KOKSMA_OK;
+        status = koksma__parallel(&r->watch.run, (wanted - trials) * r->n, do_trial, r);
+        if (status == KOKSMA_INTERRUPTED && atomic_load(&r->watch.is_up)) {
+            const size_t whole = trials ? trials : whole_trials(r);
+            if (whole > 1 && whole > trials) {
+                order_patterns(r, whole, order);
+            }
+            trials = whole;
+            status = whole > 1 ? KOKSMA_OK : KOKSMA_INTERRUPTED;
             break;
         }
-        trials = wanted;
-        order_patterns(r, trials, order);
-        out->clear = is_clear(r, trials, order);
+        if (!status) {
+            trials = wanted;
+            order_patterns(r, trials, order);
+            out->clear = is_clear(r, trials, order);
+        }
     }
     out->trials = (long long)trials;
     return status;
@@ -249,9 +268,9 @@ static koksma_status probe(const ranking *r, long long spp, double *pixels, doub
         small.scene.width = (small.scene.width + 1) / 2;
         small.scene.height = (small.scene.height + 1) / 2;
     }
-    const double start = now_s();
-    const koksma_status status = render(&small, "jittered", spp, 0, r->run, &image);
-    *seconds = now_s() - start;
+    const double start = koksma__now_s();
+    const koksma_status status = render(&small, "jittered", spp, 0, &r->watch.run, &image);
+    *seconds = koksma__now_s() - start;
     *pixels = (double)small.scene.width * small.scene.height;
     if (!status) {
         koksma_image_fini(&image);
@@ -291,7 +310,8 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
     r->room = r->room < FIRST_ROUND ? FIRST_ROUND : r->room;
     r->errors = calloc(n * r->room, sizeof *r->errors);
     r->patterns = calloc(2 * n, sizeof *r->patterns);
-    if (!r->errors || !r->patterns) {
+    r->done = calloc(FIRST_ROUND * n, sizeof *r->done);
+    if (!r->errors || !r->patterns || !r->done) {
         return koksma__fail_memory(n * r->room * sizeof *r->errors);
     }
     size_t *order = r->patterns + n;
@@ -301,6 +321,9 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
     out->height = r->scene.height;
     status = status ? status : make_reference(r, &out->reference_error);
     status = status ? status : run_rounds(r, order, out);
+    if (status == KOKSMA_INTERRUPTED && atomic_load(&r->watch.is_up)) {
+        status = fail_too_short(r);
+    }
     out->n = r->n;
     if (!status) {
         fill_rows(r, (size_t)out->trials, order, rows);
@@ -311,9 +334,9 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
 koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
                           koksma_ranking *out)
 {
-    const double start = now_s();
-    ranking r = {.options = options, .run = run, .scene = {.name = options->scene}};
-    r.end_s = options->time_limit_s > 0 ? start + options->time_limit_s : 0;
+    const double start = koksma__now_s();
+    ranking r = {.options = options, .scene = {.name = options->scene}};
+    koksma__watch_begin(run, options->time_limit_s, &r.watch);
     *out = (koksma_ranking){0};
     if (!options->n_patterns) {
         return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");
@@ -328,9 +351,10 @@ koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *
         status = rank_scene(&r, rows, out);
         koksma_scene_close(r.scene.scene);
     }
-    out->seconds = now_s() - start;
+    out->seconds = koksma__now_s() - start;
     koksma_image_fini(&r.reference);
     free(r.errors);
     free(r.patterns);
+    free(r.done);
     return status;
 }

@@ -24,7 +24,6 @@ static const double GOODBYE_S = 30;
 
 typedef struct server {
     koksma__pool *pool;
-    const koksma_run *run;
     const koksma__transport *mpi;
     int size, phase;
     pthread_mutex_t lock; /* guards what follows */
@@ -147,8 +146,9 @@ static void do_job_here(server *s, size_t job)
     long long trial;
     const koksma__task *task = koksma__tasks_job(s->pool->tasks, job, &trial);
     koksma__result *results = calloc(task->n_series, sizeof *results);
-    const koksma_status status = results ? koksma__task_do(s->pool->tasks->study, task, trial, results)
-                                         : koksma__fail_memory(task->n_series * sizeof *results);
+    const koksma_status status =
+        results ? koksma__task_do(s->pool->tasks->study, task, trial, &s->pool->watch->job, results)
+                : koksma__fail_memory(task->n_series * sizeof *results);
     if (status) {
         stop(s, status, koksma_error_text());
     } else {
@@ -160,7 +160,7 @@ static void do_job_here(server *s, size_t job)
 static void do_part_here(server *s, size_t i)
 {
     koksma__replicates sums = {0};
-    const koksma_status status = koksma__part_do(s->pool->tasks->study, &s->parts.at[i], &sums);
+    const koksma_status status = koksma__part_do(s->pool->tasks->study, &s->parts.at[i], &s->pool->watch->job, &sums);
     if (status) {
         stop(s, status, koksma_error_text());
     } else {
@@ -351,7 +351,7 @@ static void serve(server *s)
         if (over && (all_ended(s) || koksma__now_s() - over_s > GOODBYE_S)) {
             return;
         }
-        if (!over && !koksma__keep_going(s->run, fraction)) {
+        if (!over && !koksma__keep_going(&s->pool->watch->run, fraction)) {
             stop(s, KOKSMA_INTERRUPTED, "interrupted");
         }
         if (!served) {
@@ -399,11 +399,10 @@ static void close_server(server *s)
     pthread_mutex_destroy(&s->lock);
 }
 
-koksma_status koksma__pool_serve(koksma__pool *pool, const koksma_run *run)
+koksma_status koksma__pool_serve(koksma__pool *pool)
 {
     koksma__ranks *ranks = koksma__ranks_get();
     server s = {.pool = pool,
-                .run = run,
                 .mpi = ranks->mpi,
                 .size = ranks->size,
                 .phase = pool->tasks->n && pool->tasks->at[0].image,

@@ -21,6 +21,7 @@ typedef struct worker {
     const koksma__transport *mpi;
     int rank;
     koksma_study *study;
+    const koksma_run *job;
     koksma__tasks tasks;
     letter out;
     double busy_s, began_s; /* began_s: processor time at the phase's start */
@@ -99,7 +100,7 @@ static koksma_status do_job(worker *w, unsigned long long job)
     }
     const double start_s = koksma__now_s();
     w->out.since_s = w->out.size ? w->out.since_s : start_s;
-    status = status ? status : koksma__task_do(w->study, task, trial, results);
+    status = status ? status : koksma__task_do(w->study, task, trial, w->job, results);
     if (!status) {
         letter *l = &w->out;
         memcpy(l->bytes + l->size, &job, sizeof job);
@@ -116,7 +117,7 @@ static koksma_status do_part(worker *w, const koksma__part *part)
 {
     koksma__replicates sums = {0};
     const double start_s = koksma__now_s();
-    koksma_status status = koksma__part_do(w->study, part, &sums);
+    koksma_status status = koksma__part_do(w->study, part, w->job, &sums);
     const size_t bytes = 2 * sums.count * sizeof *sums.sum;
     unsigned char *message = status ? NULL : malloc(sizeof *part + bytes);
     if (!status && !message) {
@@ -188,10 +189,10 @@ static koksma_status work_phase(worker *w, int phase, bool *run_over)
     return status;
 }
 
-koksma_status koksma__pool_work(koksma_study *study)
+koksma_status koksma__pool_work(koksma_study *study, const koksma_run *job)
 {
     const koksma__ranks *ranks = koksma__ranks_get();
-    worker w = {.mpi = ranks->mpi, .rank = ranks->rank, .study = study};
+    worker w = {.mpi = ranks->mpi, .rank = ranks->rank, .study = study, .job = job};
     koksma_status status = KOKSMA_OK;
     if (ranks->size < 2) {
         return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder can't be run");

@@ -127,14 +127,12 @@ koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *
 
 /* An adaptive method never makes a reference (variants.c), so that the renderer itself can be asked for rows. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
-                                          int first_row, int rows, koksma_image *out)
+                                          int first_row, int rows, const koksma_run *run, koksma_image *out)
 {
-    static const koksma_run single = {.threads = 1};
     koksma__variant variant;
     const koksma__picture picture = picture_of(reference, replicate);
     const koksma_status status = set_variant(reference->scene, &picture, &variant);
-    return status ? status
-                  : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, &single, out);
+    return status ? status : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, run, out);
 }
 
 koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)

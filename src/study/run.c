@@ -12,24 +12,6 @@
 #include "study/clocks.h"
 #include "study/pool.h"
 
-/* ---- The time limit ------------------------------------------------------------------------------------ */
-
-typedef struct watch {
-    const koksma_run *run;
-    double end_s; /* 0: none */
-    bool is_up;
-} watch;
-
-static bool keep_going(void *context, double fraction)
-{
-    watch *w = context;
-    if (w->end_s > 0 && koksma__now_s() > w->end_s) {
-        w->is_up = true;
-        return false;
-    }
-    return koksma__keep_going(w->run, fraction);
-}
-
 /* ---- What was run, on what ----------------------------------------------------------------------------- */
 
 static void name_machine(char *text, size_t size)
@@ -71,7 +53,7 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
 /* With a status that is not OK already, only counts. */
-static koksma_status run_kind(koksma_study *study, bool images, const koksma_run *run, koksma_status before,
+static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *watch, koksma_status before,
                               koksma_study_summary *summary)
 {
     koksma__tasks tasks;
@@ -79,7 +61,7 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
     if (status) {
         return status;
     }
-    koksma__pool pool = {.tasks = &tasks, .last = images || !study->plan.n_images};
+    koksma__pool pool = {.tasks = &tasks, .watch = watch, .last = images || !study->plan.n_images};
     status = koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
@@ -88,7 +70,7 @@ static koksma_status run_kind(koksma_study *study, bool images, const koksma_run
     }
     summary->done_before += done_before;
     if (!status && !before && (done_before < tasks.n_jobs || (koksma__pool_size() > 1 && tasks.n_jobs))) {
-        status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool, run) : koksma__pool_threads(&pool, run);
+        status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool) : koksma__pool_threads(&pool);
     }
     summary->done_now += atomic_load(&pool.done);
     summary->idle_seconds -= 1e-9 * (double)atomic_load(&pool.busy_ns);
@@ -106,16 +88,16 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     strftime(started, sizeof started, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
+    koksma__watch w;
+    koksma__watch_begin(run, run && study->store ? run->time_limit_s : 0, &w); /* rank 0 looks at the clock for all */
     if (!study->store) {
-        return koksma__pool_work(study);
+        return koksma__pool_work(study, &w.job);
     }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
-    watch w = {.run = run, .end_s = run && run->time_limit_s > 0 ? start_s + run->time_limit_s : 0};
-    const koksma_run inner = {.threads = koksma__threads(run), .keep_going = keep_going, .context = &w};
-    koksma_status status = run_kind(study, false, &inner, KOKSMA_OK, summary);
-    status = run_kind(study, true, &inner, status, summary);
-    summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : inner.threads;
+    koksma_status status = run_kind(study, false, &w, KOKSMA_OK, summary);
+    status = run_kind(study, true, &w, status, summary);
+    summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : w.run.threads;
     summary->seconds = koksma__now_s() - start_s;
     summary->idle_seconds += summary->workers * summary->seconds;
     summary->processor_seconds += koksma__processor_s() - processor_s;
@@ -123,7 +105,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary->complete = !status;
     if (!status || status == KOKSMA_INTERRUPTED) {
         const koksma_status recorded = record_run(study, started, summary);
-        status = status == KOKSMA_OK || w.is_up ? recorded : status;
+        status = status == KOKSMA_OK || atomic_load(&w.is_up) ? recorded : status;
     }
     return status;
 }

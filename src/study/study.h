@@ -64,10 +64,10 @@ void koksma__reference_path(const koksma_study *study, const koksma__reference_i
 /* Whether its rows can be rendered one by one. */
 koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone);
 
-/* Renders rows of one replicate of a reference on this thread; all of them where they don't stand alone. Allocates
+/* Renders rows of one replicate of a reference; all of them where they don't stand alone. Allocates
    out, as high as `rows`. */
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
-                                          int first_row, int rows, koksma_image *out);
+                                          int first_row, int rows, const koksma_run *run, koksma_image *out);
 
 /* Sums of replicates, added in their order. */
 typedef struct koksma__replicates {

@@ -9,8 +9,6 @@
 
 #include "core/status.h"
 
-static const koksma_run single = {.threads = 1};
-
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
@@ -273,7 +271,8 @@ koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, c
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
 
-static koksma_status measure(const koksma__task *t, const koksma_points *points, koksma__result *results)
+static koksma_status measure(const koksma__task *t, const koksma_points *points, const koksma_run *run,
+                             koksma__result *results)
 {
     const koksma_warp *warp = t->variant[0] ? koksma_warp_find(t->variant) : NULL;
     koksma_status status = KOKSMA_OK;
@@ -282,8 +281,8 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
         koksma_value value = {0};
         status = koksma_measure_spec(t->discrepancy->measures.at[m], &spec);
         if (!status) {
-            status = warp ? koksma_warp_evaluate(warp, &spec, points, &single, &value)
-                          : koksma_evaluate(&spec, points, &single, &value);
+            status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
+                          : koksma_evaluate(&spec, points, run, &value);
         }
         results[m].values[0] = value.value;
         results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
@@ -291,7 +290,8 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
     return status;
 }
 
-static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, koksma__result *results)
+static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const koksma_run *run,
+                                    koksma__result *results)
 {
     koksma_spec pattern;
     koksma_points points;
@@ -302,13 +302,13 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, koksma
     if (status) {
         return status;
     }
-    status = koksma_generate(&pattern, seed, &single, &points);
-    status = status ? status : measure(t, &points, results);
+    status = koksma_generate(&pattern, seed, run, &points);
+    status = status ? status : measure(t, &points, run, results);
     koksma_points_fini(&points);
     return status;
 }
 
-static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed,
+static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed, const koksma_run *run,
                               koksma__result *results)
 {
     koksma_image image;
@@ -318,7 +318,7 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
                                      .width = t->width,
                                      .height = t->height,
                                      .seed = seed};
-    koksma_status status = koksma__study_render(t->scene, &picture, &single, &image);
+    koksma_status status = koksma__study_render(t->scene, &picture, run, &image);
     if (status) {
         return status;
     }
@@ -341,12 +341,12 @@ uint64_t koksma__task_seed(const koksma__task *t, long long trial)
 }
 
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, long long trial,
-                              koksma__result *results)
+                              const koksma_run *run, koksma__result *results)
 {
     const uint64_t seed = koksma__task_seed(t, trial);
     for (size_t k = 0; k < t->n_series; k++) {
         results[k].trial = trial;
         results[k].seed = seed;
     }
-    return t->image ? do_image(study, t, seed, results) : do_discrepancy(t, seed, results);
+    return t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
 }

@@ -57,9 +57,9 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
-/* Does one job: n_series results. The references must have their pixels. */
+/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run` says so. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
-                              koksma__result *results);
+                              const koksma_run *run, koksma__result *results);
 
 /* Puts the results of a job into the store. */
 koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results);

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Who looks at the clock and at the caller's keep_going: only the thread that called, between jobs and within its
+ * own; the jobs on other threads hear of it. So a job is left where it is when the time is up, on every thread.
+ */
+#ifndef KOKSMA_STUDY_WATCH_H
+#define KOKSMA_STUDY_WATCH_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include <koksma/koksma.h>
+
+typedef struct koksma__watch {
+    const koksma_run *caller_run; /* may be NULL */
+    pthread_t caller;
+    double end_s;      /* of the time, by koksma__now_s; 0: none */
+    double fraction;   /* done, as last told by the caller's thread */
+    atomic_bool stop;  /* what is at work is to end */
+    atomic_bool is_up; /* because the time is up */
+    koksma_run run;    /* of the whole, with the caller's threads */
+    koksma_run job;    /* of a job, on one thread, which may be any */
+} koksma__watch;
+
+/* The watch must stay where it is. time_limit_s 0: none. */
+void koksma__watch_begin(const koksma_run *run, double time_limit_s, koksma__watch *watch);
+
+#endif
