@@ -125,6 +125,28 @@ static koksma_status add_spectra(koksma__html *h, const koksma__task *first, con
     return status;
 }
 
+/* Whether the first trials of the task with each of `n` patterns are in the store: a report renders nothing again
+   that the study has not come to, since nobody knows how long that would take. */
+static koksma_status are_done(koksma_study *study, const koksma__task *first, size_t n, long long trials, bool *done)
+{
+    koksma_status status = KOKSMA_OK;
+    *done = true;
+    for (size_t p = 0; !status && *done && p < n; p++) {
+        koksma__task task = *first;
+        char name[KOKSMA__REFERENCE_NAME];
+        koksma__result *results = NULL;
+        long long id;
+        size_t found = 0;
+        task.pattern = first->image->patterns.at[p];
+        const koksma__series series = koksma__task_series(&task, task.n_series - 1, name);
+        status = koksma__store_series(study->store, &series, false, &id);
+        status = status ? status : koksma__store_results(study->store, id, trials, &results, &found);
+        free(results);
+        *done = (long long)found == trials;
+    }
+    return status;
+}
+
 static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksma__task *first, budget *b,
                                const koksma_run *run)
 {
@@ -135,7 +157,12 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
     if (!koksma__reference_exists(study, reference) || b->used + 4 * pixels * (shown + 1) > MOST_BYTES) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__reference_read(study, reference);
+    bool done;
+    koksma_status status = are_done(study, first, shown, 1, &done);
+    if (status || !done) {
+        return status;
+    }
+    status = koksma__reference_read(study, reference);
     koksma__html floats = {0};
     if (!b->shown) {
         koksma__html_add(
@@ -170,7 +197,9 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
     koksma__html_add(h, "\">%s</div>\n", floats.text ? floats.text : "");
     h->failed |= floats.failed;
     free(floats.text);
-    return status ? status : add_spectra(h, first, &reference->image, run);
+    const long long trials = first->trials < SPECTRUM_TRIALS ? first->trials : SPECTRUM_TRIALS;
+    status = status ? status : are_done(study, first, shown, trials, &done);
+    return status || !done ? status : add_spectra(h, first, &reference->image, run);
 }
 
 koksma_status koksma__report_pictures(koksma_study *study, koksma__html *h, const koksma_run *run)
