@@ -425,6 +425,9 @@ static koksma_status prepare(koksma__store *store, bool write, const char *plan_
     return status;
 }
 
+/* A lock dies with its process, but a process that was killed holds it until the system has found time to end it. */
+enum { LAST_BREATH_MS = 1500 };
+
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **out)
 {
@@ -453,6 +456,7 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
         status = fail(store);
     }
     if (!status) {
+        sqlite3_busy_timeout(store->database, LAST_BREATH_MS);
         status = prepare(store, write, plan_name);
     }
     if (status) {
