@@ -54,7 +54,7 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     }
 }
 
-#define INLINE INLINE /* once for each number of chains */
+#define INLINE static inline __attribute__((always_inline)) /* once for each number of chains */
 
 /* The first two rounds, and one of the others. */
 INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)

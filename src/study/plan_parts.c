@@ -113,6 +113,11 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
     for (; !status && out->n < length; out->n++) {
         const koksma__json_node item = koksma__json_item(&list, out->n);
         status = koksma__json_whole(&item, min, max, &out->at[out->n]);
+        for (size_t i = 0; !status && i < out->n; i++) {
+            if (out->at[i] == out->at[out->n]) {
+                status = koksma__json_fail(&item, "%lld stands twice", out->at[i]);
+            }
+        }
     }
     return status;
 }

@@ -80,7 +80,7 @@ static const double WRITE_AFTER_S = 0.2;
 enum { MOST_GATHERED = 1 << 14 };
 
 /* A plan's tasks are in memory, too, and each is far more than a number. */
-static const long long MOST_SERIES = 1 << 28;
+static const long long MOST_SERIES = 1 << 26;
 
 typedef struct row {
     long long id;
@@ -95,7 +95,7 @@ typedef struct rows {
 
 typedef struct known_series {
     bool image;
-    long long end; /* all its trials are below */
+    long long end, count; /* all its trials are below; how many there are */
 } known_series;
 
 struct koksma__store {
@@ -425,6 +425,9 @@ static koksma_status prepare(koksma__store *store, bool write, const char *plan_
     return status;
 }
 
+/* A lock dies with its process, but a process that was killed holds it until the system has found time to end it. */
+enum { LAST_BREATH_MS = 1500 };
+
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **out)
 {
@@ -453,6 +456,7 @@ koksma_status koksma__store_open(const char *path, koksma__store_mode mode, cons
         status = fail(store);
     }
     if (!status) {
+        sqlite3_busy_timeout(store->database, LAST_BREATH_MS);
         status = prepare(store, write, plan_name);
     }
     if (status) {
@@ -647,10 +651,14 @@ koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context
 static void see_end(void *context, long long series, long long trial)
 {
     koksma__store *store = context;
-    if (trial >= store->known[series].end) {
-        store->known[series].end = trial + 1;
-    }
+    known_series *k = &store->known[series];
+    k->end = trial >= k->end ? trial + 1 : k->end;
+    k->count++;
 }
+
+/* Trials are made in their order, but for what was in hand when a run ended, so that a number far above the others is
+   damage; looking up all below it would take hours. */
+static const long long MOST_HOLES = 100000;
 
 /* How far the trials of every series go. */
 static koksma_status find_ends(koksma__store *store)
@@ -658,6 +666,14 @@ static koksma_status find_ends(koksma__store *store)
     koksma_status status = write_gathered(store);
     if (!status && !store->knows_ends) {
         status = scan(store, see_end, store);
+        for (size_t i = 0; !status && i < store->n_known; i++) {
+            const known_series *k = &store->known[i];
+            if (k->end > MOST_HOLES + MOST_HOLES * k->count) {
+                status = koksma__fail(KOKSMA_MALFORMED,
+                                      "%s: series %zu has a trial %lld of %lld; move it away to begin anew",
+                                      store->path, i, k->end - 1, k->count);
+            }
+        }
         store->knows_ends = !status;
     }
     return status;

@@ -11,6 +11,9 @@
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 
+/* A bit each for what is done and for what is in the store is 256 MiB. */
+static const long long MOST_JOBS = 1 << 30;
+
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 {
     if (tasks->n == tasks->room) {
@@ -21,6 +24,10 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
         }
         tasks->at = more;
         tasks->room = room;
+    }
+    tasks->wanted += task->trials;
+    if (tasks->wanted > MOST_JOBS) {
+        return koksma__fail(KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs", tasks->study->plan.name, MOST_JOBS);
     }
     koksma__task *t = &tasks->at[tasks->n];
     *t = *task;

@@ -36,12 +36,13 @@ typedef struct koksma__rounds {
 typedef struct koksma__tasks {
     koksma_study *study;
     size_t n, room, n_jobs;
+    long long wanted; /* jobs of the tasks so far */
     koksma__task *at; /* those with the most trials first */
     size_t n_rounds;
     koksma__rounds *rounds;
 } koksma__tasks;
 
-/* All tasks of the plan of one kind. */
+/* All tasks of the plan of one kind. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks);
 void koksma__tasks_close(koksma__tasks *tasks);
 
