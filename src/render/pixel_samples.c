@@ -68,6 +68,23 @@ static koksma_status draw_set(const pixel_samples *samples, uint64_t pixel, uint
     return KOKSMA_OK;
 }
 
+/* The words of the pixel's permutation. Pixels beside each other have theirs one after the other. */
+static const uint32_t *pairing_words(const pixel_samples *samples, uint64_t pixel, uint32_t use,
+                                     koksma__sample_room *room)
+{
+    const size_t counters = ((size_t)samples->options->spp + 3) / 4;
+    const size_t pixels = counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS / counters : 1;
+    const size_t room_for = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
+    const uint64_t part = pixel / pixels, key = (part << 20 | use) + 1; /* 0: nothing */
+    uint32_t *words = room->words + use % KOKSMA__WORD_SLOTS * room_for;
+    if (room->word_keys[use % KOKSMA__WORD_SLOTS] != key) {
+        room->word_keys[use % KOKSMA__WORD_SLOTS] = key;
+        koksma__kernels()->words(samples->options->seed, KOKSMA__PURPOSE_SHUFFLE, part * pixels * counters,
+                                 LANE_PAIRING + use, pixels * counters, words);
+    }
+    return words + 4 * counters * (pixel % pixels);
+}
+
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_room *room, float *pairs)
 {
@@ -90,9 +107,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
         }
         return KOKSMA_OK;
     }
-    koksma__kernels()->words(samples->options->seed, KOKSMA__PURPOSE_SHUFFLE, pixel * ((n + 3) / 4),
-                             LANE_PAIRING + use, (n + 3) / 4, room->words);
-    samples->batch->shuffle(from, room->words, n, pairs);
+    samples->batch->shuffle(from, pairing_words(samples, pixel, use, room), n, pairs);
     return KOKSMA_OK;
 }
 

@@ -21,12 +21,17 @@ enum {
     KOKSMA__MAX_BOUNCES = 255
 };
 
+/* Random words for the permutations of a use come for several pixels at once, WORD_COUNTERS draws of four or a
+ * pixel's. */
+enum { KOKSMA__WORD_SLOTS = 8, KOKSMA__WORD_COUNTERS = 48 };
+
 /* What a thread needs for drawing: room for the points of one pixel; with a native pattern, for those of the pixels
    of a group, pixel modulo `slots`. */
 typedef struct koksma__sample_room {
     double *xs;
     float *pairs;
-    uint32_t *words;
+    uint32_t *words;                        /* KOKSMA__WORD_SLOTS parts, of the uses by turns */
+    uint64_t word_keys[KOKSMA__WORD_SLOTS]; /* which pixels' and use's words are there */
     double *native;
     uint64_t *native_pixels; /* which pixel is in a slot, plus 1 */
 } koksma__sample_room;

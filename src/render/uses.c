@@ -90,17 +90,19 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 
 koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler)
 {
-    const size_t n = sampler->most, native = n * (size_t)sampler->native_dim * sampler->native_slots;
+    const size_t n = sampler->most, counters = (n + 3) / 4;
+    const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
+    const size_t native = n * (size_t)sampler->native_dim * sampler->native_slots;
     *room = (koksma__sample_room){
         .xs = malloc(2 * n * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
-        .words = malloc((n + 3) * sizeof *room->words),
+        .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
         .native = malloc((native + 1) * sizeof *room->native),
         .native_pixels = calloc(sampler->native_slots + 1, sizeof *room->native_pixels),
     };
     if (!room->xs || !room->pairs || !room->words || !room->native || !room->native_pixels) {
         koksma__sample_room_fini(room);
-        return koksma__fail_memory(28 * n + 8 * native);
+        return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * native);
     }
     return KOKSMA_OK;
 }
