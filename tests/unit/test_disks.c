@@ -26,8 +26,8 @@ static void exactly_n_points(void **state)
     }
 }
 
-/* Of a set like this there is one in twenty thousand: where the search had found more than 16 points, 15 others leave no
-   room for another. */
+/* Of a set like this there is one in twenty thousand: where the search had found more than 16 points, 15 others leave
+   no room for another. */
 static void searches_start_again(void **state)
 {
     (void)state;
