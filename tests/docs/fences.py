@@ -3,7 +3,7 @@
 """fences.py PROGRAM DOCUMENT: does what a document says, in an empty folder.
 
 A fenced block after "... as `NAME`:" becomes the file NAME; blocks of sh are run; a block of text is what the sh block
-before it prints, to the letter. Time limits are cut to two seconds. Blocks of console are examples and are not compared.
+before it prints, to the letter. Time limits are cut to eight seconds. Blocks of console are examples and are not compared.
 """
 import os
 import re
@@ -26,7 +26,7 @@ with tempfile.TemporaryDirectory() as folder:
         if name:
             (work / name[1]).write_text(text + "\n", encoding="utf-8")
         elif kind == "sh":
-            script = re.sub(r"--time-limit \d+", "--time-limit 2", text)
+            script = re.sub(r"--time-limit \d+", "--time-limit 8", text)
             done = subprocess.run(["sh", "-e"], input=script, cwd=work, env=environment, capture_output=True, text=True, timeout=600,
                                   check=False)
             ran, said = ran + 1, done.stdout
