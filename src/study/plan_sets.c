@@ -36,9 +36,10 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksm
     koksma_status status = koksma__json_member(node, counts, &list);
     for (size_t k = 0; !status && k < n->n; k++) {
         for (size_t p = 0; !status && p < patterns->n && n->at[k] <= MOST_TRIED; p++) {
-            if (try_set(patterns->at[p], n->at[k], dim)) {
+            status = try_set(patterns->at[p], n->at[k], dim);
+            if (status) {
                 const koksma__json_node item = koksma__json_item(&list, k);
-                status = koksma__json_fail(&item, "%s", koksma_error_text());
+                status = koksma__json_fail_in(&item, status);
             }
         }
     }
@@ -65,8 +66,7 @@ koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma
 
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)
 {
-    if (reference->spp > MOST_TRIED || !try_set(reference->pattern, reference->spp, 2)) {
-        return KOKSMA_OK;
-    }
-    return koksma__json_fail(node, "%s", koksma_error_text());
+    const koksma_status status =
+        reference->spp > MOST_TRIED ? KOKSMA_OK : try_set(reference->pattern, reference->spp, 2);
+    return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
 }
