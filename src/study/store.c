@@ -310,6 +310,13 @@ static koksma_status step_get(koksma__store *store, sqlite3_stmt *s, bool *found
     return code == SQLITE_ROW || code == SQLITE_DONE ? KOKSMA_OK : fail(store);
 }
 
+/* Never NULL, though a damaged database may have that where the schema forbids it. */
+static const char *read_text(sqlite3_stmt *s, int column)
+{
+    const char *text = (const char *)sqlite3_column_text(s, column);
+    return text ? text : "";
+}
+
 static double read_value(sqlite3_stmt *s, int column)
 {
     return sqlite3_column_type(s, column) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, column);
@@ -345,7 +352,7 @@ static koksma_status get_text(koksma__store *store, const char *key, char **valu
     bool found;
     bind_text(s, &column, key);
     koksma_status status = step_get(store, s, &found);
-    *value = found ? strdup((const char *)sqlite3_column_text(s, 0)) : NULL;
+    *value = found ? strdup(read_text(s, 0)) : NULL;
     if (found && !*value) {
         status = koksma__fail_memory(1);
     }
@@ -608,9 +615,9 @@ static koksma_status know_series(koksma__store *store)
     int code;
     while ((code = sqlite3_step(s)) == SQLITE_ROW) {
         const long long id = sqlite3_column_int64(s, SERIES_COLUMNS);
-        const char *kind = (const char *)sqlite3_column_text(s, 0);
+        const char *kind = read_text(s, 0);
         if (id >= 0 && (size_t)id < store->n_known) {
-            store->known[id].image = kind && !strcmp(kind, "image");
+            store->known[id].image = !strcmp(kind, "image");
         }
     }
     status = code == SQLITE_DONE ? KOKSMA_OK : fail(store);
@@ -744,7 +751,7 @@ koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visi
     while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
         const char *texts[10];
         for (int k = 0; k < 10; k++) {
-            texts[k] = k < 5 || k == 9 ? (const char *)sqlite3_column_text(s, k) : NULL;
+            texts[k] = k < 5 || k == 9 ? read_text(s, k) : NULL;
         }
         const koksma__series series = {texts[0],
                                        texts[1],
@@ -825,9 +832,9 @@ koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_r
     bind_whole(s, &column, i);
     const koksma_status status = step_get(store, s, found);
     if (*found) {
-        snprintf(record->started, sizeof record->started, "%s", (const char *)sqlite3_column_text(s, 0));
-        snprintf(record->machine, sizeof record->machine, "%s", (const char *)sqlite3_column_text(s, 1));
-        snprintf(record->version, sizeof record->version, "%s", (const char *)sqlite3_column_text(s, 2));
+        snprintf(record->started, sizeof record->started, "%s", read_text(s, 0));
+        snprintf(record->machine, sizeof record->machine, "%s", read_text(s, 1));
+        snprintf(record->version, sizeof record->version, "%s", read_text(s, 2));
         record->workers = sqlite3_column_int64(s, 3);
         record->jobs = sqlite3_column_int64(s, 4);
         record->seconds = sqlite3_column_double(s, 5);
