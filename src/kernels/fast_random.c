@@ -221,11 +221,29 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
     }
 }
 
+/* koksma__below(word, first + i + 1) for the words number i of a block, in order: the products' upper halves. */
+INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *out)
+{
+    lanes64_u bound = 4 * lanes64_count_pairs() + splat(first + 1);
+    for (int c = 0; c < chains; c++, out += 4 * LANES64, bound += splat(4 * LANES64)) {
+        lanes64_u product[4];
+        for (int k = 0; k < 4; k++) {
+            product[k] = (lanes64_u)lanes64_product((lanes64)b->w[k][c], (lanes64)(bound + splat((uint64_t)k)));
+        }
+        const lanes64_u x = lanes64_halves(product[0] >> 32, product[1]);
+        const lanes64_u y = lanes64_halves(product[2] >> 32, product[3]);
+        lanes64_d low, high;
+        lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
+        memcpy(out, &low, sizeof low);
+        memcpy(out + 2 * LANES64, &high, sizeof high);
+    }
+}
+
 /* Numbers first .. first + count - 1 of an order that grows inside out. */
-INLINE void insert(const uint32_t *word, uint32_t first, uint32_t count, uint32_t *out)
+INLINE void insert(const uint32_t *at, uint32_t first, uint32_t count, uint32_t *out)
 {
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t j = koksma__below(word[i], first + i + 1);
+        const uint32_t j = at[i];
         out[first + i] = out[j];
         out[j] = first + i;
     }
@@ -236,21 +254,22 @@ INLINE void insert(const uint32_t *word, uint32_t first, uint32_t count, uint32_
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out)
 {
     enum { WORDS = 4 * LANES, SHARE = WORDS / ROUNDS };
-    uint32_t word[WORDS];
+    uint32_t at[WORDS];
     stream s;
     make_stream(seed, KOKSMA__PURPOSE_SHUFFLE, 0, lane, &s);
     block b = philox(&s, 0, CHAINS);
     uint32_t first = 0;
     for (; n - first > WORDS; first += WORDS) {
-        store_words(&b, CHAINS, word);
+        store_below(&b, first, CHAINS, at);
         b = begin(&s, lanes64_count_pairs(), (first + WORDS) / 4, CHAINS);
+#pragma GCC unroll 8
         for (int round = 0; round < ROUNDS; round++) {
             go_on(&s, round, CHAINS, &b);
-            insert(word + round * SHARE, first + (uint32_t)round * SHARE, SHARE, out);
+            insert(at + round * SHARE, first + (uint32_t)round * SHARE, SHARE, out);
         }
     }
-    store_words(&b, CHAINS, word);
-    insert(word, first, n - first, out);
+    store_below(&b, first, CHAINS, at);
+    insert(at, first, n - first, out);
 }
 
 /* The double of cell + word 2^-32 over n, from the bits cell 2^32 + word, below 2^52, which are the lower ones of the
