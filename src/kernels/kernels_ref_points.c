@@ -241,3 +241,36 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
         }
     }
 }
+
+/* exp(z), z from -50 to 0, rounded as the fast twin rounds. */
+static double fall(double z)
+{
+    const double k = nearbyint(z * 0x1.71547652b82fep+0), r = (z - k * 0x1.62e42feep-1) - k * 0x1.a39ef35793c76p-33;
+    const double low = (1 + r) + (1.0 / 2 + r * (1.0 / 6)) * (r * r);
+    const double middle = (1.0 / 24 + r * (1.0 / 120)) + (1.0 / 720 + r * (1.0 / 5040)) * (r * r);
+    const double high = 1.0 / 40320 + r * (1.0 / 362880), r4 = (r * r) * (r * r);
+    return ldexp((low + middle * r4) + high * (r4 * r4), (int)k);
+}
+
+static double short_way(double t)
+{
+    return t > 0.5 ? t - 1 : t < -0.5 ? t + 1 : t;
+}
+
+void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs, const double *ys, double x,
+                              double y, double scale, double cut2, double force[2])
+{
+    double sum[2][8] = {{0}, {0}};
+    for (size_t r = 0; r < runs; r++) {
+        for (uint32_t i = run[2 * r]; i < run[2 * r + 1]; i++) {
+            const double a = short_way(xs[i] - x), b = short_way(ys[i] - y), square = a * a + b * b;
+            const double w = square <= cut2 ? fall(square * scale) : 0;
+            sum[0][(i - run[2 * r]) % 8] -= w * a;
+            sum[1][(i - run[2 * r]) % 8] -= w * b;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        const double *s = sum[k];
+        force[k] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+    }
+}

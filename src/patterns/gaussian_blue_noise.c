@@ -15,14 +15,13 @@
  */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/fill.h"
-#include "patterns/parts/torus_grid.h"
+#include "patterns/parts/torus_rows.h"
 #include "patterns/patterns.h"
 
 enum { BLOCK = 1024 };
@@ -30,25 +29,11 @@ enum { BLOCK = 1024 };
 #define MOMENTUM 0.9
 
 typedef struct descent {
-    koksma__torus_grid grid;
+    koksma__torus_rows rows;
     size_t n;
-    double s, step;
-    double *next, *moves;
+    double s, step, cut;
+    double *xs, *moves;
 } descent;
-
-typedef struct force {
-    const descent *d;
-    uint32_t self;
-    double x, y;
-} force;
-
-static void push(void *context, uint32_t point, double dx, double dy)
-{
-    force *f = context;
-    const double s = f->d->s, w = point == f->self ? 0 : koksma__exp(-(dx * dx + dy * dy) / (2 * s * s));
-    f->x -= w * dx;
-    f->y -= w * dy;
-}
 
 static double wrap(double x)
 {
@@ -56,52 +41,62 @@ static double wrap(double x)
     return x < 1 ? x : 0;
 }
 
+/* Points in the order of their cells, so that those near are in the cache. */
 static koksma_status move_block(void *context, size_t block)
 {
     const descent *d = context;
+    const koksma__torus_rows *rows = &d->rows;
     const size_t end = (block + 1) * BLOCK < d->n ? (block + 1) * BLOCK : d->n;
-    for (size_t i = block * BLOCK; i < end; i++) {
-        force f = {.d = d, .self = (uint32_t)i};
-        const double *x = d->grid.xs + 2 * i;
-        koksma__torus_grid_each(&d->grid, x[0], x[1], fmin(5 * d->s, 0.5), push, &f);
-        double *move = d->moves + 2 * i;
-        move[0] = MOMENTUM * move[0] + d->step * f.x;
-        move[1] = MOMENTUM * move[1] + d->step * f.y;
-        d->next[2 * i] = wrap(x[0] + move[0]);
-        d->next[2 * i + 1] = wrap(x[1] + move[1]);
+    koksma__run_of_points *runs = malloc(koksma__torus_rows_most(rows, d->cut) * sizeof *runs);
+    if (!runs) {
+        return koksma__fail_memory(koksma__torus_rows_most(rows, d->cut) * sizeof *runs);
     }
+    for (size_t at = block * BLOCK; at < end; at++) {
+        const double x = rows->xs[at], y = rows->ys[at];
+        const size_t count = koksma__torus_rows_near(rows, x, y, d->cut, runs), i = rows->order[at];
+        double force[2];
+        koksma__kernels()->gauss_force(count, &runs->first, rows->xs, rows->ys, x, y, -1 / (2 * d->s * d->s),
+                                       d->cut * d->cut, force);
+        for (size_t k = 0; k < 2; k++) {
+            d->moves[2 * i + k] = MOMENTUM * d->moves[2 * i + k] + d->step * force[k];
+            d->xs[2 * i + k] = wrap((k ? y : x) + d->moves[2 * i + k]);
+        }
+    }
+    free(runs);
     return KOKSMA_OK;
+}
+
+static koksma_status descend(descent *d, int steps, const koksma_run *run)
+{
+    const size_t blocks = (d->n + BLOCK - 1) / BLOCK;
+    const koksma_run quiet = {.threads = koksma__threads(run)};
+    koksma_status status = KOKSMA_OK;
+    for (int t = 0; t < steps && !status; t++) {
+        koksma__torus_rows_sort(&d->rows, d->n, d->xs);
+        status = blocks == 1 ? move_block(d, 0) : koksma__parallel(&quiet, blocks, move_block, d);
+        if (!status && !koksma__keep_going(run, (double)t / steps)) {
+            status = koksma__fail_interrupted();
+        }
+    }
+    return status;
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    const size_t bytes = 2 * out->n * sizeof *out->xs;
-    descent d = {.n = out->n, .s = args->params[1] / sqrt((double)out->n), .step = args->params[2]};
-    koksma_status status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * out->n, out->xs);
-    d.next = calloc(2, bytes);
-    if (!d.next) {
-        return koksma__fail_memory(2 * bytes);
+    const size_t n = out->n;
+    descent d = {.n = n, .s = args->params[1] / sqrt((double)n), .step = args->params[2], .xs = out->xs};
+    d.cut = fmin(5 * d.s, 0.5);
+    d.moves = calloc(n, 2 * sizeof *d.moves);
+    if (!d.moves) {
+        return koksma__fail_memory(2 * n * sizeof *d.moves);
     }
-    d.moves = d.next + 2 * out->n;
+    koksma_status status = koksma__torus_rows_init(&d.rows, n);
     if (!status) {
-        status = koksma__torus_grid_init(&d.grid, out->n, out->xs);
+        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * n, out->xs);
     }
-    const int steps = (int)args->params[0];
-    for (int t = 0; t < steps && !status; t++) {
-        koksma__torus_grid_clear(&d.grid);
-        for (size_t i = 0; i < out->n; i++) {
-            koksma__torus_grid_add(&d.grid, (uint32_t)i);
-        }
-        const size_t blocks = (out->n + BLOCK - 1) / BLOCK;
-        const koksma_run quiet = {.threads = koksma__threads(args->run)};
-        status = blocks == 1 ? move_block(&d, 0) : koksma__parallel(&quiet, blocks, move_block, &d);
-        memcpy(out->xs, d.next, bytes);
-        if (!status && !koksma__keep_going(args->run, (double)t / steps)) {
-            status = koksma__fail_interrupted();
-        }
-    }
-    koksma__torus_grid_fini(&d.grid);
-    free(d.next);
+    status = status ? status : descend(&d, (int)args->params[0], args->run);
+    koksma__torus_rows_fini(&d.rows);
+    free(d.moves);
     return status;
 }
 

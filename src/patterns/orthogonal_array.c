@@ -10,6 +10,7 @@
  * order, so that the points are n-rooks too. Source: Owen 1992; the multi-jittered arrays of Jarosz et al. 2019.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/random.h"
@@ -55,10 +56,13 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
     if (low < 2 || low < least || low == s) {
         low = low == s && (size_t)dim <= columns ? s : high;
     }
-    return koksma__fail(KOKSMA_N,
-                        "orthogonal-array: n = %zu is not s^%d with s prime and enough for dim = %d; "
-                        "n = %zu or %zu would do",
-                        n, strength, dim, power(low, strength), power(high, strength));
+    char other[32] = "";
+    if (low != high) {
+        snprintf(other, sizeof other, " or %zu", power(high, strength));
+    }
+    return koksma__fail(
+        KOKSMA_N, "orthogonal-array: n = %zu is not s^%d with s prime and enough for dim = %d; n = %zu%s would do", n,
+        strength, dim, power(low, strength), other);
 }
 
 static size_t level(size_t i, size_t s, int k, int strength)

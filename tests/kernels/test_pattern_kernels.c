@@ -173,6 +173,20 @@ static void nested_digits(const koksma__kernel_table *t, size_t count, void *out
     t->nested_digits(base, relatives, first, some, step, width, words, v);
 }
 
+/* Runs of every length up to 12, at all distances up to twice the cut's. */
+static void gauss_force(const koksma__kernel_table *t, size_t count, void *out)
+{
+    uint32_t run[26];
+    for (uint32_t r = 0; r < 13; r++) {
+        run[2 * r] = (uint32_t)(count + 7 * r) % 250;
+        run[2 * r + 1] = run[2 * r] + r;
+    }
+    for (size_t runs = 0; runs <= 13; runs++) {
+        t->gauss_force(runs, run, units, units + MAX, units[count], 0.03, -48, 0.25 + 0.01 * (double)(count % 7),
+                       (double *)out + 2 * runs);
+    }
+}
+
 static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->rows_of_columns(count, 4, units, 97, count % 2, out);
@@ -213,6 +227,7 @@ TEST(cells_as_floats, 250)
 TEST(nearest_offset, MAX)
 TEST(nested_digits, MAX)
 TEST(rooks_2d, 120)
+TEST(gauss_force, MAX)
 TEST(rows_of_columns, 150)
 
 int main(void)
@@ -226,6 +241,7 @@ int main(void)
         cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(cells_as_floats_equals_reference),
         cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
         cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
+        cmocka_unit_test(gauss_force_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }
