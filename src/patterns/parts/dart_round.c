@@ -10,10 +10,7 @@
 #include "core/status.h"
 #include "patterns/parts/dart_cover.h"
 
-enum {
-    MOST_CELLS = 64, /* a side of a tile */
-    AHEAD = 4        /* darts */
-};
+enum { MOST_CELLS = 64 }; /* a side of a tile */
 
 #define NONE UINT32_MAX
 
@@ -23,8 +20,8 @@ typedef struct queue {
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
 } queue;
 
-/* The next 128 random bits of the stream. Few are drawn at first: small sets need few. */
-static const uint32_t *draw(koksma__disks *s)
+/* The darts that are drawn and not thrown yet, four words each. Few are drawn at first: small sets need few. */
+static size_t draw(koksma__disks *s, const uint32_t **words)
 {
     if (s->used == s->drawn) {
         s->drawn = s->drawn ? KOKSMA__DART_WORDS : KOKSMA__DART_WORDS / 8;
@@ -32,7 +29,8 @@ static const uint32_t *draw(koksma__disks *s)
         s->dart += s->drawn;
         s->used = 0;
     }
-    return s->words + 4 * s->used++;
+    *words = s->words + 4 * s->used;
+    return s->drawn - s->used;
 }
 
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
@@ -60,26 +58,22 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
     const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
-    const unsigned found =
-        s->kernels->near_rows(s->gx + corner, s->gy + corner, s->stride, d->in_x, d->in_y, s->low, s->high);
-    return found && (found & 1 || near_in_doubles(s, d));
+    const int32_t least = s->kernels->nearest_place(s->places + corner, s->stride, d->place);
+    return least < s->high && (least < s->low || near_in_doubles(s, d));
 }
 
 /* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
-static inline bool aim(koksma__disks *s, const koksma__tile *t, const koksma__square *squares, uint32_t count,
+static inline bool aim(const koksma__disks *s, const koksma__tile *t, const koksma__dart_cells *cells,
                        const uint32_t *w, koksma__dart *d)
 {
-    const koksma__square square = squares[koksma__below(w[0], count)];
-    const uint32_t inside = ((uint32_t)1 << s->level) - 1;
-    const double in_cell = 1 / (double)((uint32_t)1 << s->level), whole = in_cell / s->cells;
-    const double u = w[1] * 0x1p-32, v = w[2] * 0x1p-32;
-    d->in_x = (float)(((square.x & inside) + u) * in_cell);
-    d->in_y = (float)(((square.y & inside) + v) * in_cell);
-    d->cell_x = (square.x >> s->level) - t->x;
-    d->cell_y = (square.y >> s->level) - t->y;
+    const koksma__square square = cells->squares[koksma__below(w[0], cells->count)];
+    const double whole = 1 / ((double)((uint32_t)1 << s->level) * s->cells);
+    d->place = koksma__dart_place(cells, square, w);
+    d->cell_x = (uint16_t)((square.x >> s->level) - t->x);
+    d->cell_y = (uint16_t)((square.y >> s->level) - t->y);
     d->tile = t->number;
-    d->x = (square.x + u) * whole;
-    d->y = (square.y + v) * whole;
+    d->x = (square.x + w[1] * 0x1p-32) * whole;
+    d->y = (square.y + w[2] * 0x1p-32) * whole;
     return (d->x < 1) & (d->y < 1);
 }
 
@@ -110,36 +104,30 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
     if (s->times) {
         s->times[s->n] = d->time;
     }
-    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->in_x, d->in_y, s->n++);
+    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->place, s->n++);
     return KOKSMA_OK;
 }
 
-/* Asks the cache for what the darts after this one will need. Past the words that are drawn, these are of no dart. */
-static inline void look_ahead(const koksma__disks *s, const koksma__tile *t, const koksma__square *squares,
-                              uint32_t count, const uint32_t *w, bool grid)
-{
-    __builtin_prefetch(squares + koksma__below(w[4 * 2 * AHEAD], count));
-    if (grid) {
-        const koksma__square next = squares[koksma__below(w[4 * AHEAD], count)];
-        const size_t corner =
-            koksma__disks_corner(s, t->number, (next.x >> s->level) - t->x, (next.y >> s->level) - t->y);
-        for (size_t r = 0; r < 5; r++) {
-            __builtin_prefetch(s->gx + corner + r * s->stride);
-            __builtin_prefetch(s->gy + corner + r * s->stride);
-        }
-    }
-}
-
-/* The only tile: its darts are in order of time, and decided at once. */
+/* The only tile: its darts are in order of time, and decided at once. Of those drawn together first all are left out
+   that are near the points there were before. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
     const koksma__tile t = koksma__disks_tile(s, 0);
+    const koksma__dart_cells cells = koksma__disks_cells(s, &t);
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < darts && s->n < n && !status; i++) {
-        koksma__dart d = {.time = 0};
-        if (aim(s, &t, s->squares, (uint32_t)s->n_squares, draw(s), &d) && !is_near(s, &d)) {
-            status = keep(s, &t, &d);
+    while (darts && s->n < n && !status) {
+        uint32_t far[KOKSMA__DART_WORDS];
+        const uint32_t *words;
+        const size_t drawn = draw(s, &words), some = drawn < darts ? drawn : darts;
+        const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
+        for (size_t i = 0; i < left && s->n < n && !status; i++) {
+            koksma__dart d = {.time = 0};
+            if (aim(s, &t, &cells, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                status = keep(s, &t, &d);
+            }
         }
+        s->used += some;
+        darts -= some;
     }
     return status;
 }
@@ -206,54 +194,56 @@ static bool tick(stopwatch *c, uint32_t word)
     return c->product > c->last;
 }
 
-static double time_of(const stopwatch *c)
-{
-    return fmin((c->before - koksma__log(c->product)) / c->rate, 1 - 0x1p-53);
-}
-
 /* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
-static void fetch(const koksma__disks *s, size_t tile, size_t first, size_t count)
+static void fetch(const koksma__disks *s, const koksma__tile *t, const koksma__dart_cells *cells)
 {
     for (size_t i = 0; i < s->block; i += 16) {
-        __builtin_prefetch(s->gx + tile * s->block + i, 1);
-        __builtin_prefetch(s->gy + tile * s->block + i, 1);
+        __builtin_prefetch(cells->places + i, 1);
     }
     for (size_t i = 0; i < s->wide * s->wide; i += 16) {
-        __builtin_prefetch(s->who + tile * s->wide * s->wide + i, 1);
+        __builtin_prefetch(s->who + t->number * s->wide * s->wide + i, 1);
     }
-    for (size_t i = 0; i < count; i += 8) {
-        __builtin_prefetch(s->squares + first + i);
+    for (size_t i = 0; i < cells->count; i += 8) {
+        __builtin_prefetch(cells->squares + i);
     }
 }
 
 /* One of several tiles. Times of points are written down if asked for. */
 static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
 {
-    const size_t first = s->first[number];
-    const uint32_t count = (uint32_t)(s->first[number + 1] - first);
     const koksma__tile t = koksma__disks_tile(s, number);
-    if (!count) {
+    const koksma__dart_cells cells = koksma__disks_cells(s, &t);
+    if (!cells.count) {
         return KOKSMA_OK;
     }
     memset(q->rows, 0, sizeof q->rows);
-    const bool many = mean * count > 256;
-    if (many) {
-        fetch(s, number, first, count);
+    if (mean * cells.count > 256) {
+        fetch(s, &t, &cells);
     }
-    stopwatch clock = {.rate = mean * count, .product = 1};
+    stopwatch clock = {.rate = mean * cells.count, .product = 1};
     koksma_status status = KOKSMA_OK;
-    while (!status) {
-        const uint32_t *w = draw(s);
-        koksma__dart d;
-        if (!tick(&clock, w[3])) {
-            break;
+    for (bool more = true; more && !status;) {
+        uint32_t far[KOKSMA__DART_WORDS];
+        double before[KOKSMA__DART_WORDS], products[KOKSMA__DART_WORDS];
+        const uint32_t *words;
+        const size_t drawn = draw(s, &words);
+        size_t some = 0;
+        for (; some < drawn && (more = tick(&clock, words[4 * some + 3])); some++) {
+            before[some] = clock.before;
+            products[some] = clock.product;
         }
-        look_ahead(s, &t, s->squares + first, count, w, !many);
-        if (aim(s, &t, s->squares + first, count, w, &d) && !is_near(s, &d)) {
-            const bool waits = must_wait(s, &t, q, &d);
-            d.time = waits || timed ? time_of(&clock) : 0;
-            status = waits ? wait(s, q, &d) : keep(s, &t, &d);
+        const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
+        for (size_t i = 0; i < left && !status; i++) {
+            koksma__dart d;
+            if (aim(s, &t, &cells, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                const bool waits = must_wait(s, &t, q, &d);
+                d.time = waits || timed
+                             ? fmin((before[far[i]] - koksma__log(products[far[i]])) / clock.rate, 1 - 0x1p-53)
+                             : 0;
+                status = waits ? wait(s, q, &d) : keep(s, &t, &d);
+            }
         }
+        s->used += some + !more;
     }
     return status;
 }

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the kernels of dart throwing know of a tile of cells: the place of each cell's point, one word a cell, x in
+ * its lower half and y in its upper half, in 2^-12 of a cell from the tile's corner, to the nearest, modulo 16 cells.
+ * So the difference of two places less than 8 cells apart is that of their halves, whichever cells they are of, and
+ * one instruction squares and adds the halves of eight. An empty cell has a place 6 cells beyond its middle in y.
+ */
+#ifndef KOKSMA_KERNELS_DART_CELLS_H
+#define KOKSMA_KERNELS_DART_CELLS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { KOKSMA__PLACE_BITS = 12, KOKSMA__PLACE_UNITS = 1 << KOKSMA__PLACE_BITS };
+
+typedef struct koksma__square {
+    uint32_t x, y; /* in units of the squares' size */
+} koksma__square;
+
+typedef struct koksma__dart_cells {
+    const uint32_t *places; /* of the cell two before cell (0, 0) in x and in y */
+    size_t stride;          /* from row to row; three more cells than the rows need, for reading past them */
+    uint32_t x, y;          /* of cell (0, 0) in the grid */
+    int level;              /* squares are 2^-level of a cell wide */
+    uint32_t count;
+    const koksma__square *squares; /* those of a cell one after the other */
+} koksma__dart_cells;
+
+static inline uint32_t koksma__place(uint32_t x, uint32_t y)
+{
+    return (x & 0xffff) | y << 16;
+}
+
+static inline uint32_t koksma__no_place(uint32_t cell_x, uint32_t cell_y)
+{
+    return koksma__place((2 * cell_x + 1) * (KOKSMA__PLACE_UNITS / 2), (2 * cell_y + 13) * (KOKSMA__PLACE_UNITS / 2));
+}
+
+/* The coordinate of a dart at fraction word / 2^32 of a square. */
+static inline uint32_t koksma__dart_at(uint32_t square, uint32_t word, int level)
+{
+    return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
+}
+
+static inline uint32_t koksma__dart_place(const koksma__dart_cells *c, koksma__square square, const uint32_t *words)
+{
+    return koksma__place(koksma__dart_at(square.x, words[1], c->level) - (c->x << KOKSMA__PLACE_BITS),
+                         koksma__dart_at(square.y, words[2], c->level) - (c->y << KOKSMA__PLACE_BITS));
+}
+
+/* Where the 5 x 8 cells about the cell of a square begin in places. */
+static inline size_t koksma__dart_corner(const koksma__dart_cells *c, koksma__square square)
+{
+    return ((square.y >> c->level) - c->y) * c->stride + ((square.x >> c->level) - c->x);
+}
+
+#endif
