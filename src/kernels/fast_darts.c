@@ -74,38 +74,75 @@ LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t 
     return count;
 }
 
-/* Bit 4q and the following: whether places cover quarter q of a square. */
-LANES8_INLINE unsigned covered(size_t count, const uint32_t *places, const uint32_t middles[4], uint32_t half,
-                               int32_t low)
+/* A quarter of a square: the square's halves in x and in y. */
+typedef struct quarters {
+    lanes8_pairs at[4], half;
+    lanes8 least[4]; /* square of the distance to a far end */
+} quarters;
+
+LANES8_INLINE void set_quarters(const koksma__dart_cells *c, koksma__square square, uint32_t half, quarters *q)
 {
-    lanes8_pairs at[4], reach;
-    lanes8 least[4];
-    lanes8_splat(half << 16 | half, &reach);
-    for (int q = 0; q < 4; q++) {
-        lanes8_splat(middles[q], &at[q]);
-        least[q] = (lanes8){0} + INT32_MAX;
-    }
-    for (size_t i = 0; i < count; i += 8) {
-        lanes8_pairs some;
-        lanes8_load(places + i, &some);
-        for (int q = 0; q < 4; q++) {
-            lanes8_pairs far_end = some - at[q];
-            lanes8 squares;
-            lanes8_absolute(&far_end);
-            far_end += reach;
-            lanes8_squares(&far_end, &squares);
-            lanes8_min(&squares, &least[q]);
-        }
-    }
-    unsigned found = 0;
-    for (int q = 0; q < 4; q++) {
-        least[q] -= low;
-        found |= (unsigned)(lanes8_signs(&least[q]) != 0) << q;
-    }
-    return found;
+    const uint32_t x = (4 * square.x + 1) * half - (c->x << KOKSMA__PLACE_BITS);
+    const uint32_t y = (4 * square.y + 1) * half - (c->y << KOKSMA__PLACE_BITS);
+    lanes8_splat(koksma__place(x, y), &q->at[0]);
+    lanes8_splat(koksma__place(x + 2 * half, y), &q->at[1]);
+    lanes8_splat(koksma__place(x, y + 2 * half), &q->at[2]);
+    lanes8_splat(koksma__place(x + 2 * half, y + 2 * half), &q->at[3]);
+    lanes8_splat(koksma__place(half, half), &q->half);
 }
 
-size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+/* The next eight places; the first ones set `least`. */
+LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, quarters *q)
+{
+    for (int k = 0; k < 4; k++) {
+        lanes8_pairs far_end = *places - q->at[k];
+        lanes8 squares;
+        lanes8_absolute(&far_end);
+        far_end += q->half;
+        lanes8_squares(&far_end, &squares);
+        if (first) {
+            q->least[k] = squares;
+        } else {
+            lanes8_min(&squares, &q->least[k]);
+        }
+    }
+}
+
+/* Appends those quarters of a square that are not covered. */
+LANES8_INLINE size_t put_quarters(koksma__square square, unsigned covered, koksma__square *out)
+{
+    const uint32_t x = 2 * square.x, y = 2 * square.y;
+    const lanes8_u all = (lanes8_u){x, y, x, y, x, y, x, y} + (lanes8_u){0, 0, 1, 0, 0, 1, 1, 1};
+    const unsigned open = ~covered & 15;
+    lanes8_pick_pairs(&all, open, out);
+    return (size_t)__builtin_popcount(open);
+}
+
+/* Squares so large that only the eight cells about their own can cover a quarter; one in each row beside them is
+   looked at in passing. */
+static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+{
+    const koksma__dart_cells own = *c;
+    const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
+    size_t kept = 0;
+    for (size_t i = 0; i < own.count; i++) {
+        const koksma__square square = own.squares[i];
+        const uint32_t cell_x = (square.x >> own.level) - own.x, cell_y = (square.y >> own.level) - own.y;
+        const uint32_t *cells = own.places + (cell_y + 1) * own.stride + cell_x + 1;
+        lanes8_pairs above_below, beside;
+        quarters q;
+        lanes8_load_halves(cells, cells + 2 * own.stride, &above_below);
+        lanes8_load_halves(cells + own.stride, cells + own.stride, &beside);
+        set_quarters(&own, square, half, &q);
+        look_at(&above_below, true, &q);
+        look_at(&beside, false, &q);
+        const bool full = cells[own.stride + 1] != koksma__no_place(cell_x, cell_y);
+        kept += put_quarters(square, lanes8_below(q.least, low) | (full ? 15u : 0), out + kept);
+    }
+    return kept;
+}
+
+static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, koksma__square *out)
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
@@ -127,15 +164,21 @@ size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koks
         if (full) {
             continue;
         }
-        const uint32_t x = (4 * square.x + 1) * half - (own.x << KOKSMA__PLACE_BITS);
-        const uint32_t y = (4 * square.y + 1) * half - (own.y << KOKSMA__PLACE_BITS);
-        const uint32_t middles[4] = {koksma__place(x, y), koksma__place(x + 2 * half, y),
-                                     koksma__place(x, y + 2 * half), koksma__place(x + 2 * half, y + 2 * half)};
-        const unsigned without = ~covered(count, around, middles, half, low);
-        for (uint32_t q = 0; q < 4; q++) {
-            out[kept] = (koksma__square){2 * square.x + (q & 1), 2 * square.y + (q >> 1)};
-            kept += without >> q & 1;
+        lanes8_pairs places;
+        quarters q;
+        set_quarters(&own, square, half, &q);
+        lanes8_load(around, &places);
+        look_at(&places, true, &q);
+        for (size_t k = 8; k < count; k += 8) {
+            lanes8_load(around + k, &places);
+            look_at(&places, false, &q);
         }
+        kept += put_quarters(square, lanes8_below(q.least, low), out + kept);
     }
     return kept;
+}
+
+size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+{
+    return c->level < 2 ? open_large_quarters(c, low, out) : open_small_quarters(c, low, out);
 }

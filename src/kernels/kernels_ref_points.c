@@ -217,8 +217,8 @@ size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koks
         bool covered = false;
         for (uint32_t cell = 0; cell < 25; cell++) {
             const uint32_t u = cell % 5, v = cell / 5, place = c->places[(cell_y + v) * c->stride + cell_x + u];
-            const bool corner = (u == 0 || u == 4) && (v == 0 || v == 4);
-            if (!corner && place != koksma__no_place(cell_x + u - 2, cell_y + v - 2)) {
+            const bool inner = v >= 1 && v <= 3 && u >= 1, corner = (u == 0 || u == 4) && (v == 0 || v == 4);
+            if ((c->level < 2 ? inner : !corner) && place != koksma__no_place(cell_x + u - 2, cell_y + v - 2)) {
                 const int32_t a = abs(from_to(x, place)) + half, b = abs(from_to(y, place >> 16)) + half;
                 covered = covered || cell == 12 || a * a + b * b < low;
             }

@@ -26,6 +26,15 @@ LANES8_INLINE void lanes8_load(const uint32_t *from, lanes8_pairs *v)
     memcpy(v, from, sizeof *v);
 }
 
+/* Two halves. */
+LANES8_INLINE void lanes8_load_halves(const uint32_t *low, const uint32_t *high, lanes8_pairs *v)
+{
+    uint32_t words[8];
+    memcpy(words, low, 4 * sizeof *words);
+    memcpy(words + 4, high, 4 * sizeof *words);
+    memcpy(v, words, sizeof words);
+}
+
 /* The same word in all lanes. */
 LANES8_INLINE void lanes8_splat(uint32_t word, lanes8_pairs *v)
 {
@@ -105,7 +114,36 @@ LANES8_INLINE unsigned lanes8_signs(const lanes8 *v)
 #endif
 }
 
-/* Those of the first five lanes with a bit, side by side at out, which has room for eight. */
+/* Bit q, q < 4: whether a lane of v[q] is below the limit. */
+LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
+{
+#ifdef LANES8_AVX2
+    const __m256i a = (__m256i)v[0], b = (__m256i)v[1], c = (__m256i)v[2], d = (__m256i)v[3];
+    const __m256i ab = _mm256_min_epi32(_mm256_unpacklo_epi32(a, b), _mm256_unpackhi_epi32(a, b));
+    const __m256i cd = _mm256_min_epi32(_mm256_unpacklo_epi32(c, d), _mm256_unpackhi_epi32(c, d));
+    const __m256i all = _mm256_min_epi32(_mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd));
+    const __m128i least = _mm_min_epi32(_mm256_castsi256_si128(all), _mm256_extracti128_si256(all, 1));
+    return (unsigned)_mm_movemask_ps(_mm_castsi128_ps(_mm_cmplt_epi32(least, _mm_set1_epi32(limit))));
+#else
+    unsigned bits = 0;
+    for (int q = 0; q < 4; q++) {
+        const lanes8 lower = v[q] - limit;
+        bits |= (unsigned)(lanes8_signs(&lower) != 0) << q;
+    }
+    return bits;
+#endif
+}
+
+/* Those of the first five lanes with a bit, or of the four pairs of lanes, side by side at out, which has room for
+   eight. */
+#ifdef LANES8_AVX2
+LANES8_INLINE void lanes8_permute(const void *v, uint64_t order, void *out)
+{
+    const __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
+    _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32(_mm256_loadu_si256(v), from));
+}
+#endif
+
 LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
@@ -114,8 +152,7 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
                                        0x30201, 0x3020100, 0x4,       0x400,      0x401,   0x40100, 0x402,
                                        0x40200, 0x40201,   0x4020100, 0x403,      0x40300, 0x40301, 0x4030100,
                                        0x40302, 0x4030200, 0x4030201, 0x403020100};
-    const __m256i from = _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&order[bits & 31]));
-    _mm256_storeu_si256((__m256i *)out, _mm256_permutevar8x32_epi32((__m256i)*v, from));
+    lanes8_permute(v, order[bits], out);
 #else
     uint32_t words[8];
     memcpy(words, v, sizeof words);
@@ -123,6 +160,23 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
     for (int l = 0; l < 5; l++) {
         out[count] = words[l];
         count += (int)(bits >> l & 1);
+    }
+#endif
+}
+
+LANES8_INLINE void lanes8_pick_pairs(const lanes8_u *v, unsigned bits, void *out)
+{
+#ifdef LANES8_AVX2
+    static const uint64_t order[16] = {
+        0x0,   0x100,     0x302,     0x3020100,     0x504,     0x5040100,     0x5040302,     0x50403020100,
+        0x706, 0x7060100, 0x7060302, 0x70603020100, 0x7060504, 0x70605040100, 0x70605040302, 0x706050403020100};
+    lanes8_permute(v, order[bits], out);
+#else
+    uint64_t pairs[4], *to = out;
+    memcpy(pairs, v, sizeof pairs);
+    for (int l = 0; l < 4; l++) {
+        memcpy(to, &pairs[l], sizeof *to);
+        to += bits >> l & 1;
     }
 #endif
 }

@@ -11,9 +11,7 @@
 
 enum {
     BORDER = KOKSMA__DART_BORDER,
-    SPARE = 3,  /* places after a row, which kernels read */
-    WHOLE = 96, /* cells a side of the largest grid that is one tile */
-    TILE = 64   /* the most of another tile */
+    SPARE = 3 /* places after a row, which kernels read */
 };
 
 #define NONE UINT32_MAX
@@ -40,7 +38,7 @@ static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;
     s->cells = (uint32_t)ceil(sqrt(2) / d);
-    s->tiles = s->cells <= WHOLE ? 1 : (s->cells + TILE - 1) / TILE;
+    s->tiles = (s->cells + KOKSMA__DART_TILE - 1) / KOKSMA__DART_TILE;
     s->wide = (s->cells + s->tiles - 1) / s->tiles;
     s->stride = s->wide + 2 * BORDER + SPARE;
     s->block = s->stride * (s->wide + 2 * BORDER);

@@ -34,7 +34,7 @@ typedef struct koksma__tile {
     uint32_t number, x, y, nx, ny;
 } koksma__tile;
 
-enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BORDER = 2 };
+enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BORDER = 2, KOKSMA__DART_TILE = 128 /* cells a side, at most */ };
 
 typedef struct koksma__disks {
     const koksma__kernel_table *kernels;

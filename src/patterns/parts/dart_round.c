@@ -10,13 +10,13 @@
 #include "core/status.h"
 #include "patterns/parts/dart_cover.h"
 
-enum { MOST_CELLS = 64 }; /* a side of a tile */
+enum { MOST_CELLS = KOKSMA__DART_TILE };
 
 #define NONE UINT32_MAX
 
 /* The darts of this round that wait in a tile, by cell. */
 typedef struct queue {
-    uint64_t rows[MOST_CELLS];
+    uint8_t rows[MOST_CELLS][MOST_CELLS / 8 + 1];
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
 } queue;
 
@@ -140,8 +140,9 @@ static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, cons
         return true;
     }
     for (uint32_t r = y - 2; r <= y + 2; r++) {
-        for (uint64_t some = q->rows[r] >> (x - 2) & 31; some; some &= some - 1) {
-            const uint32_t c = x - 2 + (uint32_t)__builtin_ctzll(some);
+        const uint8_t *bits = &q->rows[r][(x - 2) / 8];
+        for (uint32_t some = (bits[0] | (uint32_t)bits[1] << 8) >> (x - 2) % 8 & 31; some; some &= some - 1) {
+            const uint32_t c = x - 2 + (uint32_t)__builtin_ctz(some);
             for (uint32_t i = q->last[r * MOST_CELLS + c]; i != NONE; i = s->waiting[i].next) {
                 const double a = s->waiting[i].x - d->x, b = s->waiting[i].y - d->y;
                 if (a * a + b * b < s->d * s->d) {
@@ -167,9 +168,9 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     const uint32_t x = d->cell_x, y = d->cell_y;
     uint32_t *last = &q->last[y * MOST_CELLS + x];
     s->waiting[s->n_waiting] = *d;
-    s->waiting[s->n_waiting].next = q->rows[y] >> x & 1 ? *last : NONE;
+    s->waiting[s->n_waiting].next = q->rows[y][x / 8] >> x % 8 & 1 ? *last : NONE;
     *last = (uint32_t)s->n_waiting++;
-    q->rows[y] |= (uint64_t)1 << x;
+    q->rows[y][x / 8] |= (uint8_t)(1 << x % 8);
     return KOKSMA_OK;
 }
 
