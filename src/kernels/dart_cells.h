@@ -36,6 +36,13 @@ static inline uint32_t koksma__no_place(uint32_t cell_x, uint32_t cell_y)
     return koksma__place((2 * cell_x + 1) * (KOKSMA__PLACE_UNITS / 2), (2 * cell_y + 13) * (KOKSMA__PLACE_UNITS / 2));
 }
 
+/* The square of the distance of two places less than 8 cells apart in x and in y. */
+static inline int32_t koksma__place_distance(uint32_t a, uint32_t b)
+{
+    const int32_t x = (int16_t)(b - a), y = (int16_t)((b >> 16) - (a >> 16));
+    return x * x + y * y;
+}
+
 /* The coordinate of a dart at fraction word / 2^32 of a square. */
 static inline uint32_t koksma__dart_at(uint32_t square, uint32_t word, int level)
 {

@@ -171,21 +171,13 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
     }
 }
 
-/* The difference of two places in one coordinate. */
-static int32_t from_to(uint32_t a, uint32_t b)
-{
-    const uint32_t steps = (b - a) & 0xffff;
-    return steps < 0x8000 ? (int32_t)steps : (int32_t)steps - 0x10000;
-}
-
 int32_t KERNEL_NAME(nearest_place)(const uint32_t *cells, size_t stride, uint32_t place)
 {
     int32_t least = INT32_MAX;
     for (size_t r = 0; r < 5; r++) {
         for (size_t c = 0; c < 8; c++) {
-            const uint32_t other = cells[r * stride + c];
-            const int32_t x = from_to(place, other), y = from_to(place >> 16, other >> 16);
-            least = x * x + y * y < least ? x * x + y * y : least;
+            const int32_t distance = koksma__place_distance(place, cells[r * stride + c]);
+            least = distance < least ? distance : least;
         }
     }
     return least;
@@ -203,6 +195,13 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
         }
     }
     return found;
+}
+
+/* The difference of two places in one coordinate. */
+static int32_t from_to(uint32_t a, uint32_t b)
+{
+    const uint32_t steps = (b - a) & 0xffff;
+    return steps < 0x8000 ? (int32_t)steps : (int32_t)steps - 0x10000;
 }
 
 size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out)

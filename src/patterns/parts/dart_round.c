@@ -33,21 +33,23 @@ static size_t draw(koksma__disks *s, const uint32_t **words)
     return s->drawn - s->used;
 }
 
+/* Of the points whose places don't tell. */
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
     const koksma__tile t = koksma__disks_tile(s, d->tile);
-    for (uint32_t r = 0; r < 5; r++) {
-        const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
-        for (uint32_t c = 0; c < 5; c++) {
+    const uint32_t *places = s->places + koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
+    for (uint32_t cell = 0; cell < 25; cell++) {
+        const uint32_t r = cell / 5, c = cell % 5;
+        const int32_t least = koksma__place_distance(d->place, places[r * s->stride + c]);
+        if (least < s->high) {
             const uint32_t x = (t.x + d->cell_x + c + 2 * s->cells - 2) % s->cells;
+            const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
             const size_t who = koksma__disks_who(s, x, y);
-            if (who != NONE) {
-                double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
-                a = fmin(a, 1 - a);
-                b = fmin(b, 1 - b);
-                if (a * a + b * b < s->d * s->d) {
-                    return true;
-                }
+            double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
+            a = fmin(a, 1 - a);
+            b = fmin(b, 1 - b);
+            if (a * a + b * b < s->d * s->d) {
+                return true;
             }
         }
     }
@@ -62,15 +64,19 @@ static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
     return least < s->high && (least < s->low || near_in_doubles(s, d));
 }
 
-/* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
-static inline bool aim(const koksma__disks *s, const koksma__tile *t, const koksma__dart_cells *cells,
-                       const uint32_t *w, koksma__dart *d)
+static double side_of_squares(const koksma__disks *s)
+{
+    return 1 / ((double)((uint32_t)1 << s->level) * s->cells);
+}
+
+/* A dart at a random one of the squares of a tile, `whole` wide. False if it misses the unit square by rounding. */
+static inline bool aim(const koksma__tile *t, const koksma__dart_cells *cells, double whole, const uint32_t *w,
+                       koksma__dart *d)
 {
     const koksma__square square = cells->squares[koksma__below(w[0], cells->count)];
-    const double whole = 1 / ((double)((uint32_t)1 << s->level) * s->cells);
     d->place = koksma__dart_place(cells, square, w);
-    d->cell_x = (uint16_t)((square.x >> s->level) - t->x);
-    d->cell_y = (uint16_t)((square.y >> s->level) - t->y);
+    d->cell_x = (uint16_t)((square.x >> cells->level) - t->x);
+    d->cell_y = (uint16_t)((square.y >> cells->level) - t->y);
     d->tile = t->number;
     d->x = (square.x + w[1] * 0x1p-32) * whole;
     d->y = (square.y + w[2] * 0x1p-32) * whole;
@@ -114,6 +120,7 @@ static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
     const koksma__tile t = koksma__disks_tile(s, 0);
     const koksma__dart_cells cells = koksma__disks_cells(s, &t);
+    const double whole = side_of_squares(s);
     koksma_status status = KOKSMA_OK;
     while (darts && s->n < n && !status) {
         uint32_t far[KOKSMA__DART_WORDS];
@@ -122,7 +129,7 @@ static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
         const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
         for (size_t i = 0; i < left && s->n < n && !status; i++) {
             koksma__dart d = {.time = 0};
-            if (aim(s, &t, &cells, words + 4 * far[i], &d) && !is_near(s, &d)) {
+            if (aim(&t, &cells, whole, words + 4 * far[i], &d) && !is_near(s, &d)) {
                 status = keep(s, &t, &d);
             }
         }
@@ -221,6 +228,7 @@ static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, 
     if (mean * cells.count > 256) {
         fetch(s, &t, &cells);
     }
+    const double whole = side_of_squares(s);
     stopwatch clock = {.rate = mean * cells.count, .product = 1};
     koksma_status status = KOKSMA_OK;
     for (bool more = true; more && !status;) {
@@ -236,7 +244,7 @@ static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, 
         const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
         for (size_t i = 0; i < left && !status; i++) {
             koksma__dart d;
-            if (aim(s, &t, &cells, words + 4 * far[i], &d) && !is_near(s, &d)) {
+            if (aim(&t, &cells, whole, words + 4 * far[i], &d) && !is_near(s, &d)) {
                 const bool waits = must_wait(s, &t, q, &d);
                 d.time = waits || timed
                              ? fmin((before[far[i]] - koksma__log(products[far[i]])) / clock.rate, 1 - 0x1p-53)
