@@ -11,19 +11,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { KOKSMA__PLACE_BITS = 12, KOKSMA__PLACE_UNITS = 1 << KOKSMA__PLACE_BITS };
-
-typedef struct koksma__square {
-    uint32_t x, y; /* in units of the squares' size */
-} koksma__square;
+enum { KOKSMA__PLACE_BITS = 12, KOKSMA__PLACE_UNITS = 1 << KOKSMA__PLACE_BITS, KOKSMA__PACKED_LEVEL = 8 };
 
 typedef struct koksma__dart_cells {
     const uint32_t *places; /* of the cell two before cell (0, 0) in x and in y */
     size_t stride;          /* from row to row; three more cells than the rows need, for reading past them */
-    uint32_t x, y;          /* of cell (0, 0) in the grid */
-    int level;              /* squares are 2^-level of a cell wide */
+    int level;              /* squares are 2^-level of a cell wide, at most KOKSMA__PACKED_LEVEL */
     uint32_t count;
-    const koksma__square *squares; /* those of a cell one after the other */
+    const uint32_t *squares; /* x and y in their own widths from the tile's corner, as a place; a cell's in a row */
 } koksma__dart_cells;
 
 static inline uint32_t koksma__place(uint32_t x, uint32_t y)
@@ -43,22 +38,18 @@ static inline int32_t koksma__place_distance(uint32_t a, uint32_t b)
     return x * x + y * y;
 }
 
-/* The coordinate of a dart at fraction word / 2^32 of a square. */
-static inline uint32_t koksma__dart_at(uint32_t square, uint32_t word, int level)
+/* A dart at fractions words[1] / 2^32 and words[2] / 2^32 of a square. */
+static inline uint32_t koksma__dart_place(const koksma__dart_cells *c, uint32_t square, const uint32_t *words)
 {
-    return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
-}
-
-static inline uint32_t koksma__dart_place(const koksma__dart_cells *c, koksma__square square, const uint32_t *words)
-{
-    return koksma__place(koksma__dart_at(square.x, words[1], c->level) - (c->x << KOKSMA__PLACE_BITS),
-                         koksma__dart_at(square.y, words[2], c->level) - (c->y << KOKSMA__PLACE_BITS));
+    const int finer = KOKSMA__PLACE_BITS - c->level;
+    const uint32_t x = ((words[1] >> (31 - finer)) + 1) >> 1, y = ((words[2] >> (31 - finer)) + 1) >> 1;
+    return koksma__place(((square & 0xffff) << finer) + x, ((square >> 16) << finer) + y);
 }
 
 /* Where the 5 x 8 cells about the cell of a square begin in places. */
-static inline size_t koksma__dart_corner(const koksma__dart_cells *c, koksma__square square)
+static inline size_t koksma__dart_corner(const koksma__dart_cells *c, uint32_t square)
 {
-    return ((square.y >> c->level) - c->y) * c->stride + ((square.x >> c->level) - c->x);
+    return (square >> 16 >> c->level) * c->stride + ((square & 0xffff) >> c->level);
 }
 
 #endif

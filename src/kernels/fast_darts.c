@@ -7,7 +7,7 @@
 int32_t KERNEL_NAME(nearest_place)(const uint32_t *cells, size_t stride, uint32_t place);
 size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t count, const uint32_t *words,
                               uint32_t *far);
-size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out);
+size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out);
 
 LANES8_INLINE void nearest_of_rows(const uint32_t *cells, size_t stride, uint32_t place, lanes8 *least)
 {
@@ -40,7 +40,7 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
     const koksma__dart_cells own = *c;
     size_t found = 0;
     for (size_t i = 0; i < count; i++, words += 4) {
-        const koksma__square square = own.squares[koksma__below(words[0], own.count)];
+        const uint32_t square = own.squares[koksma__below(words[0], own.count)];
         lanes8 least;
         nearest_of_rows(own.places + koksma__dart_corner(&own, square), own.stride,
                         koksma__dart_place(&own, square, words), &least);
@@ -80,10 +80,9 @@ typedef struct quarters {
     lanes8 least[4]; /* square of the distance to a far end */
 } quarters;
 
-LANES8_INLINE void set_quarters(const koksma__dart_cells *c, koksma__square square, uint32_t half, quarters *q)
+LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, quarters *q)
 {
-    const uint32_t x = (4 * square.x + 1) * half - (c->x << KOKSMA__PLACE_BITS);
-    const uint32_t y = (4 * square.y + 1) * half - (c->y << KOKSMA__PLACE_BITS);
+    const uint32_t x = (4 * (square & 0xffff) + 1) * half, y = (4 * (square >> 16) + 1) * half;
     lanes8_splat(koksma__place(x, y), &q->at[0]);
     lanes8_splat(koksma__place(x + 2 * half, y), &q->at[1]);
     lanes8_splat(koksma__place(x, y + 2 * half), &q->at[2]);
@@ -109,31 +108,29 @@ LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, quarters *q)
 }
 
 /* Appends those quarters of a square that are not covered. */
-LANES8_INLINE size_t put_quarters(koksma__square square, unsigned covered, koksma__square *out)
+LANES8_INLINE size_t put_quarters(uint32_t square, unsigned covered, uint32_t *out)
 {
-    const uint32_t x = 2 * square.x, y = 2 * square.y;
-    const lanes8_u all = (lanes8_u){x, y, x, y, x, y, x, y} + (lanes8_u){0, 0, 1, 0, 0, 1, 1, 1};
     const unsigned open = ~covered & 15;
-    lanes8_pick_pairs(&all, open, out);
+    lanes4_pick((lanes4){0, 1, 0x10000, 0x10001} + 2 * square, open, out);
     return (size_t)__builtin_popcount(open);
 }
 
 /* Squares so large that only the eight cells about their own can cover a quarter; one in each row beside them is
    looked at in passing. */
-static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
     size_t kept = 0;
     for (size_t i = 0; i < own.count; i++) {
-        const koksma__square square = own.squares[i];
-        const uint32_t cell_x = (square.x >> own.level) - own.x, cell_y = (square.y >> own.level) - own.y;
+        const uint32_t square = own.squares[i];
+        const uint32_t cell_x = (square & 0xffff) >> own.level, cell_y = square >> 16 >> own.level;
         const uint32_t *cells = own.places + (cell_y + 1) * own.stride + cell_x + 1;
         lanes8_pairs above_below, beside;
         quarters q;
         lanes8_load_halves(cells, cells + 2 * own.stride, &above_below);
         lanes8_load_halves(cells + own.stride, cells + own.stride, &beside);
-        set_quarters(&own, square, half, &q);
+        set_quarters(square, half, &q);
         look_at(&above_below, true, &q);
         look_at(&beside, false, &q);
         const bool full = cells[own.stride + 1] != koksma__no_place(cell_x, cell_y);
@@ -142,20 +139,20 @@ static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, koks
     return kept;
 }
 
-static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
-    uint32_t cell_x = UINT32_MAX, cell_y = UINT32_MAX, around[40];
+    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* of a square's cell */
+    uint32_t cell = UINT32_MAX, around[40];
     size_t kept = 0, count = 0;
     bool full = false;
     for (size_t i = 0; i < own.count; i++) {
-        const koksma__square square = own.squares[i];
-        const uint32_t in_x = (square.x >> own.level) - own.x, in_y = (square.y >> own.level) - own.y;
-        if (in_x != cell_x || in_y != cell_y) {
-            const uint32_t *cells = own.places + in_y * own.stride + in_x;
-            cell_x = in_x;
-            cell_y = in_y;
+        const uint32_t square = own.squares[i];
+        if ((square & mask) != cell) {
+            const uint32_t cell_x = (square & 0xffff) >> own.level, cell_y = square >> 16 >> own.level;
+            const uint32_t *cells = own.places + koksma__dart_corner(&own, square);
+            cell = square & mask;
             full = cells[2 * own.stride + 2] != koksma__no_place(cell_x, cell_y);
             if (!full) {
                 count = look_around(cells, own.stride, cell_x, cell_y, around);
@@ -166,7 +163,7 @@ static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, koks
         }
         lanes8_pairs places;
         quarters q;
-        set_quarters(&own, square, half, &q);
+        set_quarters(square, half, &q);
         lanes8_load(around, &places);
         look_at(&places, true, &q);
         for (size_t k = 8; k < count; k += 8) {
@@ -178,7 +175,7 @@ static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, koks
     return kept;
 }
 
-size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     return c->level < 2 ? open_large_quarters(c, low, out) : open_small_quarters(c, low, out);
 }

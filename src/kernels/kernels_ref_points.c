@@ -188,7 +188,7 @@ size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t c
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++) {
-        const koksma__square square = c->squares[koksma__below(words[4 * i], c->count)];
+        const uint32_t square = c->squares[koksma__below(words[4 * i], c->count)];
         const uint32_t *cells = c->places + koksma__dart_corner(c, square);
         if (KERNEL_NAME(nearest_place)(cells, c->stride, koksma__dart_place(c, square, words + 4 * i)) >= low) {
             far[found++] = (uint32_t)i;
@@ -204,15 +204,15 @@ static int32_t from_to(uint32_t a, uint32_t b)
     return steps < 0x8000 ? (int32_t)steps : (int32_t)steps - 0x10000;
 }
 
-size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koksma__square *out)
+size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const int32_t half = KOKSMA__PLACE_UNITS / 4 >> c->level; /* of a quarter's side */
     size_t kept = 0;
     for (uint32_t i = 0; i < 4 * c->count; i++) {
-        const koksma__square whole = c->squares[i / 4], own = {2 * whole.x + i % 2, 2 * whole.y + i / 2 % 2};
-        const uint32_t cell_x = (whole.x >> c->level) - c->x, cell_y = (whole.y >> c->level) - c->y;
-        const uint32_t x = (2 * own.x + 1) * (uint32_t)half - (c->x << KOKSMA__PLACE_BITS);
-        const uint32_t y = (2 * own.y + 1) * (uint32_t)half - (c->y << KOKSMA__PLACE_BITS);
+        const uint32_t whole_x = c->squares[i / 4] & 0xffff, whole_y = c->squares[i / 4] >> 16;
+        const uint32_t cell_x = whole_x >> c->level, cell_y = whole_y >> c->level;
+        const uint32_t own_x = 2 * whole_x + i % 2, own_y = 2 * whole_y + i / 2 % 2;
+        const uint32_t x = (2 * own_x + 1) * (uint32_t)half, y = (2 * own_y + 1) * (uint32_t)half;
         bool covered = false;
         for (uint32_t cell = 0; cell < 25; cell++) {
             const uint32_t u = cell % 5, v = cell / 5, place = c->places[(cell_y + v) * c->stride + cell_x + u];
@@ -222,7 +222,7 @@ size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, koks
                 covered = covered || cell == 12 || a * a + b * b < low;
             }
         }
-        out[kept] = own;
+        out[kept] = koksma__place(own_x, own_y);
         kept += !covered;
     }
     return kept;

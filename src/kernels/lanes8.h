@@ -18,6 +18,7 @@
 typedef int32_t lanes8 __attribute__((vector_size(32)));
 typedef uint32_t lanes8_u __attribute__((vector_size(32)));
 typedef uint16_t lanes8_pairs __attribute__((vector_size(32)));
+typedef uint32_t lanes4 __attribute__((vector_size(16)));
 
 #define LANES8_INLINE static inline __attribute__((always_inline))
 
@@ -134,16 +135,7 @@ LANES8_INLINE unsigned lanes8_below(const lanes8 v[4], int32_t limit)
 #endif
 }
 
-/* Those of the first five lanes with a bit, or of the four pairs of lanes, side by side at out, which has room for
-   eight. */
-#ifdef LANES8_AVX2
-LANES8_INLINE void lanes8_permute(const void *v, uint64_t order, void *out)
-{
-    const __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
-    _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32(_mm256_loadu_si256(v), from));
-}
-#endif
-
+/* Those of the first five lanes with a bit, side by side at out, which has room for eight. */
 LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
@@ -152,7 +144,8 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
                                        0x30201, 0x3020100, 0x4,       0x400,      0x401,   0x40100, 0x402,
                                        0x40200, 0x40201,   0x4020100, 0x403,      0x40300, 0x40301, 0x4030100,
                                        0x40302, 0x4030200, 0x4030201, 0x403020100};
-    lanes8_permute(v, order[bits], out);
+    const __m256i from = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order[bits]));
+    _mm256_storeu_si256((__m256i *)out, _mm256_permutevar8x32_epi32((__m256i)*v, from));
 #else
     uint32_t words[8];
     memcpy(words, v, sizeof words);
@@ -164,19 +157,19 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
 #endif
 }
 
-LANES8_INLINE void lanes8_pick_pairs(const lanes8_u *v, unsigned bits, void *out)
+/* Of four lanes, those with a bit, side by side at out, which has room for four. */
+LANES8_INLINE void lanes4_pick(lanes4 v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
-    static const uint64_t order[16] = {
-        0x0,   0x100,     0x302,     0x3020100,     0x504,     0x5040100,     0x5040302,     0x50403020100,
-        0x706, 0x7060100, 0x7060302, 0x70603020100, 0x7060504, 0x70605040100, 0x70605040302, 0x706050403020100};
-    lanes8_permute(v, order[bits], out);
+    static const uint32_t order[16] = {0x0, 0x0,   0x1,   0x100,   0x2,   0x200,   0x201,   0x20100,
+                                       0x3, 0x300, 0x301, 0x30100, 0x302, 0x30200, 0x30201, 0x3020100};
+    const __m128i from = _mm_cvtepu8_epi32(_mm_cvtsi32_si128((int)order[bits]));
+    _mm_storeu_ps((float *)out, _mm_permutevar_ps((__m128)v, from));
 #else
-    uint64_t pairs[4], *to = out;
-    memcpy(pairs, v, sizeof pairs);
+    int count = 0;
     for (int l = 0; l < 4; l++) {
-        memcpy(to, &pairs[l], sizeof *to);
-        to += bits >> l & 1;
+        out[count] = v[l];
+        count += (int)(bits >> l & 1);
     }
 #endif
 }

@@ -128,8 +128,8 @@ static void dart_cells(const koksma__kernel_table *t, size_t count, void *out)
     enum { CELLS = 9, STRIDE = CELLS + 7, UNITS = KOKSMA__PLACE_UNITS };
     const int32_t low = 33000000; /* of a reach of 1.4 cells */
     uint32_t places[STRIDE * (CELLS + 4)], *found = out;
-    koksma__square squares[MAX];
-    koksma__dart_cells c = {places, STRIDE, 1000, 77, (int)(count % 9), (uint32_t)count, squares};
+    uint32_t squares[MAX];
+    koksma__dart_cells c = {places, STRIDE, (int)(count % KOKSMA__PACKED_LEVEL), (uint32_t)count, squares};
     for (uint32_t i = 0; i < STRIDE * (CELLS + 4); i++) {
         const uint32_t x = i % STRIDE - 2, y = i / STRIDE - 2;
         places[i] =
@@ -138,14 +138,13 @@ static void dart_cells(const koksma__kernel_table *t, size_t count, void *out)
                 : koksma__no_place(x, y);
     }
     for (size_t i = 0; i < count; i++) {
-        const uint32_t x = c.x + words[i / 3] % CELLS, y = c.y + words[i / 3 + 1] % CELLS,
-                       inside = (1u << c.level) - 1;
-        squares[i] = (koksma__square){x << c.level | (words[i] & inside), y << c.level | (words[i + 2] & inside)};
+        const uint32_t x = words[i / 3] % CELLS, y = words[i / 3 + 1] % CELLS, inside = (1u << c.level) - 1;
+        squares[i] = koksma__place(x << c.level | (words[i] & inside), y << c.level | (words[i + 2] & inside));
         *found++ = (uint32_t)t->nearest_place(places + koksma__dart_corner(&c, squares[i]), STRIDE,
                                               koksma__dart_place(&c, squares[i], words + i));
     }
     found += t->far_darts(&c, low, count, words, found);
-    koksma__square open[4 * MAX + 1];
+    uint32_t open[4 * MAX + 1];
     const size_t kept = t->open_quarters(&c, low, open);
     *found++ = (uint32_t)kept;
     memcpy(found, open, kept * sizeof *open);

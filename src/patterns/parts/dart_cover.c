@@ -70,11 +70,11 @@ static koksma_status make_grid(koksma__disks *s, double d)
     choose_grid(s, d);
     const size_t tiles = (size_t)s->tiles * s->tiles, squares = (size_t)s->cells * s->cells;
     const size_t places = tiles * s->block, own = tiles * s->wide * s->wide;
-    const size_t bytes = places * sizeof *s->places + own * sizeof *s->who + squares * sizeof *s->squares;
+    const size_t bytes = places * sizeof *s->places + own * sizeof *s->who + squares * sizeof(uint32_t);
     void *grid = s->places, *who = s->who, *list = s->squares, *first = s->first;
     const bool ok = get_room(&grid, &s->places_room, places, sizeof *s->places) &&
                     get_room(&who, &s->who_room, own, sizeof *s->who) &&
-                    get_room(&list, &s->square_room, squares, sizeof *s->squares) &&
+                    get_room(&list, &s->square_room, squares * sizeof(uint32_t), 1) &&
                     get_room(&first, &s->first_room, tiles + 1, sizeof *s->first);
     s->places = grid;
     s->who = who;
@@ -191,15 +191,15 @@ static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y
 
 /* The quarters of a tile's squares that have room, by doubles: for squares so small that the errors of places would
    matter. Larger ones may be told to have room when they nearly have, since their quarters will be asked. */
-static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, const koksma__dart_cells *cells,
+static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
                              koksma__square *out)
 {
     const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* of a quarter's side */
     uint32_t cell_x = NONE, cell_y = NONE;
     size_t kept = 0;
     around points;
-    for (size_t i = 0; i < cells->count; i++) {
-        const koksma__square square = cells->squares[i];
+    for (size_t i = first; i < end; i++) {
+        const koksma__square square = koksma__disks_square(s, t, i);
         if (cell_x != square.x >> s->level || cell_y != square.y >> s->level) {
             cell_x = square.x >> s->level;
             cell_y = square.y >> s->level;
@@ -221,15 +221,16 @@ static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, cons
 
 koksma_status koksma__disks_refine(koksma__disks *s)
 {
-    enum { EXACT = 8 }; /* the first level where it matters */
+    const bool packed = s->level < KOKSMA__PACKED_LEVEL;
+    const size_t size = packed ? sizeof(uint32_t) : sizeof(koksma__square);
     size_t kept = 0, first = 0;
     for (uint32_t t = 0; t < s->tiles * s->tiles; t++) {
-        const size_t end = s->first[t + 1], most = kept + 4 * (end - first);
-        if (most + 1 > s->spare_room) {
-            const size_t room = most + most / 2 + s->n_squares + 1;
-            koksma__square *spare = realloc(s->spare, room * sizeof *spare);
+        const size_t end = s->first[t + 1], most = (kept + 4 * (end - first) + 1) * size;
+        if (most > s->spare_room) {
+            const size_t room = most + most / 2 + s->n_squares * size;
+            void *spare = realloc(s->spare, room);
             if (!spare) {
-                return koksma__fail_memory(room * sizeof *spare);
+                return koksma__fail_memory(room);
             }
             s->spare = spare;
             s->spare_room = room;
@@ -237,12 +238,12 @@ koksma_status koksma__disks_refine(koksma__disks *s)
         const koksma__tile tile = koksma__disks_tile(s, t);
         const koksma__dart_cells cells = koksma__disks_cells(s, &tile);
         s->first[t] = kept;
-        kept += s->level < EXACT ? s->kernels->open_quarters(&cells, s->cover, s->spare + kept)
-                                 : refine_exactly(s, &tile, &cells, s->spare + kept);
+        kept += packed ? s->kernels->open_quarters(&cells, s->cover, (uint32_t *)s->spare + kept)
+                       : refine_exactly(s, &tile, first, end, (koksma__square *)s->spare + kept);
         first = end;
     }
     s->level++;
-    koksma__square *squares = s->squares;
+    void *squares = s->squares;
     s->squares = s->spare;
     s->spare = squares;
     const size_t room = s->square_room;
@@ -255,12 +256,13 @@ koksma_status koksma__disks_refine(koksma__disks *s)
 /* The list of whole cells. */
 static void list_cells(koksma__disks *s)
 {
+    uint32_t *squares = s->squares;
     for (uint32_t i = 0; i < s->tiles * s->tiles; i++) {
         const koksma__tile t = koksma__disks_tile(s, i);
         s->first[i] = s->n_squares;
         for (uint32_t y = 0; y < t.ny; y++) {
             for (uint32_t x = 0; x < t.nx; x++) {
-                s->squares[s->n_squares++] = (koksma__square){t.x + x, t.y + y};
+                squares[s->n_squares++] = koksma__place(x, y);
             }
         }
     }

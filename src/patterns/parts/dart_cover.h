@@ -22,6 +22,10 @@
 
 #include "kernels/kernels.h"
 
+typedef struct koksma__square {
+    uint32_t x, y; /* in units of the squares' size, in the whole grid */
+} koksma__square;
+
 /* A dart that is not decided in its tile. */
 typedef struct koksma__dart {
     double x, y, time;
@@ -54,8 +58,8 @@ typedef struct koksma__disks {
     int32_t cover;     /* and of a place from the far end of a square: below is surely covered */
     int level;         /* squares are cells / 2^level wide */
     size_t n_squares, square_room, spare_room, first_room;
-    koksma__square *squares, *spare; /* by tile */
-    size_t *first;                   /* square of each tile, and the number of squares */
+    void *squares, *spare; /* by tile; packed words (kernels/dart_cells.h) up to KOKSMA__PACKED_LEVEL, then squares */
+    size_t *first;         /* square of each tile, and the number of squares */
     koksma__dart *waiting;
     size_t n_waiting, waiting_room;
     uint64_t seed, dart; /* the stream of darts */
@@ -110,17 +114,25 @@ static inline size_t koksma__disks_corner(const koksma__disks *s, uint32_t tile,
     return tile * s->block + cell_y * s->stride + cell_x;
 }
 
-/* A tile's cells and squares as the kernels see them. */
+/* A tile's cells and squares as the kernels see them; they can't see squares that are not packed. */
 static inline koksma__dart_cells koksma__disks_cells(const koksma__disks *s, const koksma__tile *t)
 {
     const size_t first = s->first[t->number], end = s->first[t->number + 1];
     return (koksma__dart_cells){.places = s->places + t->number * s->block,
                                 .stride = s->stride,
-                                .x = t->x,
-                                .y = t->y,
                                 .level = s->level,
                                 .count = (uint32_t)(end - first),
-                                .squares = s->squares + first};
+                                .squares = (const uint32_t *)s->squares + first};
+}
+
+/* Number i of the list, which is one of a tile. */
+static inline koksma__square koksma__disks_square(const koksma__disks *s, const koksma__tile *t, size_t i)
+{
+    if (s->level > KOKSMA__PACKED_LEVEL) {
+        return ((const koksma__square *)s->squares)[i];
+    }
+    const uint32_t packed = ((const uint32_t *)s->squares)[i];
+    return (koksma__square){(t->x << s->level) + (packed & 0xffff), (t->y << s->level) + (packed >> 16)};
 }
 
 /* The place in who. */

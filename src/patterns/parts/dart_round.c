@@ -64,22 +64,52 @@ static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
     return least < s->high && (least < s->low || near_in_doubles(s, d));
 }
 
-static double side_of_squares(const koksma__disks *s)
+/* The squares of a tile, to throw at. */
+typedef struct target {
+    koksma__tile tile;
+    koksma__dart_cells cells;
+    size_t first;
+    double side; /* of a square, on the torus */
+} target;
+
+static target target_of(const koksma__disks *s, uint32_t number)
 {
-    return 1 / ((double)((uint32_t)1 << s->level) * s->cells);
+    target a = {.tile = koksma__disks_tile(s, number), .first = s->first[number]};
+    a.cells = koksma__disks_cells(s, &a.tile);
+    a.side = 1 / ((double)((uint32_t)1 << s->level) * s->cells);
+    return a;
 }
 
-/* A dart at a random one of the squares of a tile, `whole` wide. False if it misses the unit square by rounding. */
-static inline bool aim(const koksma__tile *t, const koksma__dart_cells *cells, double whole, const uint32_t *w,
-                       koksma__dart *d)
+/* The darts, by their numbers, that are not clearly near points. */
+static size_t choose_far(const koksma__disks *s, const target *a, size_t count, const uint32_t *words, uint32_t *far)
 {
-    const koksma__square square = cells->squares[koksma__below(w[0], cells->count)];
-    d->place = koksma__dart_place(cells, square, w);
-    d->cell_x = (uint16_t)((square.x >> cells->level) - t->x);
-    d->cell_y = (uint16_t)((square.y >> cells->level) - t->y);
+    if (s->level <= KOKSMA__PACKED_LEVEL) {
+        return s->kernels->far_darts(&a->cells, s->low, count, words, far);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        far[i] = i;
+    }
+    return count;
+}
+
+/* The place of a coordinate of a dart, from the grid's corner. */
+static inline uint32_t place_of(uint32_t square, uint32_t word, int level)
+{
+    return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
+}
+
+/* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
+static inline bool aim(const koksma__disks *s, const target *a, const uint32_t *w, koksma__dart *d)
+{
+    const koksma__tile *t = &a->tile;
+    const koksma__square square = koksma__disks_square(s, t, a->first + koksma__below(w[0], a->cells.count));
+    d->place = koksma__place(place_of(square.x, w[1], s->level) - (t->x << KOKSMA__PLACE_BITS),
+                             place_of(square.y, w[2], s->level) - (t->y << KOKSMA__PLACE_BITS));
+    d->cell_x = (uint16_t)((square.x >> s->level) - t->x);
+    d->cell_y = (uint16_t)((square.y >> s->level) - t->y);
     d->tile = t->number;
-    d->x = (square.x + w[1] * 0x1p-32) * whole;
-    d->y = (square.y + w[2] * 0x1p-32) * whole;
+    d->x = (square.x + w[1] * 0x1p-32) * a->side;
+    d->y = (square.y + w[2] * 0x1p-32) * a->side;
     return (d->x < 1) & (d->y < 1);
 }
 
@@ -118,19 +148,17 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
    that are near the points there were before. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
-    const koksma__tile t = koksma__disks_tile(s, 0);
-    const koksma__dart_cells cells = koksma__disks_cells(s, &t);
-    const double whole = side_of_squares(s);
+    const target a = target_of(s, 0);
     koksma_status status = KOKSMA_OK;
     while (darts && s->n < n && !status) {
         uint32_t far[KOKSMA__DART_WORDS];
         const uint32_t *words;
         const size_t drawn = draw(s, &words), some = drawn < darts ? drawn : darts;
-        const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
+        const size_t left = choose_far(s, &a, some, words, far);
         for (size_t i = 0; i < left && s->n < n && !status; i++) {
             koksma__dart d = {.time = 0};
-            if (aim(&t, &cells, whole, words + 4 * far[i], &d) && !is_near(s, &d)) {
-                status = keep(s, &t, &d);
+            if (aim(s, &a, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                status = keep(s, &a.tile, &d);
             }
         }
         s->used += some;
@@ -203,33 +231,31 @@ static bool tick(stopwatch *c, uint32_t word)
 }
 
 /* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
-static void fetch(const koksma__disks *s, const koksma__tile *t, const koksma__dart_cells *cells)
+static void fetch(const koksma__disks *s, const target *a)
 {
     for (size_t i = 0; i < s->block; i += 16) {
-        __builtin_prefetch(cells->places + i, 1);
+        __builtin_prefetch(a->cells.places + i, 1);
     }
     for (size_t i = 0; i < s->wide * s->wide; i += 16) {
-        __builtin_prefetch(s->who + t->number * s->wide * s->wide + i, 1);
+        __builtin_prefetch(s->who + a->tile.number * s->wide * s->wide + i, 1);
     }
-    for (size_t i = 0; i < cells->count; i += 8) {
-        __builtin_prefetch(cells->squares + i);
+    for (size_t i = 0; i < a->cells.count; i += 16) {
+        __builtin_prefetch(a->cells.squares + i);
     }
 }
 
 /* One of several tiles. Times of points are written down if asked for. */
 static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
 {
-    const koksma__tile t = koksma__disks_tile(s, number);
-    const koksma__dart_cells cells = koksma__disks_cells(s, &t);
-    if (!cells.count) {
+    const target a = target_of(s, number);
+    if (!a.cells.count) {
         return KOKSMA_OK;
     }
     memset(q->rows, 0, sizeof q->rows);
-    if (mean * cells.count > 256) {
-        fetch(s, &t, &cells);
+    stopwatch clock = {.rate = mean * a.cells.count, .product = 1};
+    if (clock.rate > 256) {
+        fetch(s, &a);
     }
-    const double whole = side_of_squares(s);
-    stopwatch clock = {.rate = mean * cells.count, .product = 1};
     koksma_status status = KOKSMA_OK;
     for (bool more = true; more && !status;) {
         uint32_t far[KOKSMA__DART_WORDS];
@@ -241,15 +267,15 @@ static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, 
             before[some] = clock.before;
             products[some] = clock.product;
         }
-        const size_t left = s->kernels->far_darts(&cells, s->low, some, words, far);
+        const size_t left = choose_far(s, &a, some, words, far);
         for (size_t i = 0; i < left && !status; i++) {
             koksma__dart d;
-            if (aim(&t, &cells, whole, words + 4 * far[i], &d) && !is_near(s, &d)) {
-                const bool waits = must_wait(s, &t, q, &d);
+            if (aim(s, &a, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                const bool waits = must_wait(s, &a.tile, q, &d);
                 d.time = waits || timed
                              ? fmin((before[far[i]] - koksma__log(products[far[i]])) / clock.rate, 1 - 0x1p-53)
                              : 0;
-                status = waits ? wait(s, q, &d) : keep(s, &t, &d);
+                status = waits ? wait(s, q, &d) : keep(s, &a.tile, &d);
             }
         }
         s->used += some + !more;
