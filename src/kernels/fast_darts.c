@@ -75,12 +75,12 @@ LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t 
 }
 
 /* A quarter of a square: the square's halves in x and in y. */
-typedef struct quarters {
+typedef struct four {
     lanes8_pairs at[4], half;
     lanes8 least[4]; /* square of the distance to a far end */
-} quarters;
+} four;
 
-LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, quarters *q)
+LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
 {
     const uint32_t x = (4 * (square & 0xffff) + 1) * half, y = (4 * (square >> 16) + 1) * half;
     lanes8_splat(koksma__place(x, y), &q->at[0]);
@@ -91,7 +91,7 @@ LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, quarters *q)
 }
 
 /* The next eight places; the first ones set `least`. */
-LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, quarters *q)
+LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, four *q)
 {
     for (int k = 0; k < 4; k++) {
         lanes8_pairs far_end = *places - q->at[k];
@@ -110,13 +110,14 @@ LANES8_INLINE void look_at(const lanes8_pairs *places, bool first, quarters *q)
 /* Appends those quarters of a square that are not covered. */
 LANES8_INLINE size_t put_quarters(uint32_t square, unsigned covered, uint32_t *out)
 {
+    const lanes4 quarters = (lanes4){0, 1, 0x10000, 0x10001} + 2 * square;
     const unsigned open = ~covered & 15;
-    lanes4_pick((lanes4){0, 1, 0x10000, 0x10001} + 2 * square, open, out);
+    lanes4_pick(&quarters, open, out);
     return (size_t)__builtin_popcount(open);
 }
 
-/* Squares so large that only the eight cells about their own can cover a quarter; one in each row beside them is
-   looked at in passing. */
+/* Squares so large that hardly a point beyond the eight cells about their own covers a quarter. One cell more in each
+   row is looked at in passing. Nothing depends on the square before, and nothing branches. */
 static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
@@ -127,7 +128,7 @@ static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint
         const uint32_t cell_x = (square & 0xffff) >> own.level, cell_y = square >> 16 >> own.level;
         const uint32_t *cells = own.places + (cell_y + 1) * own.stride + cell_x + 1;
         lanes8_pairs above_below, beside;
-        quarters q;
+        four q;
         lanes8_load_halves(cells, cells + 2 * own.stride, &above_below);
         lanes8_load_halves(cells + own.stride, cells + own.stride, &beside);
         set_quarters(square, half, &q);
@@ -139,6 +140,7 @@ static size_t open_large_quarters(const koksma__dart_cells *c, int32_t low, uint
     return kept;
 }
 
+/* Smaller ones: the places about a cell are found once for its squares. */
 static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint32_t *out)
 {
     const koksma__dart_cells own = *c;
@@ -162,7 +164,7 @@ static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint
             continue;
         }
         lanes8_pairs places;
-        quarters q;
+        four q;
         set_quarters(square, half, &q);
         lanes8_load(around, &places);
         look_at(&places, true, &q);

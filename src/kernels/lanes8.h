@@ -158,17 +158,17 @@ LANES8_INLINE void lanes8_pick5(const lanes8_pairs *v, unsigned bits, uint32_t *
 }
 
 /* Of four lanes, those with a bit, side by side at out, which has room for four. */
-LANES8_INLINE void lanes4_pick(lanes4 v, unsigned bits, uint32_t *out)
+LANES8_INLINE void lanes4_pick(const lanes4 *v, unsigned bits, uint32_t *out)
 {
 #ifdef LANES8_AVX2
     static const uint32_t order[16] = {0x0, 0x0,   0x1,   0x100,   0x2,   0x200,   0x201,   0x20100,
                                        0x3, 0x300, 0x301, 0x30100, 0x302, 0x30200, 0x30201, 0x3020100};
     const __m128i from = _mm_cvtepu8_epi32(_mm_cvtsi32_si128((int)order[bits]));
-    _mm_storeu_ps((float *)out, _mm_permutevar_ps((__m128)v, from));
+    _mm_storeu_ps((float *)out, _mm_permutevar_ps((__m128)*v, from));
 #else
     int count = 0;
     for (int l = 0; l < 4; l++) {
-        out[count] = v[l];
+        out[count] = (*v)[l];
         count += (int)(bits >> l & 1);
     }
 #endif
