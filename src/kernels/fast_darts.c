@@ -74,10 +74,10 @@ LANES8_INLINE size_t look_around(const uint32_t *cells, size_t stride, uint32_t 
     return count;
 }
 
-/* A quarter of a square: the square's halves in x and in y. */
+/* The quarters of a square: middles, half of a side in x and in y, and the places looked at. */
 typedef struct four {
     lanes8_pairs at[4], half;
-    lanes8 least[4]; /* square of the distance to a far end */
+    lanes8 least[4]; /* squares of distances to far ends; the smallest of a lane */
 } four;
 
 LANES8_INLINE void set_quarters(uint32_t square, uint32_t half, four *q)
