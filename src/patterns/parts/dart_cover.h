@@ -14,8 +14,9 @@
  *
  * Places are also kept in 2^-12 of a cell (kernels/dart_cells.h): enough to decide all but the closest cases, which
  * are decided by the doubles. Darts are drawn by hundreds, and at first those that are near points of before are left
- * out, all at once: they would be left out in their turn. What remains is decided one by one. A cover may hold squares
- * without room, since darts that land there are near points; so large squares are asked about the nearest cells only.
+ * out, all at once: they would be left out in their turn. What remains is decided one by one. A cover may hold
+ * squares without room, since darts that land there are near points; so large squares are asked about the nearest
+ * cells only.
  */
 #ifndef KOKSMA_PATTERNS_PARTS_DART_COVER_H
 #define KOKSMA_PATTERNS_PARTS_DART_COVER_H
