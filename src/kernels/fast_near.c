@@ -1,22 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The two questions of maximal Poisson disk sampling, for several places at a time without branches. */
-#include <float.h>
 #include <string.h>
 
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
-#include "kernels/lanes8.h"
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
                                  double scale, double *least);
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2);
-unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride, float x, float y, float low,
-                                float high);
-size_t KERNEL_NAME(look_around)(const float *xs, const float *ys, size_t stride, float *around_xs, float *around_ys);
-unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float *ys, float x, float y, float step,
-                                     float h, float d2);
-
 static inline lanes64_d splat(double x)
 {
     return x - (lanes64_d){0};
@@ -62,67 +54,6 @@ unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, d
     }
     return (unsigned)any(found[0]) | (unsigned)any(found[1]) << 1 | (unsigned)any(found[2]) << 2 |
            (unsigned)any(found[3]) << 3;
-}
-
-unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride, float x, float y, float low,
-                                float high)
-{
-    const lanes8 at_x = (x + 2) - (lanes8){0, 1, 2, 3, 4, 5, 6, 7};
-    lanes8 least = (lanes8){0} + FLT_MAX;
-    for (int r = 0; r < 5; r++, xs += stride, ys += stride) {
-        lanes8 a, b;
-        lanes8_load(xs, &a);
-        lanes8_load(ys, &b);
-        a -= at_x;
-        b -= (y + 2) - (float)r;
-        const lanes8 square = a * a + b * b;
-        lanes8_min(&square, &least);
-    }
-    const lanes8_i nearer = (lanes8_i)(least < low), near = (lanes8_i)(least < high);
-    return lanes8_any(&nearer) | lanes8_any(&near) << 1;
-}
-
-size_t KERNEL_NAME(look_around)(const float *xs, const float *ys, size_t stride, float *around_xs, float *around_ys)
-{
-    const lanes8 columns = {-2, -1, 0, 1, 2, 3, 4, 5};
-    size_t count = 0;
-    for (int r = 0; r < 5; r++, xs += stride, ys += stride) {
-        lanes8 x, y;
-        lanes8_load(xs, &x);
-        lanes8_load(ys, &y);
-        const lanes8_i here = (lanes8_i)(x < 2);
-        const unsigned bits = lanes8_bits(&here) & 31;
-        x += columns;
-        y += (float)(r - 2);
-        lanes8_pick(&x, &y, bits, around_xs + count, around_ys + count);
-        count += (size_t)__builtin_popcount(bits);
-    }
-    const lanes8 far = (lanes8){0} + 1e9F;
-    memcpy(around_xs + count, &far, sizeof far);
-    memcpy(around_ys + count, &far, sizeof far);
-    return count;
-}
-
-#define FAR_END(from, at) (((lanes8)((lanes8_i)((from) - (at)) & 0x7fffffff)) + h)
-
-unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float *ys, float x, float y, float step,
-                                     float h, float d2)
-{
-    lanes8_i found[4] = {{0}, {0}, {0}, {0}};
-    for (size_t i = 0; i < count; i += 8) {
-        lanes8 px, py;
-        lanes8_load(xs + i, &px);
-        lanes8_load(ys + i, &py);
-        lanes8 a0 = FAR_END(px, x - step), a1 = FAR_END(px, x + step);
-        lanes8 b0 = FAR_END(py, y - step), b1 = FAR_END(py, y + step);
-        a0 *= a0, a1 *= a1, b0 *= b0, b1 *= b1;
-        found[0] |= (lanes8_i)(a0 + b0 < d2);
-        found[1] |= (lanes8_i)(a1 + b0 < d2);
-        found[2] |= (lanes8_i)(a0 + b1 < d2);
-        found[3] |= (lanes8_i)(a1 + b1 < d2);
-    }
-    return lanes8_any(&found[0]) | lanes8_any(&found[1]) << 1 | lanes8_any(&found[2]) << 2 |
-           lanes8_any(&found[3]) << 3;
 }
 
 void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,

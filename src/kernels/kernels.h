@@ -5,6 +5,7 @@
 #include <koksma/koksma.h>
 
 #include "core/visibility.h"
+#include "kernels/dart_cells.h"
 
 typedef struct koksma__kernel_table {
     const char *isa; /* "ref", "baseline", "avx2", "avx512" */

@@ -2,6 +2,7 @@
 /* The reference twins of what makes points: plain loops, no intrinsics, no blocking. The judge of fast_*.c. */
 #define KOKSMA_ISA ref
 #include <math.h>
+#include <stdlib.h>
 
 #include <koksma/sampler.h>
 
@@ -170,50 +171,61 @@ void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, si
     }
 }
 
-unsigned KERNEL_NAME(near_rows)(const float *xs, const float *ys, size_t stride, float x, float y, float low,
-                                float high)
+int32_t KERNEL_NAME(nearest_place)(const uint32_t *cells, size_t stride, uint32_t place)
 {
-    unsigned found = 0;
-    for (int r = 0; r < 5; r++) {
-        for (int c = 0; c < 8; c++) {
-            const float a = xs[(size_t)r * stride + (size_t)c] - ((x + 2) - (float)c);
-            const float b = ys[(size_t)r * stride + (size_t)c] - ((y + 2) - (float)r);
-            found |= (unsigned)(a * a + b * b < low) | (unsigned)(a * a + b * b < high) << 1;
+    int32_t least = INT32_MAX;
+    for (size_t r = 0; r < 5; r++) {
+        for (size_t c = 0; c < 8; c++) {
+            const int32_t distance = koksma__place_distance(place, cells[r * stride + c]);
+            least = distance < least ? distance : least;
+        }
+    }
+    return least;
+}
+
+size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t count, const uint32_t *words,
+                              uint32_t *far)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t square = c->squares[koksma__below(words[4 * i], c->count)];
+        const uint32_t *cells = c->places + koksma__dart_corner(c, square);
+        if (KERNEL_NAME(nearest_place)(cells, c->stride, koksma__dart_place(c, square, words + 4 * i)) >= low) {
+            far[found++] = (uint32_t)i;
         }
     }
     return found;
 }
 
-size_t KERNEL_NAME(look_around)(const float *xs, const float *ys, size_t stride, float *around_xs, float *around_ys)
+/* The difference of two places in one coordinate. */
+static int32_t from_to(uint32_t a, uint32_t b)
 {
-    size_t count = 0;
-    for (int r = 0; r < 5; r++) {
-        for (int c = 0; c < 5; c++) {
-            const size_t at = (size_t)r * stride + (size_t)c;
-            if (xs[at] < 2) {
-                around_xs[count] = xs[at] + (float)(c - 2);
-                around_ys[count++] = ys[at] + (float)(r - 2);
+    const uint32_t steps = (b - a) & 0xffff;
+    return steps < 0x8000 ? (int32_t)steps : (int32_t)steps - 0x10000;
+}
+
+size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out)
+{
+    const int32_t half = KOKSMA__PLACE_UNITS / 4 >> c->level; /* of a quarter's side */
+    size_t kept = 0;
+    for (uint32_t i = 0; i < 4 * c->count; i++) {
+        const uint32_t whole_x = c->squares[i / 4] & 0xffff, whole_y = c->squares[i / 4] >> 16;
+        const uint32_t cell_x = whole_x >> c->level, cell_y = whole_y >> c->level;
+        const uint32_t own_x = 2 * whole_x + i % 2, own_y = 2 * whole_y + i / 2 % 2;
+        const uint32_t x = (2 * own_x + 1) * (uint32_t)half, y = (2 * own_y + 1) * (uint32_t)half;
+        bool covered = false;
+        for (uint32_t cell = 0; cell < 25; cell++) {
+            const uint32_t u = cell % 5, v = cell / 5, place = c->places[(cell_y + v) * c->stride + cell_x + u];
+            const bool inner = v >= 1 && v <= 3 && u >= 1, corner = (u == 0 || u == 4) && (v == 0 || v == 4);
+            if ((c->level < 2 ? inner : !corner) && place != koksma__no_place(cell_x + u - 2, cell_y + v - 2)) {
+                const int32_t a = abs(from_to(x, place)) + half, b = abs(from_to(y, place >> 16)) + half;
+                covered = covered || cell == 12 || a * a + b * b < low;
             }
         }
+        out[kept] = koksma__place(own_x, own_y);
+        kept += !covered;
     }
-    for (int far = 0; far < 8; far++) {
-        around_xs[count + (size_t)far] = around_ys[count + (size_t)far] = 1e9F;
-    }
-    return count;
-}
-
-unsigned KERNEL_NAME(covers_roughly)(size_t count, const float *xs, const float *ys, float x, float y, float step,
-                                     float h, float d2)
-{
-    unsigned found = 0;
-    for (size_t i = 0; i < count; i++) {
-        for (unsigned q = 0; q < 4; q++) {
-            const float a = fabsf(xs[i] - (q & 1 ? x + step : x - step)) + h;
-            const float b = fabsf(ys[i] - (q & 2 ? y + step : y - step)) + h;
-            found |= (unsigned)(a * a + b * b < d2) << q;
-        }
-    }
-    return found;
+    return kept;
 }
 
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,

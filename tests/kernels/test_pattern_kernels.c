@@ -122,27 +122,32 @@ static void covers(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
-/* Of a grid of which half is empty, where places are in their cells. */
-static void cells_as_floats(const koksma__kernel_table *t, size_t count, void *out)
+/* Of a tile of which most is empty: squares of every level, some of a cell one after the other. */
+static void dart_cells(const koksma__kernel_table *t, size_t count, void *out)
 {
-    enum { STRIDE = 17 };
-    static float xs[600], ys[600];
-    unsigned *found = out;
-    float around_x[40], around_y[40];
-    for (size_t i = 0; i < 600; i++) {
-        xs[i] = i % 3 ? 1e9F : (float)units[i];
-        ys[i] = i % 3 ? 1e9F : (float)units[599 - i];
+    enum { CELLS = 9, STRIDE = CELLS + 7, UNITS = KOKSMA__PLACE_UNITS };
+    const int32_t low = 33000000; /* of a reach of 1.4 cells */
+    uint32_t places[STRIDE * (CELLS + 4)], *found = out;
+    uint32_t squares[MAX];
+    koksma__dart_cells c = {places, STRIDE, (int)(count % KOKSMA__PACKED_LEVEL), (uint32_t)count, squares};
+    for (uint32_t i = 0; i < STRIDE * (CELLS + 4); i++) {
+        const uint32_t x = i % STRIDE - 2, y = i / STRIDE - 2;
+        places[i] =
+            i % STRIDE < CELLS + 4 && words[i] % 3 == 0
+                ? koksma__place(x * UNITS + words[i + 1] % (UNITS + 1), y * UNITS + words[i + 2] % (UNITS + 1))
+                : koksma__no_place(x, y);
     }
     for (size_t i = 0; i < count; i++) {
-        const float x = (float)units[i + 1], y = (float)units[i + 9], h = (float)units[i] / 4;
-        found[8 * i] = t->near_rows(xs + i, ys + i, STRIDE, x, y, 0.3F, 0.35F);
-        const size_t places = t->look_around(xs + i, ys + i, STRIDE, around_x, around_y);
-        found[8 * i + 1] = (unsigned)places;
-        memcpy(found + 8 * i + 2, around_x + places / 2, 2 * sizeof(float));
-        memcpy(found + 8 * i + 4, around_y + places - 1, 2 * sizeof(float));
-        found[8 * i + 6] = t->covers_roughly(places, around_x, around_y, x, y, h, h, 2.1F);
-        found[8 * i + 7] = t->covers_roughly(places, around_x, around_y, x, y, 0, h, 0.9F);
+        const uint32_t x = words[i / 3] % CELLS, y = words[i / 3 + 1] % CELLS, inside = (1u << c.level) - 1;
+        squares[i] = koksma__place(x << c.level | (words[i] & inside), y << c.level | (words[i + 2] & inside));
+        *found++ = (uint32_t)t->nearest_place(places + koksma__dart_corner(&c, squares[i]), STRIDE,
+                                              koksma__dart_place(&c, squares[i], words + i));
     }
+    found += t->far_darts(&c, low, count, words, found);
+    uint32_t open[4 * MAX + 1];
+    const size_t kept = t->open_quarters(&c, low, open);
+    *found++ = (uint32_t)kept;
+    memcpy(found, open, kept * sizeof *open);
 }
 
 static void nearest_offset(const koksma__kernel_table *t, size_t count, void *out)
@@ -223,7 +228,7 @@ TEST(owen_hash, MAX)
 TEST(pascal, MAX)
 TEST(grow, MAX)
 TEST(covers, 250)
-TEST(cells_as_floats, 250)
+TEST(dart_cells, 200)
 TEST(nearest_offset, MAX)
 TEST(nested_digits, MAX)
 TEST(rooks_2d, 120)
@@ -238,7 +243,7 @@ int main(void)
         cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_rows_equals_reference),
         cmocka_unit_test(digital_at_equals_reference),     cmocka_unit_test(owen_hash_equals_reference),
         cmocka_unit_test(pascal_equals_reference),         cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(cells_as_floats_equals_reference),
+        cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(dart_cells_equals_reference),
         cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
         cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
         cmocka_unit_test(gauss_force_equals_reference),

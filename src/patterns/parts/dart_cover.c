@@ -10,17 +10,15 @@
 #include "core/status.h"
 
 enum {
-    BEFORE = KOKSMA__DART_BEFORE,
-    AFTER = KOKSMA__DART_AFTER,
-    WHOLE = 96, /* cells a side of the largest grid that is one tile */
-    TILE = 64   /* the most of another tile */
+    BORDER = KOKSMA__DART_BORDER,
+    SPARE = 3 /* places after a row, which kernels read */
 };
 
 #define NONE UINT32_MAX
 
 #define FINEST ((uint64_t)1 << 30) /* squares a side; room smaller than that is none */
 
-static const float far_away = 1e9F;
+static const double far_away = 1e9;
 
 /* Room for `count` things of `size` bytes, whose contents may be lost. */
 static bool get_room(void **things, size_t *room, size_t count, size_t size)
@@ -34,20 +32,36 @@ static bool get_room(void **things, size_t *room, size_t count, size_t size)
     return *things != NULL;
 }
 
-/* Cells and tiles for distance d; the margins are those of floats: places are below 8 cells, and off by 2^-22. */
+/* Cells and tiles for distance d. The difference of two places is off by less than a unit in each coordinate, that
+   of a place and the middle of a square by half of one. */
 static void choose_grid(koksma__disks *s, double d)
 {
     s->d = d;
     s->cells = (uint32_t)ceil(sqrt(2) / d);
-    s->tiles = s->cells <= WHOLE ? 1 : (s->cells + TILE - 1) / TILE;
+    s->tiles = (s->cells + KOKSMA__DART_TILE - 1) / KOKSMA__DART_TILE;
     s->wide = (s->cells + s->tiles - 1) / s->tiles;
-    s->stride = s->wide + BEFORE + AFTER;
-    s->block = s->stride * (s->wide + 2 * BEFORE);
+    s->stride = s->wide + 2 * BORDER + SPARE;
+    s->block = s->stride * (s->wide + 2 * BORDER);
     s->level = 0;
     s->n_squares = 0;
-    const double reach = d * s->cells;
-    s->low = (float)(reach * reach - 1e-5);
-    s->high = (float)(reach * reach + 1e-5);
+    const double reach = d * s->cells * KOKSMA__PLACE_UNITS;
+    s->low = (int32_t)((reach - 1.42) * (reach - 1.42));
+    s->high = (int32_t)((reach + 1.42) * (reach + 1.42)) + 1;
+    s->cover = (int32_t)((reach - 0.71) * (reach - 0.71));
+}
+
+/* The tiles' cells without points. */
+static void clear_grid(koksma__disks *s)
+{
+    const size_t tiles = (size_t)s->tiles * s->tiles;
+    for (size_t i = 0; i < s->block; i++) {
+        const uint32_t x = (uint32_t)(i % s->stride), y = (uint32_t)(i / s->stride);
+        s->places[i] = koksma__no_place(x - BORDER, y - BORDER);
+    }
+    for (size_t t = 1; t < tiles; t++) {
+        memcpy(s->places + t * s->block, s->places, s->block * sizeof *s->places);
+    }
+    memset(s->who, 0xff, tiles * s->wide * s->wide * sizeof *s->who);
 }
 
 /* An empty grid for distance d. */
@@ -55,27 +69,21 @@ static koksma_status make_grid(koksma__disks *s, double d)
 {
     choose_grid(s, d);
     const size_t tiles = (size_t)s->tiles * s->tiles, squares = (size_t)s->cells * s->cells;
-    const size_t places = tiles * s->block + AFTER, own = tiles * s->wide * s->wide;
-    const size_t bytes = places * (2 * sizeof *s->gx) + own * sizeof *s->who + squares * sizeof *s->squares;
-    void *grid = s->gx, *who = s->who, *list = s->squares, *first = s->first;
-    size_t who_room = s->who_room;
-    const bool ok = get_room(&grid, &s->grid_room, 2 * places, sizeof *s->gx) &&
-                    get_room(&who, &who_room, own, sizeof *s->who) &&
-                    get_room(&list, &s->square_room, squares, sizeof *s->squares) &&
+    const size_t places = tiles * s->block, own = tiles * s->wide * s->wide;
+    const size_t bytes = places * sizeof *s->places + own * sizeof *s->who + squares * sizeof(uint32_t);
+    void *grid = s->places, *who = s->who, *list = s->squares, *first = s->first;
+    const bool ok = get_room(&grid, &s->places_room, places, sizeof *s->places) &&
+                    get_room(&who, &s->who_room, own, sizeof *s->who) &&
+                    get_room(&list, &s->square_room, squares * sizeof(uint32_t), 1) &&
                     get_room(&first, &s->first_room, tiles + 1, sizeof *s->first);
-    s->gx = grid;
+    s->places = grid;
     s->who = who;
-    s->who_room = who_room;
     s->squares = list;
     s->first = first;
     if (!ok) {
         return koksma__fail_memory(bytes);
     }
-    s->gy = s->gx + places;
-    for (size_t i = 0; i < 2 * places; i++) {
-        s->gx[i] = far_away;
-    }
-    memset(s->who, 0xff, own * sizeof *s->who);
+    clear_grid(s);
     if (s->tiles > 1 && !s->times) {
         s->times = malloc(s->room * sizeof *s->times);
     }
@@ -95,7 +103,7 @@ koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
 
 void koksma__disks_fini(koksma__disks *s)
 {
-    free(s->gx);
+    free(s->places);
     free(s->who);
     free(s->squares);
     free(s->spare);
@@ -108,15 +116,15 @@ void koksma__disks_fini(koksma__disks *s)
 
 /* Where a cell is on one axis: the tiles of the row, and its number in them, which is outside in borders. */
 typedef struct axis {
-    int count, at[BEFORE + AFTER + 1];
-    uint32_t tile[BEFORE + AFTER + 1];
+    int count, at[2 * BORDER + 1];
+    uint32_t tile[2 * BORDER + 1];
 } axis;
 
 static axis find_copies(const koksma__disks *s, uint32_t tile, int cell)
 {
     axis a = {.count = 1, .at = {cell}, .tile = {tile}};
     uint32_t t = tile;
-    for (int at = cell; at < AFTER; a.count++) {
+    for (int at = cell; at < BORDER; a.count++) {
         t = t ? t - 1 : s->tiles - 1;
         at += (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t));
         a.at[a.count] = at;
@@ -124,7 +132,7 @@ static axis find_copies(const koksma__disks *s, uint32_t tile, int cell)
     }
     t = tile;
     for (int at = cell, size;
-         size = (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t)), at >= size - BEFORE; a.count++) {
+         size = (int)(koksma__disks_start(s, t + 1) - koksma__disks_start(s, t)), at >= size - BORDER; a.count++) {
         at -= size;
         t = t + 1 < s->tiles ? t + 1 : 0;
         a.at[a.count] = at;
@@ -133,49 +141,35 @@ static axis find_copies(const koksma__disks *s, uint32_t tile, int cell)
     return a;
 }
 
-void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x, uint32_t cell_y, float in_x,
-                       float in_y, size_t i)
+void koksma__disks_put(koksma__disks *s, const koksma__tile *t, uint32_t cell_x, uint32_t cell_y, uint32_t place,
+                       size_t i)
 {
     s->who[koksma__disks_own(s, t->number, cell_x, cell_y)] = (uint32_t)i;
-    if ((cell_x >= AFTER) & (cell_y >= AFTER) & (cell_x + BEFORE < t->nx) & (cell_y + BEFORE < t->ny)) {
-        const size_t place = koksma__disks_place(s, t->number, (int)cell_x, (int)cell_y);
-        s->gx[place] = in_x;
-        s->gy[place] = in_y;
+    if ((cell_x >= BORDER) & (cell_y >= BORDER) & (cell_x + BORDER < t->nx) & (cell_y + BORDER < t->ny)) {
+        s->places[koksma__disks_corner(s, t->number, cell_x + BORDER, cell_y + BORDER)] = place;
         return;
     }
     const axis x = find_copies(s, t->number % s->tiles, (int)cell_x);
     const axis y = find_copies(s, t->number / s->tiles, (int)cell_y);
     for (int v = 0; v < y.count; v++) {
         for (int u = 0; u < x.count; u++) {
-            if (y.at[v] < (int)s->wide + BEFORE) {
-                const size_t place = koksma__disks_place(s, y.tile[v] * s->tiles + x.tile[u], x.at[u], y.at[v]);
-                s->gx[place] = in_x;
-                s->gy[place] = in_y;
-            }
+            const uint32_t at_x = (uint32_t)x.at[u], at_y = (uint32_t)y.at[v];
+            const uint32_t move_x = (at_x - cell_x) << KOKSMA__PLACE_BITS, move_y = (at_y - cell_y)
+                                                                                    << KOKSMA__PLACE_BITS;
+            s->places[koksma__disks_corner(s, y.tile[v] * s->tiles + x.tile[u], at_x + BORDER, at_y + BORDER)] =
+                koksma__place(place + move_x, (place >> 16) + move_y);
         }
     }
 }
 
-/* The points of the cells that a point of the cell can be in reach of: 25 of them, with the corners, since the
-   diagonal of a cell is a little shorter than d. */
+/* The points of the cells that a point of the cell can be in reach of, in units of the torus: 25 of them, with the
+   corners, since the diagonal of a cell is a little shorter than d. */
 typedef struct around {
     size_t count;
-    float xs[40], ys[40]; /* and at least eight places far away */
+    double xs[32], ys[32];
 } around;
 
-static inline void look_around(const koksma__disks *s, uint32_t tile, uint32_t x, uint32_t y, around *a)
-{
-    const size_t corner = koksma__disks_corner(s, tile, x, y);
-    a->count = s->kernels->look_around(s->gx + corner, s->gy + corner, s->stride, a->xs, a->ys);
-}
-
-/* The same in doubles, in units of the torus. */
-typedef struct around_exact {
-    size_t count;
-    double xs[32], ys[32];
-} around_exact;
-
-static void look_exactly(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y, around_exact *a)
+static void look_around(const koksma__disks *s, uint32_t cell_x, uint32_t cell_y, around *a)
 {
     const int cells = (int)s->cells;
     size_t count = 0;
@@ -191,66 +185,35 @@ static void look_exactly(const koksma__disks *s, uint32_t cell_x, uint32_t cell_
         }
     }
     for (a->count = (count + 7) & ~(size_t)7; count < a->count; count++) {
-        a->xs[count] = a->ys[count] = (double)far_away;
+        a->xs[count] = a->ys[count] = far_away;
     }
 }
 
-/* Which quarters of a square are covered, as the kernels say. Squares much larger than the errors of floats may be
-   told not to be covered when they nearly are not: their quarters will be. */
-typedef struct judge {
-    const koksma__disks *s;
-    bool exact;
-    float h;     /* half of a quarter's side, in cells */
-    double half; /* and on the torus */
-    union {
-        around few;
-        around_exact all;
-    } points;
-} judge;
-
-static inline unsigned covered(const judge *j, koksma__square square)
+/* The quarters of a tile's squares that have room, by doubles: for squares so small that the errors of places would
+   matter. Larger ones may be told to have room when they nearly have, since their quarters will be asked. */
+static size_t refine_exactly(const koksma__disks *s, const koksma__tile *t, size_t first, size_t end,
+                             koksma__square *out)
 {
-    const koksma__kernel_table *k = j->s->kernels;
-    if (j->exact) {
-        return k->covers(j->points.all.count, j->points.all.xs, j->points.all.ys,
-                         (4 * (double)square.x + 2) * j->half, (4 * (double)square.y + 2) * j->half, j->half, j->half,
-                         j->s->d * j->s->d);
-    }
-    const uint32_t inside = ((uint32_t)1 << (j->s->level - 1)) - 1;
-    const float x = (float)(4 * (square.x & inside) + 2) * j->h, y = (float)(4 * (square.y & inside) + 2) * j->h;
-    return k->covers_roughly(j->points.few.count, j->points.few.xs, j->points.few.ys, x, y, j->h, j->h, j->s->low);
-}
-
-/* The squares of a tile, those of a cell being neighbours in the list; the quarters with room are appended to the
-   spare list. */
-static size_t refine_tile(judge *j, uint32_t number, size_t first, size_t end, koksma__square *out)
-{
-    const koksma__disks *s = j->s;
-    const koksma__tile tile = koksma__disks_tile(s, number);
-    const int level = s->level - 1;
+    const double half = 0.25 / ((double)((uint32_t)1 << s->level) * s->cells); /* of a quarter's side */
     uint32_t cell_x = NONE, cell_y = NONE;
-    bool full = false;
     size_t kept = 0;
+    around points;
     for (size_t i = first; i < end; i++) {
-        const koksma__square square = s->squares[i];
-        if (cell_x != square.x >> level || cell_y != square.y >> level) {
-            cell_x = square.x >> level;
-            cell_y = square.y >> level;
-            const uint32_t x = cell_x - tile.x, y = cell_y - tile.y;
-            full = s->who[koksma__disks_own(s, number, x, y)] != NONE; /* its point covers it */
-            if (!full && j->exact) {
-                look_exactly(s, cell_x, cell_y, &j->points.all);
-            } else if (!full) {
-                look_around(s, number, x, y, &j->points.few);
-            }
+        const koksma__square square = koksma__disks_square(s, t, i);
+        if (cell_x != square.x >> s->level || cell_y != square.y >> s->level) {
+            cell_x = square.x >> s->level;
+            cell_y = square.y >> s->level;
+            look_around(s, cell_x, cell_y, &points);
         }
-        if (full) {
-            continue;
+        if (s->who[koksma__disks_own(s, t->number, cell_x - t->x, cell_y - t->y)] != NONE) {
+            continue; /* its point covers the cell */
         }
-        const unsigned without = ~covered(j, square);
+        const unsigned covered =
+            s->kernels->covers(points.count, points.xs, points.ys, (4 * (double)square.x + 2) * half,
+                               (4 * (double)square.y + 2) * half, half, half, s->d * s->d);
         for (uint32_t q = 0; q < 4; q++) {
             out[kept] = (koksma__square){2 * square.x + (q & 1), 2 * square.y + (q >> 1)};
-            kept += without >> q & 1;
+            kept += ~covered >> q & 1;
         }
     }
     return kept;
@@ -258,27 +221,29 @@ static size_t refine_tile(judge *j, uint32_t number, size_t first, size_t end, k
 
 koksma_status koksma__disks_refine(koksma__disks *s)
 {
-    enum { EXACT = 10 }; /* the first level where it matters */
-    s->level++;
-    const float h = 0.5F / (float)((uint32_t)1 << s->level);
-    judge j = {.s = s, .exact = s->level >= EXACT, .h = h, .half = (double)h / s->cells};
+    const bool packed = s->level < KOKSMA__PACKED_LEVEL;
+    const size_t size = packed ? sizeof(uint32_t) : sizeof(koksma__square);
     size_t kept = 0, first = 0;
     for (uint32_t t = 0; t < s->tiles * s->tiles; t++) {
-        const size_t end = s->first[t + 1], most = kept + 4 * (end - first);
-        if (most + 1 > s->spare_room) {
-            const size_t room = most + most / 2 + s->n_squares + 1;
-            koksma__square *spare = realloc(s->spare, room * sizeof *spare);
+        const size_t end = s->first[t + 1], most = (kept + 4 * (end - first) + 1) * size;
+        if (most > s->spare_room) {
+            const size_t room = most + most / 2 + s->n_squares * size;
+            void *spare = realloc(s->spare, room);
             if (!spare) {
-                return koksma__fail_memory(room * sizeof *spare);
+                return koksma__fail_memory(room);
             }
             s->spare = spare;
             s->spare_room = room;
         }
+        const koksma__tile tile = koksma__disks_tile(s, t);
+        const koksma__dart_cells cells = koksma__disks_cells(s, &tile);
         s->first[t] = kept;
-        kept += refine_tile(&j, t, first, end, s->spare + kept);
+        kept += packed ? s->kernels->open_quarters(&cells, s->cover, (uint32_t *)s->spare + kept)
+                       : refine_exactly(s, &tile, first, end, (koksma__square *)s->spare + kept);
         first = end;
     }
-    koksma__square *squares = s->squares;
+    s->level++;
+    void *squares = s->squares;
     s->squares = s->spare;
     s->spare = squares;
     const size_t room = s->square_room;
@@ -288,23 +253,16 @@ koksma_status koksma__disks_refine(koksma__disks *s)
     return KOKSMA_OK;
 }
 
-/* The list of whole cells: all, or those that points do not cover. */
-static void list_cells(koksma__disks *s, bool all)
+/* The list of whole cells. */
+static void list_cells(koksma__disks *s)
 {
-    around points;
+    uint32_t *squares = s->squares;
     for (uint32_t i = 0; i < s->tiles * s->tiles; i++) {
         const koksma__tile t = koksma__disks_tile(s, i);
         s->first[i] = s->n_squares;
         for (uint32_t y = 0; y < t.ny; y++) {
             for (uint32_t x = 0; x < t.nx; x++) {
-                s->squares[s->n_squares] = (koksma__square){t.x + x, t.y + y};
-                if (all) {
-                    s->n_squares++;
-                } else if (s->who[koksma__disks_own(s, i, x, y)] == NONE) {
-                    look_around(s, i, x, y, &points);
-                    s->n_squares +=
-                        !s->kernels->covers_roughly(points.count, points.xs, points.ys, 0.5F, 0.5F, 0, 0.5F, s->low);
-                }
+                squares[s->n_squares++] = koksma__place(x, y);
             }
         }
     }
@@ -315,7 +273,7 @@ koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *r
 {
     koksma_status status = KOKSMA_OK;
     if (!s->n) {
-        list_cells(s, true);
+        list_cells(s);
     }
     while (s->n < n && s->n_squares && !status) {
         const double enough = n == SIZE_MAX ? 1 : 1.5 * (double)(n - s->n) / (double)s->n_squares + 0.01;
@@ -335,17 +293,20 @@ koksma_status koksma__disks_fill(koksma__disks *s, size_t n, const koksma_run *r
 
 koksma_status koksma__disks_shrink(koksma__disks *s, size_t n, double d)
 {
-    const koksma_status status = make_grid(s, d);
+    koksma_status status = make_grid(s, d);
     s->n = n;
     for (size_t i = 0; i < n && !status; i++) {
         const double x = s->xs[2 * i] * s->cells, y = s->xs[2 * i + 1] * s->cells;
         const uint32_t cell_x = (uint32_t)fmin(x, s->cells - 1.0), cell_y = (uint32_t)fmin(y, s->cells - 1.0);
         const uint32_t tx = koksma__disks_tile_of(s, cell_x), ty = koksma__disks_tile_of(s, cell_y);
         const koksma__tile t = koksma__disks_tile(s, ty * s->tiles + tx);
-        koksma__disks_put(s, &t, cell_x - t.x, cell_y - t.y, (float)(x - cell_x), (float)(y - cell_y), i);
+        const uint32_t place = koksma__place((uint32_t)((x - t.x) * KOKSMA__PLACE_UNITS + 0.5),
+                                             (uint32_t)((y - t.y) * KOKSMA__PLACE_UNITS + 0.5));
+        koksma__disks_put(s, &t, cell_x - t.x, cell_y - t.y, place, i);
     }
     if (!status) {
-        list_cells(s, false);
+        list_cells(s);
+        status = koksma__disks_refine(s);
     }
     return status;
 }

@@ -12,8 +12,11 @@
  * those that another tile has a say in, and the later ones near to such, wait for the end of the round and are
  * decided in order of time then. So the law is the same, and most darts find what they need in the cache.
  *
- * Places in a cell are also kept as floats, in cells: enough to decide all but the closest cases, which are decided
- * by the doubles.
+ * Places are also kept in 2^-12 of a cell (kernels/dart_cells.h): enough to decide all but the closest cases, which
+ * are decided by the doubles. Darts are drawn by hundreds, and at first those that are near points of before are left
+ * out, all at once: they would be left out in their turn. What remains is decided one by one. A cover may hold
+ * squares without room, since darts that land there are near points; so large squares are asked about the nearest
+ * cells only.
  */
 #ifndef KOKSMA_PATTERNS_PARTS_DART_COVER_H
 #define KOKSMA_PATTERNS_PARTS_DART_COVER_H
@@ -23,14 +26,14 @@
 #include "kernels/kernels.h"
 
 typedef struct koksma__square {
-    uint32_t x, y; /* in units of the squares' size */
+    uint32_t x, y; /* in units of the squares' size, in the whole grid */
 } koksma__square;
 
 /* A dart that is not decided in its tile. */
 typedef struct koksma__dart {
     double x, y, time;
-    float in_x, in_y; /* place in its cell */
-    uint32_t cell_x, cell_y, tile, next;
+    uint32_t place, tile, next;
+    uint16_t cell_x, cell_y;
 } koksma__dart;
 
 /* A tile: cells x .. x + nx - 1, y .. y + ny - 1. */
@@ -38,7 +41,7 @@ typedef struct koksma__tile {
     uint32_t number, x, y, nx, ny;
 } koksma__tile;
 
-enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BEFORE = 2, KOKSMA__DART_AFTER = 5 };
+enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BORDER = 2, KOKSMA__DART_TILE = 128 /* cells a side, at most */ };
 
 typedef struct koksma__disks {
     const koksma__kernel_table *kernels;
@@ -49,20 +52,21 @@ typedef struct koksma__disks {
     uint32_t cells; /* a side; none holds two points */
     uint32_t tiles; /* a side */
     size_t wide;    /* cells a side of the largest tile */
-    size_t stride;  /* of the rows of gx and gy, where each tile has a border of copies: 5 after, else 2 */
-    size_t block;   /* from tile to tile in gx and gy */
-    size_t grid_room, who_room;
-    float *gx, *gy;
-    uint32_t *who;   /* the point of each cell, by tile, without border; UINT32_MAX: none */
-    float low, high; /* squares of distances in cells: below is near, above is not, between the doubles tell */
-    int level;       /* squares are cells / 2^level wide */
+    size_t stride;  /* of the rows of cells, where each tile has a border of two copies, and three more after it */
+    size_t block;   /* from tile to tile in places */
+    size_t places_room, who_room;
+    uint32_t *places;
+    uint32_t *who;     /* the point of each cell, by tile, without border; UINT32_MAX: none */
+    int32_t low, high; /* squares of distances of places: below is near, above is not, between the doubles tell */
+    int32_t cover;     /* and of a place from the far end of a square: below is surely covered */
+    int level;         /* squares are cells / 2^level wide */
     size_t n_squares, square_room, spare_room, first_room;
-    koksma__square *squares, *spare; /* by tile */
-    size_t *first;                   /* square of each tile, and the number of squares */
+    void *squares, *spare; /* by tile; packed words (kernels/dart_cells.h) up to KOKSMA__PACKED_LEVEL, then squares */
+    size_t *first;         /* square of each tile, and the number of squares */
     koksma__dart *waiting;
     size_t n_waiting, waiting_room;
     uint64_t seed, dart; /* the stream of darts */
-    uint32_t words[4 * (KOKSMA__DART_WORDS + 8)];
+    uint32_t words[4 * KOKSMA__DART_WORDS];
     size_t used, drawn; /* of the words, in fours */
 } koksma__disks;
 
@@ -81,8 +85,8 @@ koksma_status koksma__disks_shrink(koksma__disks *disks, size_t n, double d);
 koksma_status koksma__darts_throw(koksma__disks *disks, double mean, size_t n, const koksma_run *run);
 
 /* Point number i goes into its cell and into the copies of the cell in borders. */
-void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t cell_x, uint32_t cell_y, float in_x,
-                       float in_y, size_t i);
+void koksma__disks_put(koksma__disks *disks, const koksma__tile *tile, uint32_t cell_x, uint32_t cell_y,
+                       uint32_t place, size_t i);
 
 /* Cuts the squares in four and keeps those with room. */
 koksma_status koksma__disks_refine(koksma__disks *disks);
@@ -107,16 +111,31 @@ static inline koksma__tile koksma__disks_tile(const koksma__disks *s, uint32_t n
     return t;
 }
 
-/* Where the 5 x 8 cells about a cell of a tile begin in gx and gy. */
+/* Where the 5 x 8 cells about a cell of a tile begin in places. */
 static inline size_t koksma__disks_corner(const koksma__disks *s, uint32_t tile, uint32_t cell_x, uint32_t cell_y)
 {
     return tile * s->block + cell_y * s->stride + cell_x;
 }
 
-static inline size_t koksma__disks_place(const koksma__disks *s, uint32_t tile, int cell_x, int cell_y)
+/* A tile's cells and squares as the kernels see them; they can't see squares that are not packed. */
+static inline koksma__dart_cells koksma__disks_cells(const koksma__disks *s, const koksma__tile *t)
 {
-    return tile * s->block + (size_t)(cell_y + KOKSMA__DART_BEFORE) * s->stride +
-           (size_t)(cell_x + KOKSMA__DART_BEFORE);
+    const size_t first = s->first[t->number], end = s->first[t->number + 1];
+    return (koksma__dart_cells){.places = s->places + t->number * s->block,
+                                .stride = s->stride,
+                                .level = s->level,
+                                .count = (uint32_t)(end - first),
+                                .squares = (const uint32_t *)s->squares + first};
+}
+
+/* Number i of the list, which is one of a tile. */
+static inline koksma__square koksma__disks_square(const koksma__disks *s, const koksma__tile *t, size_t i)
+{
+    if (s->level > KOKSMA__PACKED_LEVEL) {
+        return ((const koksma__square *)s->squares)[i];
+    }
+    const uint32_t packed = ((const uint32_t *)s->squares)[i];
+    return (koksma__square){(t->x << s->level) + (packed & 0xffff), (t->y << s->level) + (packed >> 16)};
 }
 
 /* The place in who. */

@@ -10,21 +10,18 @@
 #include "core/status.h"
 #include "patterns/parts/dart_cover.h"
 
-enum {
-    MOST_CELLS = 64, /* a side of a tile */
-    AHEAD = 4        /* darts */
-};
+enum { MOST_CELLS = KOKSMA__DART_TILE };
 
 #define NONE UINT32_MAX
 
 /* The darts of this round that wait in a tile, by cell. */
 typedef struct queue {
-    uint64_t rows[MOST_CELLS];
+    uint8_t rows[MOST_CELLS][MOST_CELLS / 8 + 1];
     uint32_t last[MOST_CELLS * MOST_CELLS]; /* the dart in each cell with a bit in rows */
 } queue;
 
-/* The next 128 random bits of the stream. Few are drawn at first: small sets need few. */
-static const uint32_t *draw(koksma__disks *s)
+/* The darts that are drawn and not thrown yet, four words each. Few are drawn at first: small sets need few. */
+static size_t draw(koksma__disks *s, const uint32_t **words)
 {
     if (s->used == s->drawn) {
         s->drawn = s->drawn ? KOKSMA__DART_WORDS : KOKSMA__DART_WORDS / 8;
@@ -32,24 +29,27 @@ static const uint32_t *draw(koksma__disks *s)
         s->dart += s->drawn;
         s->used = 0;
     }
-    return s->words + 4 * s->used++;
+    *words = s->words + 4 * s->used;
+    return s->drawn - s->used;
 }
 
+/* Of the points whose places don't tell. */
 static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 {
     const koksma__tile t = koksma__disks_tile(s, d->tile);
-    for (uint32_t r = 0; r < 5; r++) {
-        const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
-        for (uint32_t c = 0; c < 5; c++) {
+    const uint32_t *places = s->places + koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
+    for (uint32_t cell = 0; cell < 25; cell++) {
+        const uint32_t r = cell / 5, c = cell % 5;
+        const int32_t least = koksma__place_distance(d->place, places[r * s->stride + c]);
+        if (least < s->high) {
             const uint32_t x = (t.x + d->cell_x + c + 2 * s->cells - 2) % s->cells;
+            const uint32_t y = (t.y + d->cell_y + r + 2 * s->cells - 2) % s->cells;
             const size_t who = koksma__disks_who(s, x, y);
-            if (who != NONE) {
-                double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
-                a = fmin(a, 1 - a);
-                b = fmin(b, 1 - b);
-                if (a * a + b * b < s->d * s->d) {
-                    return true;
-                }
+            double a = fabs(s->xs[2 * who] - d->x), b = fabs(s->xs[2 * who + 1] - d->y);
+            a = fmin(a, 1 - a);
+            b = fmin(b, 1 - b);
+            if (a * a + b * b < s->d * s->d) {
+                return true;
             }
         }
     }
@@ -60,26 +60,56 @@ static bool near_in_doubles(const koksma__disks *s, const koksma__dart *d)
 static inline bool is_near(const koksma__disks *s, const koksma__dart *d)
 {
     const size_t corner = koksma__disks_corner(s, d->tile, d->cell_x, d->cell_y);
-    const unsigned found =
-        s->kernels->near_rows(s->gx + corner, s->gy + corner, s->stride, d->in_x, d->in_y, s->low, s->high);
-    return found && (found & 1 || near_in_doubles(s, d));
+    const int32_t least = s->kernels->nearest_place(s->places + corner, s->stride, d->place);
+    return least < s->high && (least < s->low || near_in_doubles(s, d));
+}
+
+/* The squares of a tile, to throw at. */
+typedef struct target {
+    koksma__tile tile;
+    koksma__dart_cells cells;
+    size_t first;
+    double side; /* of a square, on the torus */
+} target;
+
+static target target_of(const koksma__disks *s, uint32_t number)
+{
+    target a = {.tile = koksma__disks_tile(s, number), .first = s->first[number]};
+    a.cells = koksma__disks_cells(s, &a.tile);
+    a.side = 1 / ((double)((uint32_t)1 << s->level) * s->cells);
+    return a;
+}
+
+/* The darts, by their numbers, that are not clearly near points. */
+static size_t choose_far(const koksma__disks *s, const target *a, size_t count, const uint32_t *words, uint32_t *far)
+{
+    if (s->level <= KOKSMA__PACKED_LEVEL) {
+        return s->kernels->far_darts(&a->cells, s->low, count, words, far);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        far[i] = i;
+    }
+    return count;
+}
+
+/* The place of a coordinate of a dart, from the grid's corner. */
+static inline uint32_t place_of(uint32_t square, uint32_t word, int level)
+{
+    return (uint32_t)((((uint64_t)square << 32 | word) >> (level + 31 - KOKSMA__PLACE_BITS)) + 1) >> 1;
 }
 
 /* A dart at a random one of the squares of a tile. False if it misses the unit square by rounding. */
-static inline bool aim(koksma__disks *s, const koksma__tile *t, const koksma__square *squares, uint32_t count,
-                       const uint32_t *w, koksma__dart *d)
+static inline bool aim(const koksma__disks *s, const target *a, const uint32_t *w, koksma__dart *d)
 {
-    const koksma__square square = squares[koksma__below(w[0], count)];
-    const uint32_t inside = ((uint32_t)1 << s->level) - 1;
-    const double in_cell = 1 / (double)((uint32_t)1 << s->level), whole = in_cell / s->cells;
-    const double u = w[1] * 0x1p-32, v = w[2] * 0x1p-32;
-    d->in_x = (float)(((square.x & inside) + u) * in_cell);
-    d->in_y = (float)(((square.y & inside) + v) * in_cell);
-    d->cell_x = (square.x >> s->level) - t->x;
-    d->cell_y = (square.y >> s->level) - t->y;
+    const koksma__tile *t = &a->tile;
+    const koksma__square square = koksma__disks_square(s, t, a->first + koksma__below(w[0], a->cells.count));
+    d->place = koksma__place(place_of(square.x, w[1], s->level) - (t->x << KOKSMA__PLACE_BITS),
+                             place_of(square.y, w[2], s->level) - (t->y << KOKSMA__PLACE_BITS));
+    d->cell_x = (uint16_t)((square.x >> s->level) - t->x);
+    d->cell_y = (uint16_t)((square.y >> s->level) - t->y);
     d->tile = t->number;
-    d->x = (square.x + u) * whole;
-    d->y = (square.y + v) * whole;
+    d->x = (square.x + w[1] * 0x1p-32) * a->side;
+    d->y = (square.y + w[2] * 0x1p-32) * a->side;
     return (d->x < 1) & (d->y < 1);
 }
 
@@ -110,36 +140,29 @@ static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const 
     if (s->times) {
         s->times[s->n] = d->time;
     }
-    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->in_x, d->in_y, s->n++);
+    koksma__disks_put(s, t, d->cell_x, d->cell_y, d->place, s->n++);
     return KOKSMA_OK;
 }
 
-/* Asks the cache for what the darts after this one will need. Past the words that are drawn, these are of no dart. */
-static inline void look_ahead(const koksma__disks *s, const koksma__tile *t, const koksma__square *squares,
-                              uint32_t count, const uint32_t *w, bool grid)
-{
-    __builtin_prefetch(squares + koksma__below(w[4 * 2 * AHEAD], count));
-    if (grid) {
-        const koksma__square next = squares[koksma__below(w[4 * AHEAD], count)];
-        const size_t corner =
-            koksma__disks_corner(s, t->number, (next.x >> s->level) - t->x, (next.y >> s->level) - t->y);
-        for (size_t r = 0; r < 5; r++) {
-            __builtin_prefetch(s->gx + corner + r * s->stride);
-            __builtin_prefetch(s->gy + corner + r * s->stride);
-        }
-    }
-}
-
-/* The only tile: its darts are in order of time, and decided at once. */
+/* The only tile: its darts are in order of time, and decided at once. Of those drawn together first all are left out
+   that are near the points there were before. */
 static koksma_status throw_at_all(koksma__disks *s, size_t darts, size_t n)
 {
-    const koksma__tile t = koksma__disks_tile(s, 0);
+    const target a = target_of(s, 0);
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < darts && s->n < n && !status; i++) {
-        koksma__dart d = {.time = 0};
-        if (aim(s, &t, s->squares, (uint32_t)s->n_squares, draw(s), &d) && !is_near(s, &d)) {
-            status = keep(s, &t, &d);
+    while (darts && s->n < n && !status) {
+        uint32_t far[KOKSMA__DART_WORDS];
+        const uint32_t *words;
+        const size_t drawn = draw(s, &words), some = drawn < darts ? drawn : darts;
+        const size_t left = choose_far(s, &a, some, words, far);
+        for (size_t i = 0; i < left && s->n < n && !status; i++) {
+            koksma__dart d = {.time = 0};
+            if (aim(s, &a, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                status = keep(s, &a.tile, &d);
+            }
         }
+        s->used += some;
+        darts -= some;
     }
     return status;
 }
@@ -152,8 +175,9 @@ static inline bool must_wait(const koksma__disks *s, const koksma__tile *t, cons
         return true;
     }
     for (uint32_t r = y - 2; r <= y + 2; r++) {
-        for (uint64_t some = q->rows[r] >> (x - 2) & 31; some; some &= some - 1) {
-            const uint32_t c = x - 2 + (uint32_t)__builtin_ctzll(some);
+        const uint8_t *bits = &q->rows[r][(x - 2) / 8];
+        for (uint32_t some = (bits[0] | (uint32_t)bits[1] << 8) >> (x - 2) % 8 & 31; some; some &= some - 1) {
+            const uint32_t c = x - 2 + (uint32_t)__builtin_ctz(some);
             for (uint32_t i = q->last[r * MOST_CELLS + c]; i != NONE; i = s->waiting[i].next) {
                 const double a = s->waiting[i].x - d->x, b = s->waiting[i].y - d->y;
                 if (a * a + b * b < s->d * s->d) {
@@ -179,9 +203,9 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     const uint32_t x = d->cell_x, y = d->cell_y;
     uint32_t *last = &q->last[y * MOST_CELLS + x];
     s->waiting[s->n_waiting] = *d;
-    s->waiting[s->n_waiting].next = q->rows[y] >> x & 1 ? *last : NONE;
+    s->waiting[s->n_waiting].next = q->rows[y][x / 8] >> x % 8 & 1 ? *last : NONE;
     *last = (uint32_t)s->n_waiting++;
-    q->rows[y] |= (uint64_t)1 << x;
+    q->rows[y][x / 8] |= (uint8_t)(1 << x % 8);
     return KOKSMA_OK;
 }
 
@@ -206,54 +230,55 @@ static bool tick(stopwatch *c, uint32_t word)
     return c->product > c->last;
 }
 
-static double time_of(const stopwatch *c)
-{
-    return fmin((c->before - koksma__log(c->product)) / c->rate, 1 - 0x1p-53);
-}
-
 /* Brings a tile into the cache: darts, which come anywhere, would wait for each line of it. */
-static void fetch(const koksma__disks *s, size_t tile, size_t first, size_t count)
+static void fetch(const koksma__disks *s, const target *a)
 {
     for (size_t i = 0; i < s->block; i += 16) {
-        __builtin_prefetch(s->gx + tile * s->block + i, 1);
-        __builtin_prefetch(s->gy + tile * s->block + i, 1);
+        __builtin_prefetch(a->cells.places + i, 1);
     }
     for (size_t i = 0; i < s->wide * s->wide; i += 16) {
-        __builtin_prefetch(s->who + tile * s->wide * s->wide + i, 1);
+        __builtin_prefetch(s->who + a->tile.number * s->wide * s->wide + i, 1);
     }
-    for (size_t i = 0; i < count; i += 8) {
-        __builtin_prefetch(s->squares + first + i);
+    for (size_t i = 0; i < a->cells.count; i += 16) {
+        __builtin_prefetch(a->cells.squares + i);
     }
 }
 
 /* One of several tiles. Times of points are written down if asked for. */
 static koksma_status throw_at_tile(koksma__disks *s, uint32_t number, queue *q, double mean, bool timed)
 {
-    const size_t first = s->first[number];
-    const uint32_t count = (uint32_t)(s->first[number + 1] - first);
-    const koksma__tile t = koksma__disks_tile(s, number);
-    if (!count) {
+    const target a = target_of(s, number);
+    if (!a.cells.count) {
         return KOKSMA_OK;
     }
     memset(q->rows, 0, sizeof q->rows);
-    const bool many = mean * count > 256;
-    if (many) {
-        fetch(s, number, first, count);
+    stopwatch clock = {.rate = mean * a.cells.count, .product = 1};
+    if (clock.rate > 256) {
+        fetch(s, &a);
     }
-    stopwatch clock = {.rate = mean * count, .product = 1};
     koksma_status status = KOKSMA_OK;
-    while (!status) {
-        const uint32_t *w = draw(s);
-        koksma__dart d;
-        if (!tick(&clock, w[3])) {
-            break;
+    for (bool more = true; more && !status;) {
+        uint32_t far[KOKSMA__DART_WORDS];
+        double before[KOKSMA__DART_WORDS], products[KOKSMA__DART_WORDS];
+        const uint32_t *words;
+        const size_t drawn = draw(s, &words);
+        size_t some = 0;
+        for (; some < drawn && (more = tick(&clock, words[4 * some + 3])); some++) {
+            before[some] = clock.before;
+            products[some] = clock.product;
         }
-        look_ahead(s, &t, s->squares + first, count, w, !many);
-        if (aim(s, &t, s->squares + first, count, w, &d) && !is_near(s, &d)) {
-            const bool waits = must_wait(s, &t, q, &d);
-            d.time = waits || timed ? time_of(&clock) : 0;
-            status = waits ? wait(s, q, &d) : keep(s, &t, &d);
+        const size_t left = choose_far(s, &a, some, words, far);
+        for (size_t i = 0; i < left && !status; i++) {
+            koksma__dart d;
+            if (aim(s, &a, words + 4 * far[i], &d) && !is_near(s, &d)) {
+                const bool waits = must_wait(s, &a.tile, q, &d);
+                d.time = waits || timed
+                             ? fmin((before[far[i]] - koksma__log(products[far[i]])) / clock.rate, 1 - 0x1p-53)
+                             : 0;
+                status = waits ? wait(s, q, &d) : keep(s, &a.tile, &d);
+            }
         }
+        s->used += some + !more;
     }
     return status;
 }
