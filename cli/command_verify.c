@@ -44,20 +44,22 @@ static void put_rows(cli_rows *rows, const char *source, const koksma_points *po
     }
 }
 
-static const char *const properties[] = {
-    "net-base-2",      "net-base-3",     "net-base-5",      "latin",          "stratified",    "repeated",
-    "distance-square", "distance-torus", "origin-repeated", "origin-missing", "rounds-to-one", "progressive",
-};
+static bool is_property(const char *name)
+{
+    const char *known;
+    for (size_t i = 0; (known = koksma_property_name_at(i)); i++) {
+        if (!strcmp(name, known)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 /* The first name of the list that is no property; NULL: none. */
 static const char *misspelt(const char *list, char *name, size_t size)
 {
     for (size_t i = 0; cli_list_item(list, i, name, size); i++) {
-        bool known = false;
-        for (size_t p = 0; p < sizeof properties / sizeof *properties; p++) {
-            known = known || !strcmp(name, properties[p]);
-        }
-        if (!known) {
+        if (!is_property(name)) {
             return name;
         }
     }
