@@ -44,7 +44,7 @@ only 'png\.h' src/image/png.c
 only 'openexr\.h' src/image/exr.c
 only 'OpenEXR/' src/image/exr_dwa.c
 only 'cairo' src/plot/cairo.c
-only 'sqlite3\.h' src/study/store.c
+only 'sqlite3\.h' src/study/database.c
 only 'jansson\.h' src/scene/json.c
 only 'embree' src/render/accel_embree.c
 only 'assimp' src/scene/mesh_assimp.c
