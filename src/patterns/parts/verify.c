@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/room.h"
 #include "core/status.h"
 
 enum { MOST = 32, PREFIX_MOST = 4096 };
@@ -23,16 +24,12 @@ const char *koksma_property_name_at(size_t i)
 
 koksma_finding *koksma__finding(koksma_findings *findings, koksma__property property)
 {
-    if (findings->count == findings->room) {
-        const size_t room = findings->room ? 2 * findings->room : 64;
-        koksma_finding *items = realloc(findings->items, room * sizeof *items);
-        if (!items) {
-            koksma__fail_memory(room * sizeof *items);
-            return NULL;
-        }
-        findings->items = items;
-        findings->room = room;
+    koksma_finding *items =
+        koksma__room_for_one(findings->items, findings->count, &findings->room, 64, sizeof *items);
+    if (!items) {
+        return NULL;
     }
+    findings->items = items;
     koksma_finding *f = &findings->items[findings->count++];
     *f = (koksma_finding){.property = names[property], .subject = "-", .detail = "-"};
     return f;
