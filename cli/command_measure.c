@@ -265,7 +265,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "NAMES", "measures, separated by commas, or all (default: star,l2-star,extreme)"},
+    {'m', "measures", "NAMES",
+     "measures, separated by commas, or all (default: star,l2-star,extreme; of --warp its domain's)"},
     {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
     {'t', "trials", "T", "T sets with seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "LIST",

@@ -6,26 +6,15 @@
 #include <string.h>
 
 #include "cli.h"
+#include "source.h"
 
-/* Reads a file, or generates for SPEC@N and SPEC@N@DIM (also with "pattern:" before it). */
-static koksma_status get_points(const char *source, uint64_t seed, const koksma_run *run, koksma_points *points)
+/* Of a file, or of a pattern, which needs no "pattern:" before it here. */
+static int get_points(const cli_arguments *arguments, const char *text, uint64_t seed, const koksma_run *run,
+                      koksma_points *points)
 {
-    char text[KOKSMA_MAX_SPEC];
-    unsigned long long n = 0;
-    int dim = 2, used = 0;
-    const bool named = !strncmp(source, "pattern:", 8);
-    snprintf(text, sizeof text, "%s", source + (named ? 8 : 0));
-    char *at = strchr(text, '@');
-    if (!at || sscanf(at, "@%llu%n@%d%n", &n, &used, &dim, &used) < 1 || at[used]) {
-        return koksma_points_read(source, points);
-    }
-    *at = '\0';
-    koksma_spec spec;
-    koksma_status status = koksma_pattern_spec(text, &spec);
-    if (!status) {
-        status = koksma_points_init(points, (size_t)n, dim);
-    }
-    return status ? status : koksma_generate(&spec, seed, run, points);
+    char named[sizeof "pattern:" + KOKSMA_MAX_SPEC];
+    snprintf(named, sizeof named, "pattern:%s", text);
+    return cli_source_points(arguments, cli_source_is_spec(text) ? named : text, seed, run, points);
 }
 
 static void put_rows(cli_rows *rows, const char *source, const koksma_points *points, const koksma_findings *findings)
@@ -44,20 +33,22 @@ static void put_rows(cli_rows *rows, const char *source, const koksma_points *po
     }
 }
 
-static const char *const properties[] = {
-    "net-base-2",      "net-base-3",     "net-base-5",      "latin",          "stratified",    "repeated",
-    "distance-square", "distance-torus", "origin-repeated", "origin-missing", "rounds-to-one", "progressive",
-};
+static bool is_property(const char *name)
+{
+    const char *known;
+    for (size_t i = 0; (known = koksma_property_name_at(i)); i++) {
+        if (!strcmp(name, known)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 /* The first name of the list that is no property; NULL: none. */
 static const char *misspelt(const char *list, char *name, size_t size)
 {
     for (size_t i = 0; cli_list_item(list, i, name, size); i++) {
-        bool known = false;
-        for (size_t p = 0; p < sizeof properties / sizeof *properties; p++) {
-            known = known || !strcmp(name, properties[p]);
-        }
-        if (!known) {
+        if (!is_property(name)) {
             return name;
         }
     }
@@ -101,26 +92,26 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    bool missed = false;
     int code = CLI_YES;
-    for (int i = 0; i < arguments->n_operands && code <= CLI_NO; i++) {
+    for (int i = 0; i < arguments->n_operands && !code; i++) {
         koksma_points points = {0};
         koksma_findings findings = {0};
-        koksma_status status = get_points(arguments->operands[i], seed, &work.run, &points);
-        if (!status) {
-            status = koksma_verify(&points, &work.run, &findings);
+        code = get_points(arguments, arguments->operands[i], seed, &work.run, &points);
+        if (!code) {
+            const koksma_status status = koksma_verify(&points, &work.run, &findings);
+            cli_work_end(&work);
+            code = status ? cli_fail(arguments, status) : CLI_YES;
         }
-        cli_work_end(&work);
-        if (status) {
-            code = cli_fail(arguments, status);
-        } else {
+        if (!code) {
             put_rows(rows, arguments->operands[i], &points, &findings);
-            code = expect && disappoints(expect, &findings) ? CLI_NO : code;
+            missed = missed || (expect && disappoints(expect, &findings));
         }
         koksma_findings_fini(&findings);
         koksma_points_fini(&points);
     }
     const int rows_code = cli_rows_close(rows);
-    return code > CLI_NO || !rows_code ? code : rows_code;
+    return code ? code : rows_code ? rows_code : missed ? CLI_NO : CLI_YES;
 }
 
 static const cli_option options[] = {

@@ -15,8 +15,8 @@ static bool complained; /* one error, one line */
 
 static void print_help(const cli_command *command)
 {
-    printf("koksma %s: %s\n\nusage: koksma %s %s\n\n", command->name, command->summary, command->name,
-           command->synopsis);
+    printf("koksma %s: %s\n\nusage: koksma %s%s%s\n\n", command->name, command->summary, command->name,
+           *command->synopsis ? " " : "", command->synopsis);
     for (const cli_option *o = command->options; o->name; o++) {
         char left[64];
         snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);

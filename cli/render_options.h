@@ -10,7 +10,8 @@
 #define CLI_SAMPLING_OPTIONS                                                                                         \
     {0, "pairing", "P", "of a pixel's uses: shuffled, aligned or native (default: shuffled)"},                       \
         {0, "scope", "S", "of a pattern: pixel or image (default: pixel)"},                                          \
-        {0, "lights", "L", "shadow rays: all lights, or one by estimate, power or uniform (default: all)"},          \
+        {0, "lights", "L",                                                                                           \
+         "shadow rays go to all, or to one light: one (by estimate), power or uniform (default: all)"},              \
         {0, "integrator", "I", "see 'koksma list integrators' (default: distribution)"},                             \
         {0, "depth", "D", "bounces at most (default: the integrator's)"},                                            \
         {0, "filter", "F", "of pixels: see 'koksma list filters' (default: box)"},                                   \

@@ -30,6 +30,15 @@ static bool split(char *text, size_t *n, int *dim)
     return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
 }
 
+bool cli_source_is_spec(const char *text)
+{
+    char copy[KOKSMA_MAX_SPEC];
+    size_t n;
+    int dim;
+    snprintf(copy, sizeof copy, "%s", text);
+    return strncmp(text, prefix, sizeof prefix - 1) != 0 && split(copy, &n, &dim);
+}
+
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
     char copy[KOKSMA_MAX_SPEC];

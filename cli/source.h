@@ -9,6 +9,9 @@
 int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
+/* Whether a text has the form SPEC@N or SPEC@N@DIM. */
+bool cli_source_is_spec(const char *text);
+
 /* What an operand names: "pattern:SPEC@N[@DIM]" taken apart, or a file. */
 typedef struct cli_source {
     bool is_pattern;

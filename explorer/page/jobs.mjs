@@ -75,6 +75,21 @@ export class Jobs {
     this.next();
   }
 
+  startClock(place, job) {
+    clearTimeout(job.limit);
+    job.limit = setTimeout(() => {
+      if (place.job !== job) return;
+      if (!job.unwanted) job.done({ error: `stopped after ${this.limit_s} seconds`, stopped: true });
+      this.restart(place);
+    }, this.limit_s * 1000);
+  }
+
+  // Another limit, from now on, for what runs, too.
+  setLimit(limit_s) {
+    this.limit_s = limit_s;
+    for (const place of this.places) if (place.worker && place.job) this.startClock(place, place.job);
+  }
+
   next() {
     for (const place of this.places) {
       if (place.job || this.waiting.size === 0) continue;
@@ -83,11 +98,7 @@ export class Jobs {
       place.job = job;
       job.started = performance.now();
       if (place.worker) {
-        job.limit = setTimeout(() => {
-          if (place.job !== job) return;
-          if (!job.unwanted) job.done({ error: `stopped after ${this.limit_s} seconds`, stopped: true });
-          this.restart(place);
-        }, this.limit_s * 1000);
+        this.startClock(place, job);
         place.worker.postMessage(job.request);
       } else {
         setTimeout(async () => this.answer(place, await (await place.service)(job.request)), 0);

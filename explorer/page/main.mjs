@@ -310,7 +310,7 @@ async function start() {
 
 // The tests wait for this.
 globalThis.koksmaExplorer = {
-  busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state), limit: seconds => { jobs.limit_s = seconds; },
+  busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state), limit: seconds => jobs.setLimit(seconds),
 };
 
 start().catch(error => {

@@ -23,7 +23,9 @@ extern "C" {
        subject: a coordinate: one point in each of n strata. value: empty strata
    distance-square, distance-torus
        value: the smallest distance; detail: as a fraction of the densest packing's (2D torus and small squares
-   exactly, else of an upper bound). Holds when above 0 repeated value: points that are equal to another. Holds when 0
+   exactly, else of an upper bound). Holds when above 0
+   repeated
+       value: points that are equal to another. Holds when 0
    origin-repeated
        value: points at the origin. Holds when at most 1
    origin-missing
@@ -46,6 +48,9 @@ typedef struct koksma_findings {
     size_t count, room;
     koksma_finding *items;
 } koksma_findings;
+
+/* The name of property i, NULL past the end. */
+KOKSMA_API const char *koksma_property_name_at(size_t i);
 
 /* Looks for all of them; the findings are freed by koksma_findings_fini. Projections are of the first 32 coordinates.
    What would take too long for so many points or dimensions is left out. run may be NULL. Errors: ARGUMENT (a

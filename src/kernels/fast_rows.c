@@ -15,6 +15,7 @@ void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, 
 void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
                                 double *out);
 
+#define INLINE static inline __attribute__((always_inline)) /* once for each dim, stream and kind of column */
 #define EXPONENT 0x4130000000000000u
 
 enum { BITS = 5, GROUP = 1 << BITS, MOST_DIM = 16, RUN = MOST_DIM * LANES64, TURN = GROUP / LANES64 };
@@ -59,7 +60,7 @@ static inline lanes64_u load(const uint64_t *from)
     return v;
 }
 
-static inline __attribute__((always_inline)) void store_group(const net *s, int dim, bool stream, double *out)
+INLINE void store_group(const net *s, int dim, bool stream, double *out)
 {
     const uint64_t *word = s->group;
     for (int turn = 0; turn < TURN; turn++) {
@@ -69,7 +70,7 @@ static inline __attribute__((always_inline)) void store_group(const net *s, int 
     }
 }
 
-static inline __attribute__((always_inline)) void rows(net *s, size_t count, int dim, bool stream, double *out)
+INLINE void rows(net *s, size_t count, int dim, bool stream, double *out)
 {
     const size_t groups = count / GROUP;
     for (size_t g = 0; g < groups; g++, out += GROUP * dim) {
@@ -111,9 +112,8 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
 typedef uint32_t half_lanes __attribute__((vector_size(4 * LANES64)));
 
 /* Columns of doubles, or of words w for w 2^-32: one of them is NULL. */
-static inline __attribute__((always_inline)) void store_columns(size_t count, int dim, const double *doubles,
-                                                                const uint32_t *words, size_t stride, bool stream,
-                                                                double *out)
+INLINE void store_columns(size_t count, int dim, const double *doubles, const uint32_t *words, size_t stride,
+                          bool stream, double *out)
 {
     size_t i = 0;
     for (; i + LANES64 <= count; i += LANES64) {
@@ -136,38 +136,33 @@ static inline __attribute__((always_inline)) void store_columns(size_t count, in
     }
 }
 
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out)
+/* dim 2 or 4, told apart here, so that each has code of its own. */
+INLINE void rows_of(size_t count, int dim, const double *doubles, const uint32_t *words, size_t stride, bool stream,
+                    double *out)
 {
     stream = stream && (uintptr_t)out % 16 == 0;
     if (dim == 2 && stream) {
-        store_columns(count, 2, columns, NULL, stride, true, out);
+        store_columns(count, 2, doubles, words, stride, true, out);
     } else if (dim == 2) {
-        store_columns(count, 2, columns, NULL, stride, false, out);
+        store_columns(count, 2, doubles, words, stride, false, out);
     } else if (stream) {
-        store_columns(count, 4, columns, NULL, stride, true, out);
+        store_columns(count, 4, doubles, words, stride, true, out);
     } else {
-        store_columns(count, 4, columns, NULL, stride, false, out);
+        store_columns(count, 4, doubles, words, stride, false, out);
     }
     if (stream) {
         lanes64_stored();
     }
 }
 
+void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
+                                  double *out)
+{
+    rows_of(count, dim, columns, NULL, stride, stream, out);
+}
+
 void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
                                 double *out)
 {
-    stream = stream && (uintptr_t)out % 16 == 0;
-    if (dim == 2 && stream) {
-        store_columns(count, 2, NULL, columns, stride, true, out);
-    } else if (dim == 2) {
-        store_columns(count, 2, NULL, columns, stride, false, out);
-    } else if (stream) {
-        store_columns(count, 4, NULL, columns, stride, true, out);
-    } else {
-        store_columns(count, 4, NULL, columns, stride, false, out);
-    }
-    if (stream) {
-        lanes64_stored();
-    }
+    rows_of(count, dim, NULL, columns, stride, stream, out);
 }

@@ -2,11 +2,7 @@
 /* How much each luminaire may give to one place, all of them in lanes. */
 #include <math.h>
 
-#include "render/batch.h"
-
-#define KERNEL(result, name, arguments) result BATCH_NAME(name) arguments;
-#include "render/batch.def"
-#undef KERNEL
+#include "render/batch_kernel.h"
 
 #define LEAST 0.05f /* of a cosine where any place of a luminaire is above the horizon */
 

@@ -7,13 +7,7 @@
 #include <math.h>
 
 #include "core/random.h"
-#include "render/batch.h"
-
-#define KERNEL(result, name, arguments) result BATCH_NAME(name) arguments;
-#include "render/batch.def"
-#undef KERNEL
-
-#define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1)) /* tells the compiler that there is no remainder */
+#include "render/batch_kernel.h"
 
 void BATCH_NAME(camera)(const koksma__batch_camera *camera, const float *xy, int n, koksma__rays *rays)
 {

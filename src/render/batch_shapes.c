@@ -11,17 +11,8 @@
  */
 #include <math.h>
 
-#include "render/batch.h"
+#include "render/batch_kernel.h"
 #include "scene/scene.h"
-
-#define KERNEL(result, name, arguments) result BATCH_NAME(name) arguments;
-#include "render/batch.def"
-#undef KERNEL
-
-#define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1)) /* tells the compiler that there is no remainder */
-
-/* Functions that are compiled once for each value of their last argument. */
-#define INLINE static inline __attribute__((always_inline))
 
 typedef enum bounds { ENDLESS, IN_RECTANGLE, IN_DISK } bounds;
 

@@ -9,14 +9,8 @@
  */
 #include <math.h>
 
-#include "render/batch.h"
+#include "render/batch_kernel.h"
 
-#define KERNEL(result, name, arguments) result BATCH_NAME(name) arguments;
-#include "render/batch.def"
-#undef KERNEL
-
-#define STEP(n) ((n) & ~(KOKSMA__LANE_STEP - 1)) /* tells the compiler that there is no remainder */
-#define INLINE static inline __attribute__((always_inline))
 #define OFF 0x1p-20f
 
 INLINE float larger(float a, float b)

@@ -182,31 +182,3 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     out->batch = koksma__batch();
     return make_frame(out, run);
 }
-
-/* ---- Values ----------------------------------------------------------------------------------------------- */
-
-koksma_status koksma__values_init(koksma__values *v, size_t capacity, int channels, bool all_layers)
-{
-    const size_t n = capacity;
-    *v = (koksma__values){.film = malloc(2 * n * sizeof(float)),
-                          .weights = malloc(n * sizeof(float)),
-                          .rgb = malloc(n * (size_t)channels * sizeof(float))};
-    bool all = v->film && v->weights && v->rgb;
-    if (all_layers) {
-        v->albedo = malloc(3 * n * sizeof(float));
-        v->normal = malloc(3 * n * sizeof(float));
-        v->depth = malloc(n * sizeof(float));
-        all &= v->albedo && v->normal && v->depth;
-    }
-    return all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
-}
-
-void koksma__values_fini(koksma__values *v)
-{
-    free(v->film);
-    free(v->weights);
-    free(v->rgb);
-    free(v->albedo);
-    free(v->normal);
-    free(v->depth);
-}

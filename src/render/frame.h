@@ -51,10 +51,6 @@ typedef struct koksma__values {
     uint64_t rays;
 } koksma__values;
 
-/* all_layers: albedo, normal and depth too. fini also after a failure. Errors: MEMORY. */
-koksma_status koksma__values_init(koksma__values *values, size_t capacity, int channels, bool all_layers);
-void koksma__values_fini(koksma__values *values);
-
 typedef struct koksma__pipeline {
     /* A task's room. Errors: MEMORY. */
     koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **room);
@@ -79,10 +75,27 @@ extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
 /* Whether direct.c can draw this. */
 bool koksma__direct_can(const koksma__frame *frame);
 
+/* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
+void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
+
 /* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own place is
    added. The pairs are padded with copies to whole lanes. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_room *room, float *pairs);
+
+/* What a task needs to draw its samples and to know what they come to. */
+typedef struct koksma__room {
+    const koksma__pipeline *pipeline;
+    void *own; /* the pipeline's */
+    koksma__sample_room draw;
+    koksma__values values;
+} koksma__room;
+
+/* For groups of `capacity` samples; all_layers: albedo, normal and depth too. fini also after a failure. Errors:
+ * MEMORY. */
+koksma_status koksma__room_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                bool all_layers, koksma__room *room);
+void koksma__room_fini(koksma__room *room);
 
 /* samples, rounded up to whole lanes */
 static inline size_t koksma__whole_lanes(size_t samples)

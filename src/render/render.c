@@ -25,57 +25,19 @@ typedef struct job {
     atomic_ullong rays;
 } job;
 
-/* A task's room. */
-typedef struct room {
-    koksma__sample_room draw;
-    void *pipeline;
-    koksma__values values;
-} room;
-
 /* ---- Groups ----------------------------------------------------------------------------------------------- */
 
-koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
-                                 koksma__sample_room *room_for, float *pairs)
-{
-    const size_t width = (size_t)frame->options->width, n = group->start[group->count];
-    koksma_status status = KOKSMA_OK;
-    for (size_t p = 0; !status && p < group->count; p++) {
-        const size_t pixel = group->first + p;
-        const float offset[2] = {on_film ? (float)(pixel % width) : 0, on_film ? (float)(pixel / width) : 0};
-        status = frame->sampler.draw(&frame->sampler, pixel, use, offset, room_for, pairs + 2 * group->start[p]);
-    }
-    for (size_t i = n; n && i < koksma__whole_lanes(n); i++) {
-        memcpy(pairs + 2 * i, pairs + 2 * (n - 1), 2 * sizeof *pairs);
-    }
-    return status;
-}
-
-/* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
-static void fill_group(const koksma__frame *f, size_t first, size_t end, koksma__group *group)
-{
-    group->first = first;
-    group->count = 0;
-    group->start[0] = 0;
-    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
-        const size_t n = group->start[group->count] + f->sampler.count(&f->sampler, first + group->count);
-        if (group->count && n > KOKSMA__BLOCK) {
-            return;
-        }
-        group->start[++group->count] = n;
-    }
-}
-
-static koksma_status render_group(job *j, size_t task, const koksma__group *group, room *r)
+static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__room *r)
 {
     const koksma__frame *f = j->frame;
     koksma_status status = KOKSMA_OK;
-    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->pipeline, group, &r->values);
+    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->own, group, &r->values);
     if (!idle) {
         status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
     }
     if (!status && !idle && group->start[group->count]) {
         koksma__film_place(f, group, &r->values);
-        status = j->pipeline->trace(f, r->pipeline, group, &r->values);
+        status = j->pipeline->trace(f, r->own, group, &r->values);
     }
     if (!status) {
         koksma__film_add(f, &j->film, task, group, &r->values);
@@ -85,27 +47,6 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
-static void room_fini(const job *j, room *r)
-{
-    koksma__sample_room_fini(&r->draw);
-    if (r->pipeline) {
-        j->pipeline->close(r->pipeline);
-    }
-    koksma__values_fini(&r->values);
-}
-
-static koksma_status room_init(const job *j, room *r)
-{
-    *r = (room){0};
-    koksma_status status = koksma__values_init(&r->values, j->capacity, j->frame->channels, j->film.all_layers);
-    status = status ? status : koksma__sample_room_init(&r->draw, &j->frame->sampler);
-    status = status ? status : j->pipeline->open(j->frame, j->capacity, &r->pipeline);
-    if (status) {
-        room_fini(j, r);
-    }
-    return status;
-}
-
 static koksma_status render_rows(void *context, size_t task)
 {
     job *j = context;
@@ -113,22 +54,19 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
-    room r;
+    koksma__room r;
     koksma__group group;
-    koksma_status status = room_init(j, &r);
-    if (status) {
-        return status;
-    }
-    status = koksma__film_open_task(f, &j->film, task, first_row, rows);
+    koksma_status status = koksma__room_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
+    status = status ? status : koksma__film_open_task(f, &j->film, task, first_row, rows);
     for (int y = first_row; y < first_row + rows; y++) {
         const size_t end = ((size_t)y + 1) * width;
         for (size_t pixel = end - width; !status && pixel < end; pixel += group.count) {
-            fill_group(f, pixel, end, &group);
+            koksma__group_fill(f, pixel, end, &group);
             status = render_group(j, task, &group, &r);
         }
     }
     atomic_fetch_add(&j->rays, r.values.rays);
-    room_fini(j, &r);
+    koksma__room_fini(&r);
     return status;
 }
 

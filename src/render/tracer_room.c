@@ -2,6 +2,7 @@
 /* What a task of the tracer keeps: queues of paths, and the samples that it has drawn. */
 #include <stdlib.h>
 
+#include "core/room.h"
 #include "core/status.h"
 #include "render/tracer.h"
 
@@ -44,15 +45,12 @@ koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, v
 
 koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path)
 {
-    if (queue->n == queue->room) {
-        const size_t room = queue->room ? 2 * queue->room : 4 * KOKSMA__BLOCK;
-        koksma__path *paths = realloc(queue->paths, room * sizeof *paths);
-        if (!paths) {
-            return koksma__fail_memory(room * sizeof *paths);
-        }
-        queue->paths = paths;
-        queue->room = room;
+    koksma__path *paths =
+        koksma__room_for_one(queue->paths, queue->n, &queue->room, 4 * KOKSMA__BLOCK, sizeof *paths);
+    if (!paths) {
+        return KOKSMA_MEMORY;
     }
+    queue->paths = paths;
     queue->paths[queue->n++] = *path;
     return KOKSMA_OK;
 }

@@ -216,3 +216,12 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
         matrix[4 * k + 3] = translate[k];
     }
 }
+
+void koksma__matrix_multiply(const double a[12], const double b[12], double out[12])
+{
+    for (int i = 0; i < 12; i++) {
+        const double *row = a + 4 * (i / 4);
+        const int j = i % 4;
+        out[i] = row[0] * b[j] + row[1] * b[4 + j] + row[2] * b[8 + j] + (j == 3 ? row[3] : 0);
+    }
+}

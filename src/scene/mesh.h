@@ -52,6 +52,9 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
+/* out = a b, where both have a fourth row 0 0 0 1. */
+void koksma__matrix_multiply(const double a[12], const double b[12], double out[12]);
+
 /* What assimp 5.2 does not tell of a glTF file, or tells otherwise. */
 enum { KOKSMA__GLTF_MATERIALS = 1024 };
 typedef struct koksma__gltf {
@@ -75,12 +78,11 @@ koksma_status koksma__ply_check(const char *path, const unsigned char *file, siz
 koksma_status koksma__obj_check(const char *path, const unsigned char *file, size_t size);
 koksma_status koksma__mtl_check(const char *path, const unsigned char *file, size_t size);
 
-/* ---- mesh_assimp.c ----------------------------------------------------------------------------------------- */
-
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
 bool koksma__is_mesh_file(const char *path);
 
-/* All triangles of a file as one mesh. Errors: MISSING, MALFORMED, UNSUPPORTED (this build has no reader), MEMORY. */
+/* mesh_assimp.c: all triangles of a file as one mesh. Errors: MISSING, MALFORMED, UNSUPPORTED (this build has no
+ * reader), MEMORY. */
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out);
 
 #endif

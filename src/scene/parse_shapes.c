@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/room.h"
 #include "scene/parse.h"
 #include "scene/vector.h"
 
@@ -10,15 +11,12 @@ koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__sh
     if (scene->n_shapes == KOKSMA__MAX_SHAPES) {
         return koksma__json_fail(f, "more than %d shapes", KOKSMA__MAX_SHAPES);
     }
-    if (scene->n_shapes == scene->shape_room) {
-        const size_t room = scene->shape_room ? 2 * scene->shape_room : 16;
-        koksma__shape *shapes = realloc(scene->shapes, room * sizeof *shapes);
-        if (!shapes) {
-            return koksma__fail_memory(room * sizeof *shapes);
-        }
-        scene->shapes = shapes;
-        scene->shape_room = room;
+    koksma__shape *shapes =
+        koksma__room_for_one(scene->shapes, scene->n_shapes, &scene->shape_room, 16, sizeof *shapes);
+    if (!shapes) {
+        return KOKSMA_MEMORY;
     }
+    scene->shapes = shapes;
     *out = &scene->shapes[scene->n_shapes++];
     memset(*out, 0, sizeof **out);
     (*out)->light = -1;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/room.h"
 #include "core/status.h"
 
 /* About 20 ms of a plain scene, so that those who wait for the last part don't wait long. */
@@ -11,15 +12,11 @@ static const double SAMPLES_A_PART = 1 << 19;
 
 static koksma_status add_part(koksma__parts *parts, size_t reference, int first_row, int rows)
 {
-    if (parts->n == parts->room) {
-        const size_t room = parts->room ? 2 * parts->room : 64;
-        koksma__part *more = realloc(parts->at, room * sizeof *more);
-        if (!more) {
-            return koksma__fail_memory(room * sizeof *more);
-        }
-        parts->at = more;
-        parts->room = room;
+    koksma__part *at = koksma__room_for_one(parts->at, parts->n, &parts->room, 64, sizeof *at);
+    if (!at) {
+        return KOKSMA_MEMORY;
     }
+    parts->at = at;
     parts->at[parts->n++] = (koksma__part){reference, first_row, rows};
     return KOKSMA_OK;
 }

@@ -33,8 +33,12 @@ static size_t note_of(const koksma__table *t, const char *pattern, int statistic
     return 0;
 }
 
-static void add_published(koksma__html *h, const koksma__table *t, const koksma__table_row *row)
+/* The label and what is published. */
+static void begin_row(koksma__html *h, const koksma__table *t, const koksma__table_row *row)
 {
+    koksma__html_add(h, "<tr><td>");
+    koksma__html_text(h, row->label);
+    koksma__html_add(h, "</td>");
     for (int s = 0; s < 3; s++) {
         const size_t note = note_of(t, row->pattern, s);
         const double value = row->published[s];
@@ -95,10 +99,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     if (status) {
         return status;
     }
-    koksma__html_add(h, "<tr><td>");
-    koksma__html_text(h, row->label);
-    koksma__html_add(h, "</td>");
-    add_published(h, t, row);
+    begin_row(h, t, row);
     koksma__html_add(h, "<td>%.4g <span class=\"pm\">&#177; %.2g</span></td><td>%.3g</td><td>%.3g", cell.mean.mean,
                      cell.mean.high - cell.mean.mean, cell.sd, cell.max);
     if (!isnan(cell.max_sd)) {
@@ -176,10 +177,7 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     if (status) {
         return status;
     }
-    koksma__html_add(h, "<tr><td>");
-    koksma__html_text(h, row->label);
-    koksma__html_add(h, "</td>");
-    add_published(h, t, row);
+    begin_row(h, t, row);
     add_image_cell(h, &cell);
     const double ratio = cell.mean.mean / row->published[0];
     char text[48];

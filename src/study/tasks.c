@@ -7,6 +7,7 @@
 
 #include <koksma/warp.h>
 
+#include "core/room.h"
 #include "core/status.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -16,15 +17,11 @@ static const long long MOST_JOBS = 1 << 30;
 
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 {
-    if (tasks->n == tasks->room) {
-        const size_t room = tasks->room ? 2 * tasks->room : 64;
-        koksma__task *more = realloc(tasks->at, room * sizeof *more);
-        if (!more) {
-            return koksma__fail_memory(room * sizeof *more);
-        }
-        tasks->at = more;
-        tasks->room = room;
+    koksma__task *at = koksma__room_for_one(tasks->at, tasks->n, &tasks->room, 64, sizeof *at);
+    if (!at) {
+        return KOKSMA_MEMORY;
     }
+    tasks->at = at;
     tasks->wanted += task->trials;
     if (tasks->wanted > MOST_JOBS) {
         return koksma__fail(KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs", tasks->study->plan.name, MOST_JOBS);

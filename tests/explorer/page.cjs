@@ -49,7 +49,7 @@ const accessibility = () => {
   return [...new Set(found)];
 };
 
-async function open(browser, { hash = "", colorScheme = "light", width = 1280, before } = {}) {
+async function open(browser, { hash = "", colorScheme = "light", width = 1280, before, limit_s } = {}) {
   const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, acceptDownloads: true });
   const page = await context.newPage();
   page.on("console", m => check(!["error", "warning"].includes(m.type()), "console: " + m.text()));
@@ -57,6 +57,10 @@ async function open(browser, { hash = "", colorScheme = "light", width = 1280, b
   page.on("request", r => check(/^(file|data|blob):/.test(r.url()), "network: " + r.url()));
   if (before) await page.addInitScript(before);
   await page.goto(address + hash);
+  if (limit_s) {
+    await page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting"));
+    await page.evaluate(seconds => koksmaExplorer.limit(seconds), limit_s);
+  }
   await idle(page);
   return page;
 }
@@ -274,7 +278,7 @@ async function comparing(page) {
 async function guards(browser) {
   // Addresses with nonsense open a page that works.
   for (const hash of ["#a=nonsense@16", "#a=sobol@99999999&strata=elementary:9,99&axes=7,7&witness=none&measures=x:y|disk:r=9", "#%%%", "#a=sobol@16@3&b=sobol@16@2&decay=edge:prefixes"]) {
-    const page = await open(browser, { hash });
+    const page = await open(browser, { hash, limit_s: 2 }); // of 16384 points some measures take longer than any limit
     const a = await values(page, "a");
     if (hash.includes("nonsense")) check((await page.locator(".set-a .problem").textContent()).includes("nonsense"), "an unknown pattern is not named");
     else check(typeof a["l2-star"] === "string" && a["l2-star"] !== "", hash + ": no values");

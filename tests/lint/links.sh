@@ -1,15 +1,24 @@
 #!/bin/sh
-# Links of the documents lead to files, and so do the paths that they name between backticks.
+# Links of the documents lead to files, and so do the paths that they name between backticks, and the documents that
+# comments name.
 cd "$(dirname "$0")/../.." || exit 1
-git ls-files '*.md' | while read -r file; do
-  folder=$(dirname "$file")
-  grep -oE '\]\([^)#: ]+\)' "$file" | sed 's/](\(.*\))/\1/' | while read -r link; do
-    [ -e "$folder/$link" ] || echo "$file: no file $link"
+in_comments() {
+  git grep -oE 'docs/[A-Za-z0-9_/-]+\.md' -- ':!*.md' | sort -u | while IFS=: read -r file path; do
+    [ -e "$path" ] || echo "$file: no file $path"
   done
-  grep -oE '`(docs|src|cli|tests|scripts|examples|explorer|fuzz|cmake|include|python|tools|studies|scenes)/[A-Za-z0-9_./-]+`' "$file" | tr -d '`' |
-    while read -r path; do
-      case $path in *my_* | *my-*) continue ;; esac
-      [ -e "$path" ] || echo "$file: no file $path"
+}
+in_documents() {
+  git ls-files '*.md' | while read -r file; do
+    folder=$(dirname "$file")
+    grep -oE '\]\([^)#: ]+\)' "$file" | sed 's/](\(.*\))/\1/' | while read -r link; do
+      [ -e "$folder/$link" ] || echo "$file: no file $link"
     done
-done | grep . && exit 1
+    grep -oE '`(docs|src|cli|tests|scripts|examples|explorer|fuzz|cmake|include|python|tools|studies|scenes)/[A-Za-z0-9_./-]+`' "$file" | tr -d '`' |
+      while read -r path; do
+        case $path in *my_* | *my-*) continue ;; esac
+        [ -e "$path" ] || echo "$file: no file $path"
+      done
+  done
+}
+{ in_comments; in_documents; } | grep . && exit 1
 exit 0

@@ -44,6 +44,26 @@ static void healthy_points_pass(void **state)
     koksma_points_fini(&p);
 }
 
+static void each_name_of_the_table_is_found(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("sobol", 64, 2, 0);
+    koksma_findings all;
+    const char *name;
+    size_t seen = 0;
+    assert_ok(koksma_verify(&p, NULL, &all));
+    for (size_t i = 0; (name = koksma_property_name_at(i)); i++) {
+        const size_t before = seen;
+        for (size_t f = 0; f < all.count; f++) {
+            seen += !strcmp(all.items[f].property, name);
+        }
+        assert_true(seen > before);
+    }
+    assert_int_equal(seen, all.count);
+    koksma_findings_fini(&all);
+    koksma_points_fini(&p);
+}
+
 static void a_broken_net(void **state)
 {
     (void)state;
@@ -211,6 +231,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(healthy_points_pass),
+        cmocka_unit_test(each_name_of_the_table_is_found),
         cmocka_unit_test(a_broken_net),
         cmocka_unit_test(quality_in_other_bases_and_dimensions),
         cmocka_unit_test(a_missing_stratum),

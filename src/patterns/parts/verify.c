@@ -6,24 +6,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/room.h"
 #include "core/status.h"
 
 enum { MOST = 32, PREFIX_MOST = 4096 };
 
-koksma_finding *koksma__finding(koksma_findings *findings, const char *property)
+static const char *const names[KOKSMA__N_PROPERTIES] = {
+#define PROPERTY(id, name) name,
+#include "patterns/parts/properties.def"
+#undef PROPERTY
+};
+
+const char *koksma_property_name_at(size_t i)
 {
-    if (findings->count == findings->room) {
-        const size_t room = findings->room ? 2 * findings->room : 64;
-        koksma_finding *items = realloc(findings->items, room * sizeof *items);
-        if (!items) {
-            koksma__fail_memory(room * sizeof *items);
-            return NULL;
-        }
-        findings->items = items;
-        findings->room = room;
+    return i < KOKSMA__N_PROPERTIES ? names[i] : NULL;
+}
+
+koksma_finding *koksma__finding(koksma_findings *findings, koksma__property property)
+{
+    koksma_finding *items =
+        koksma__room_for_one(findings->items, findings->count, &findings->room, 64, sizeof *items);
+    if (!items) {
+        return NULL;
     }
+    findings->items = items;
     koksma_finding *f = &findings->items[findings->count++];
-    *f = (koksma_finding){.property = property, .subject = "-", .detail = "-"};
+    *f = (koksma_finding){.property = names[property], .subject = "-", .detail = "-"};
     return f;
 }
 
@@ -38,7 +46,7 @@ void koksma_findings_fini(koksma_findings *findings)
 static koksma_status add_strata(const koksma_points *points, const int *use, const size_t *m, int dim,
                                 const char *subject, uint32_t *counts, koksma_findings *findings)
 {
-    koksma_finding *f = koksma__finding(findings, dim == 1 ? "latin" : "stratified");
+    koksma_finding *f = koksma__finding(findings, dim == 1 ? KOKSMA__PROPERTY_LATIN : KOKSMA__PROPERTY_STRATIFIED);
     if (!f) {
         return KOKSMA_MEMORY;
     }
@@ -117,13 +125,13 @@ static bool on_dyadic_grid(const koksma_points *points)
 static koksma_status verify_origin(const koksma_points *points, koksma_findings *findings)
 {
     const size_t count = at_origin(points);
-    koksma_finding *f = koksma__finding(findings, "origin-repeated");
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_REPEATED);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count <= 1;
-    f = koksma__finding(findings, "origin-missing");
+    f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_MISSING);
     if (!f) {
         return KOKSMA_MEMORY;
     }
@@ -145,7 +153,7 @@ static koksma_status verify_floats(const koksma_points *points, koksma_findings 
             first = i / (size_t)points->dim;
         }
     }
-    koksma_finding *f = koksma__finding(findings, "rounds-to-one");
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ROUNDS_TO_ONE);
     if (!f) {
         return KOKSMA_MEMORY;
     }
@@ -177,7 +185,7 @@ static koksma_status verify_progress(const koksma_points *points, const koksma_r
     if (status || worst == 0) {
         return status;
     }
-    koksma_finding *f = koksma__finding(findings, "progressive");
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_PROGRESSIVE);
     if (!f) {
         return KOKSMA_MEMORY;
     }

@@ -4,8 +4,15 @@
 
 #include <koksma/verify.h>
 
+typedef enum koksma__property {
+#define PROPERTY(id, name) KOKSMA__PROPERTY_##id,
+#include "patterns/parts/properties.def"
+#undef PROPERTY
+    KOKSMA__N_PROPERTIES
+} koksma__property;
+
 /* Adds an empty finding; NULL when memory runs out. */
-koksma_finding *koksma__finding(koksma_findings *findings, const char *property);
+koksma_finding *koksma__finding(koksma_findings *findings, koksma__property property);
 
 /* The stratum of x among m, bounded by the doubles nearest to j/m. x = 1 is in the last. */
 size_t koksma__stratum(double x, size_t m);

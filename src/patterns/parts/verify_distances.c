@@ -83,7 +83,8 @@ static koksma_status grid_distance(const koksma_points *points, const koksma_run
 
 static koksma_status add_distance(const koksma_points *points, bool torus, double distance, koksma_findings *findings)
 {
-    koksma_finding *f = koksma__finding(findings, torus ? "distance-torus" : "distance-square");
+    koksma_finding *f =
+        koksma__finding(findings, torus ? KOKSMA__PROPERTY_DISTANCE_TORUS : KOKSMA__PROPERTY_DISTANCE_SQUARE);
     if (!f) {
         return KOKSMA_MEMORY;
     }
@@ -139,7 +140,7 @@ koksma_status koksma__verify_distances(const koksma_points *points, const koksma
         repeated += !memcmp(sorted[i].xs, sorted[i - 1].xs, (size_t)points->dim * sizeof(double));
     }
     free(sorted);
-    koksma_finding *f = koksma__finding(findings, "repeated");
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_REPEATED);
     koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
     if (!status) {
         f->value = (double)repeated;

@@ -94,7 +94,7 @@ static int quality(search *s, int m)
     return m;
 }
 
-static koksma_status verify_net(search *s, const char *property, const char *subject, koksma_findings *findings)
+static koksma_status verify_net(search *s, koksma__property property, const char *subject, koksma_findings *findings)
 {
     koksma_finding *f = NULL;
     s->n = s->base;
@@ -121,7 +121,7 @@ static koksma_status verify_net(search *s, const char *property, const char *sub
 }
 
 static koksma_status verify_base(const koksma_points *points, const koksma_run *run, size_t base,
-                                 const char *property, uint32_t *counts, koksma_findings *findings)
+                                 koksma__property property, uint32_t *counts, koksma_findings *findings)
 {
     const int dim = points->dim < MOST ? points->dim : MOST;
     int use[MAX_NET_DIM];
@@ -151,8 +151,9 @@ koksma_status koksma__verify_nets(const koksma_points *points, const koksma_run 
 {
     static const struct {
         size_t base;
-        const char *property;
-    } bases[] = {{2, "net-base-2"}, {3, "net-base-3"}, {5, "net-base-5"}};
+        koksma__property property;
+    } bases[] = {
+        {2, KOKSMA__PROPERTY_NET_BASE_2}, {3, KOKSMA__PROPERTY_NET_BASE_3}, {5, KOKSMA__PROPERTY_NET_BASE_5}};
     koksma_status status = KOKSMA_OK;
     for (size_t b = 0; b < sizeof bases / sizeof *bases && !status; b++) {
         status = verify_base(points, run, bases[b].base, bases[b].property, counts, findings);

@@ -23,9 +23,8 @@ typedef struct job {
 } job;
 
 typedef struct room {
-    koksma__sample_room draw;
-    void *pipeline, *scratch;
-    koksma__values values;
+    koksma__room pixels;
+    void *scratch;
 } room;
 
 /* ---- The sampler of rounds -------------------------------------------------------------------------------- */
@@ -47,27 +46,6 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
 }
 
 /* ---- One task of a round ---------------------------------------------------------------------------------- */
-
-static void room_fini(const job *j, room *r)
-{
-    koksma__sample_room_fini(&r->draw);
-    if (r->pipeline) {
-        j->pipeline->close(r->pipeline);
-    }
-    free(r->scratch);
-    koksma__values_fini(&r->values);
-}
-
-static koksma_status room_init(const job *j, room *r)
-{
-    *r = (room){.scratch = malloc(j->run->scratch + 1)};
-    koksma_status status = koksma__values_init(&r->values, j->capacity, j->frame.channels, j->first);
-    if (!status && !r->scratch) {
-        status = koksma__fail_memory(j->run->scratch + 1);
-    }
-    status = status ? status : koksma__sample_room_init(&r->draw, &j->frame.sampler);
-    return status ? status : j->pipeline->open(&j->frame, j->capacity, &r->pipeline);
-}
 
 static void keep_layers(const job *j, const koksma__values *v, size_t pixel, size_t first, size_t end)
 {
@@ -97,15 +75,15 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     koksma__ask ask = {0};
     for (size_t i = first; j->frame.filter && i < end; i++) {
         for (size_t k = 0; k < channels; k++) {
-            r->values.rgb[channels * i + k] *= r->values.weights[i];
+            r->pixels.values.rgb[channels * i + k] *= r->pixels.values.weights[i];
         }
     }
-    run->rules->take(run, pixel, r->values.rgb + channels * first);
+    run->rules->take(run, pixel, r->pixels.values.rgb + channels * first);
     if (run->probing) {
         return;
     }
     if (j->first) {
-        keep_layers(j, &r->values, pixel, first, end);
+        keep_layers(j, &r->pixels.values, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
     run->rules->decide(run, pixel, r->scratch, &ask);
@@ -118,10 +96,11 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     if (!group->start[group->count]) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
+    koksma_status status =
+        koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
     if (!status) {
-        koksma__film_place(f, group, &r->values);
-        status = j->pipeline->trace(f, r->pipeline, group, &r->values);
+        koksma__film_place(f, group, &r->pixels.values);
+        status = j->pipeline->trace(f, r->pixels.own, group, &r->pixels.values);
     }
     for (size_t p = 0; !status && p < group->count; p++) {
         if (group->start[p] < group->start[p + 1]) {
@@ -129,19 +108,6 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
         }
     }
     return status;
-}
-
-/* As many pixels from `first` on as fill a block. */
-static void fill_group(const job *j, size_t first, size_t end, koksma__group *group)
-{
-    *group = (koksma__group){.first = first};
-    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
-        const size_t n = group->start[group->count] + count(&j->frame.sampler, first + group->count);
-        if (group->count && n > KOKSMA__BLOCK) {
-            return;
-        }
-        group->start[++group->count] = n;
-    }
 }
 
 static koksma_status render_task(void *context, size_t task)
@@ -161,17 +127,21 @@ static koksma_status render_task(void *context, size_t task)
     if (status || !served) {
         return status;
     }
-    room r;
+    room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
-    status = room_init(j, &r);
+    status = koksma__room_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
+    if (!status && !r.scratch) {
+        status = koksma__fail_memory(run->scratch + 1);
+    }
     for (size_t pixel = first; !status && pixel < end; pixel += group.count) {
-        fill_group(j, pixel, end, &group);
+        koksma__group_fill(&j->frame, pixel, end, &group);
         status = render_group(j, &r, &group);
     }
     if (!run->probing) {
-        atomic_fetch_add(&j->rays, r.values.rays);
+        atomic_fetch_add(&j->rays, r.pixels.values.rays);
     }
-    room_fini(j, &r);
+    koksma__room_fini(&r.pixels);
+    free(r.scratch);
     return status;
 }
 

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Pixels in groups, and the room that a task of them needs. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/frame.h"
+
+void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma__group *group)
+{
+    group->first = first;
+    group->count = 0;
+    group->start[0] = 0;
+    while (first + group->count < end && group->count < KOKSMA__BLOCK) {
+        const size_t n = group->start[group->count] + f->sampler.count(&f->sampler, first + group->count);
+        if (group->count && n > KOKSMA__BLOCK) {
+            return;
+        }
+        group->start[++group->count] = n;
+    }
+}
+
+koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
+                                 koksma__sample_room *room, float *pairs)
+{
+    const size_t width = (size_t)frame->options->width, n = group->start[group->count];
+    koksma_status status = KOKSMA_OK;
+    for (size_t p = 0; !status && p < group->count; p++) {
+        const size_t pixel = group->first + p;
+        const float offset[2] = {on_film ? (float)(pixel % width) : 0, on_film ? (float)(pixel / width) : 0};
+        status = frame->sampler.draw(&frame->sampler, pixel, use, offset, room, pairs + 2 * group->start[p]);
+    }
+    for (size_t i = n; n && i < koksma__whole_lanes(n); i++) {
+        memcpy(pairs + 2 * i, pairs + 2 * (n - 1), 2 * sizeof *pairs);
+    }
+    return status;
+}
+
+/* ---- Room -------------------------------------------------------------------------------------------------- */
+
+static koksma_status values_init(koksma__values *v, size_t capacity, int channels, bool all_layers)
+{
+    const size_t n = capacity;
+    *v = (koksma__values){.film = malloc(2 * n * sizeof(float)),
+                          .weights = malloc(n * sizeof(float)),
+                          .rgb = malloc(n * (size_t)channels * sizeof(float))};
+    bool all = v->film && v->weights && v->rgb;
+    if (all_layers) {
+        v->albedo = malloc(3 * n * sizeof(float));
+        v->normal = malloc(3 * n * sizeof(float));
+        v->depth = malloc(n * sizeof(float));
+        all &= v->albedo && v->normal && v->depth;
+    }
+    return all ? KOKSMA_OK : koksma__fail_memory(13 * n * sizeof(float));
+}
+
+static void values_fini(koksma__values *v)
+{
+    free(v->film);
+    free(v->weights);
+    free(v->rgb);
+    free(v->albedo);
+    free(v->normal);
+    free(v->depth);
+}
+
+koksma_status koksma__room_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                bool all_layers, koksma__room *room)
+{
+    *room = (koksma__room){.pipeline = pipeline};
+    koksma_status status = values_init(&room->values, capacity, frame->channels, all_layers);
+    status = status ? status : koksma__sample_room_init(&room->draw, &frame->sampler);
+    return status ? status : pipeline->open(frame, capacity, &room->own);
+}
+
+void koksma__room_fini(koksma__room *room)
+{
+    koksma__sample_room_fini(&room->draw);
+    if (room->own) {
+        room->pipeline->close(room->own);
+    }
+    values_fini(&room->values);
+}
