@@ -28,12 +28,13 @@ export class Jobs {
     return place;
   }
 
-  // done(answer) is called once, unless the request is replaced or dropped before.
-  ask(key, rank, request, done) {
+  // done(answer) is called once, unless the request is replaced or dropped before. Without a limit only what the page cannot
+  // do without: a machine that is slow to start is not one that failed.
+  ask(key, rank, request, done, limited = true) {
     for (const place of this.places) {
       if (place.job?.key === key) place.job.stale = true;
     }
-    this.waiting.set(key, { key, rank, request, done: this.inOrder(key, done) });
+    this.waiting.set(key, { key, rank, request, limited, done: this.inOrder(key, done) });
     this.dropStale();
     this.next();
   }
@@ -77,6 +78,7 @@ export class Jobs {
 
   startClock(place, job) {
     clearTimeout(job.limit);
+    if (!job.limited) return;
     job.limit = setTimeout(() => {
       if (place.job !== job) return;
       if (!job.unwanted) job.done({ error: `stopped after ${this.limit_s} seconds`, stopped: true });

@@ -283,7 +283,7 @@ async function start() {
   const bytes = Uint8Array.from(atob(byId("wasm").textContent.trim()), c => c.charCodeAt(0));
   jobs = new Jobs(await WebAssembly.compile(bytes), byId("worker").textContent, limits.answer_s);
   byId("in-page").hidden = !jobs.inPage;
-  tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done));
+  tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done, false));
   if (tables.error) throw new Error(tables.error);
   tables.references = JSON.parse(byId("references").textContent);
   measures = new Measures(byId("measures"), tables.measures, name => {
