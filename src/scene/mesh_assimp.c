@@ -355,8 +355,11 @@ static koksma_status read_all(reader *r, bool *has_camera)
     if (status) {
         return status;
     }
-    for (unsigned i = 0; i < from->mNumMaterials; i++) {
+    for (unsigned i = 0; !r->build.status && i < from->mNumMaterials; i++) {
         read_material(r, from->mMaterials[i]);
+    }
+    if (r->build.status) {
+        return r->build.status;
     }
     if (!from->mNumMaterials) {
         koksma__build_grey(&r->build);
