@@ -25,7 +25,7 @@
 #include "measures/parts/order.h"
 
 #ifndef __SIZEOF_INT128__
-/* Without integers of 128 bits, which a compiler for 32 bits lacks, the pairs are summed: as exact, in O(n^2). */
+/* Without integers of 128 bits, which a compiler for 32 bits lacks, the pairs are summed, in O(n^2). */
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                     double *square)
 {
