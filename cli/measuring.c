@@ -131,25 +131,26 @@ static void choose_prefixes(measuring *j, size_t n)
     }
 }
 
-/* Room for the first source's values, once it is known how many there are; false after an error. */
-static bool open_firsts(measuring *j, const char *source)
+/* Room for the first source's values, once it is known how many there are; the exit code after an error. */
+static int open_firsts(measuring *j, const char *source)
 {
     const size_t count = j->n_prefixes * j->n_measures;
-    if (j->firsts || !j->paired) {
-        if (j->paired && count != j->n_firsts) {
-            cli_usage_error(j->arguments, "--paired: %s has other prefixes than %s", source, j->first_source);
-        }
-        return !j->paired || count == j->n_firsts;
+    if (!j->paired) {
+        return CLI_YES;
     }
-    j->firsts = malloc(j->trials * count * sizeof *j->firsts);
+    if (j->firsts) {
+        return count == j->n_firsts ? CLI_YES
+                                    : cli_usage_error(j->arguments, "--paired: %s has other prefixes than %s", source,
+                                                      j->first_source);
+    }
+    j->firsts = calloc((size_t)j->trials, count * sizeof *j->firsts);
     if (!j->firsts) {
-        cli_usage_error(j->arguments, "--paired: no memory for %zu values of %zu trials", count, (size_t)j->trials);
-        return false;
+        return cli_no_memory();
     }
     j->n_firsts = count;
     j->first_source = source;
     j->first_warp = j->warp;
-    return true;
+    return CLI_YES;
 }
 
 static koksma_status tally_points(measuring *j, const koksma_points *points, uint64_t trial, bool first)
@@ -190,7 +191,7 @@ int measuring_trials(measuring *j, const char *source)
         if (!code) {
             dim = points.dim;
             choose_prefixes(j, points.n);
-            code = open_firsts(j, source) ? CLI_YES : CLI_USAGE;
+            code = open_firsts(j, source);
         }
         if (!code) {
             const koksma_status status = tally_points(j, &points, t, first);

@@ -14,8 +14,8 @@ extern "C" {
 
 enum { KOKSMA_MAX_IMAGE_SIDE = 65536 };
 
-/* The most pixels one image may have. */
-#define KOKSMA_MAX_PIXELS ((size_t)1 << 28)
+/* The most pixels one image may have; as for points, fewer where a size has 32 bits. */
+#define KOKSMA_MAX_PIXELS KOKSMA_MAX_COORDINATES
 
 /* channels is 1 (luminance) or 3 (red, green and blue of Rec. 709); linear. Row 0 is on top; pixel (x, y) starts at
    pixels[(y * width + x) * channels]. */

@@ -76,8 +76,9 @@ typedef struct koksma_points {
 
 enum { KOKSMA_MAX_DIM = 4096 };
 
-/* The most coordinates one set may have (2 GiB of doubles). */
-#define KOKSMA_MAX_COORDINATES ((size_t)1 << 28)
+/* The most coordinates one set may have: 2 GiB of doubles. Where a size has 32 bits 128 MiB, so that a method's
+   buffers, less than 256 bytes for each coordinate, don't overflow it. */
+#define KOKSMA_MAX_COORDINATES ((size_t)1 << (sizeof(size_t) > 4 ? 28 : 24))
 
 /* Room for n points of dim coordinates, all zero. n = 0 is an error, as is more than KOKSMA_MAX_COORDINATES.
    Errors: ARGUMENT, MEMORY. */

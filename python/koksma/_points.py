@@ -17,6 +17,7 @@ from . import _structs as s
 from ._library import ArgumentError, call, check, core, spec, text
 
 PointArray = npt.NDArray[np.float64]
+MAX_COORDINATES = 1 << (28 if ctypes.sizeof(ctypes.c_size_t) > 4 else 24)  # KOKSMA_MAX_COORDINATES
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 
@@ -146,8 +147,9 @@ def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0,
         call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
         return adopt(points)
     if out is None:
-        if not (0 < n <= 1 << 28 and 0 < dim <= 4096 and n * dim <= 1 << 28):
-            raise ArgumentError(f"{n} points in {dim} dimensions: n and dim are at least 1, n times dim at most 2^28")
+        if not (0 < n <= MAX_COORDINATES and 0 < dim <= 4096 and n * dim <= MAX_COORDINATES):
+            raise ArgumentError(f"{n} points in {dim} dimensions: n and dim are at least 1, n times dim at most "
+                                f"{MAX_COORDINATES}")
         out = np.zeros((n, dim))
     elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.c_contiguous
               and out.flags.writeable and out.size and (n is None or out.shape == (n, dim))):

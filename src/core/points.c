@@ -2,7 +2,19 @@
 #include <stdlib.h>
 
 #include "core/pages.h"
+#include "core/points_io.h"
 #include "core/status.h"
+
+koksma_status koksma__points_fit(size_t n, int dim)
+{
+    if (dim < 1 || dim > KOKSMA_MAX_DIM) {
+        return koksma__fail(KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim, KOKSMA_MAX_DIM);
+    }
+    const size_t most = KOKSMA_MAX_COORDINATES / (size_t)dim;
+    return n <= most ? KOKSMA_OK
+                     : koksma__fail(KOKSMA_ARGUMENT, "n = %zu: at most %zu points of %d dimensions fit into one set",
+                                    n, most, dim);
+}
 
 koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
 {
@@ -10,12 +22,9 @@ koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
     if (n == 0) {
         return koksma__fail(KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");
     }
-    if (dim < 1 || dim > KOKSMA_MAX_DIM) {
-        return koksma__fail(KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim, KOKSMA_MAX_DIM);
-    }
-    if (n > KOKSMA_MAX_COORDINATES / (size_t)dim) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n = %zu: at most %zu points of %d dimensions fit into one set", n,
-                            KOKSMA_MAX_COORDINATES / (size_t)dim, dim);
+    const koksma_status status = koksma__points_fit(n, dim);
+    if (status) {
+        return status;
     }
     points->xs = calloc(n * (size_t)dim, sizeof *points->xs);
     if (!points->xs) {

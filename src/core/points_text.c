@@ -129,7 +129,8 @@ static koksma_status append(reader *r, double x)
     koksma_points *p = r->points;
     const size_t used = p->n; /* while reading, n counts coordinates */
     if (used == KOKSMA_MAX_COORDINATES) {
-        return malformed(r, "more coordinates than the 268435456 that fit into one set");
+        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: more coordinates than the %zu that fit into one set",
+                            r->name, r->line_number, KOKSMA_MAX_COORDINATES);
     }
     if (used == r->capacity) {
         const size_t capacity = used ? 2 * used : 64;

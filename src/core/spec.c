@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/points_io.h"
 #include "core/random.h"
 #include "core/spec.h"
 #include "core/status.h"
@@ -307,6 +308,7 @@ koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koks
                             "koksma_generate: it takes the spec of a pattern and initialised points");
     }
     koksma_status status = check_generate(spec, p, out->dim);
+    status = status ? status : koksma__points_fit(out->n, out->dim);
     const koksma_args args = arguments_of(spec, run);
     if (!status) {
         status = p->generate(seed, &args, out);
@@ -360,12 +362,9 @@ koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *poin
     }
     *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
     koksma_status status = check_dim(m->name, points->dim, m->min_dim, m->max_dim);
-    if (!status) {
-        status = check_params(m->name, m->params, spec->params);
-    }
-    if (!status) {
-        status = check_points(points);
-    }
+    status = status ? status : check_params(m->name, m->params, spec->params);
+    status = status ? status : koksma__points_fit(points->n, points->dim);
+    status = status ? status : check_points(points);
     const koksma_args args = arguments_of(spec, run);
     if (!status) {
         status = m->eval(points, &args, out);

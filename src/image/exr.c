@@ -344,21 +344,24 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
              : KOKSMA_OK;
 }
 
-static bool reads_back(const koksma__bytes *bytes, const koksma_image *image)
+/* Errors: MEMORY. */
+static koksma_status read_back(const koksma__bytes *bytes, const koksma_image *image, bool *same)
 {
     koksma_image back = {0};
     const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    const bool same = !read(bytes->data, bytes->size, &back) && back.width == image->width &&
-                      back.height == image->height && back.channels == image->channels &&
-                      !memcmp(back.pixels, image->pixels, count * sizeof *image->pixels);
+    const koksma_status status = read(bytes->data, bytes->size, &back);
+    *same = !status && back.width == image->width && back.height == image->height &&
+            back.channels == image->channels && !memcmp(back.pixels, image->pixels, count * sizeof *image->pixels);
     koksma_image_fini(&back);
-    return same;
+    return status == KOKSMA_MEMORY ? status : KOKSMA_OK;
 }
 
 static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
 {
-    const koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
-    if (status || reads_back(out, layers->image)) {
+    bool same = false;
+    koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
+    status = status ? status : read_back(out, layers->image, &same);
+    if (status || same) {
         return status;
     }
     out->size = 0;

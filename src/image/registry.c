@@ -8,7 +8,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 
-#define MAX_FILE ((size_t)1 << 33)
+#define MAX_FILE ((size_t)1 << (sizeof(size_t) > 4 ? 33 : 30))
 
 static const koksma__image_format *const formats[] = {
 #define FORMAT(name) &koksma__format_##name,

@@ -62,14 +62,15 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
     enum { CHAINS = 4, LANES = CHAINS * LANES64 };
     for (size_t first = 0; first < count; first += LANES) {
         const size_t some = count - first < LANES ? count - first : LANES;
-        double own[2 * LANES] = {0}, found[LANES];
+        double own[2][LANES] = {{0}}, found[LANES];
         lanes64_d x[CHAINS], y[CHAINS], best[CHAINS];
-        memcpy(own, pairs + 2 * first, 2 * some * sizeof *own);
+        for (size_t i = 0; i < some; i++) {
+            own[0][i] = scale * pairs[2 * (first + i)];
+            own[1][i] = scale * pairs[2 * (first + i) + 1];
+        }
+        memcpy(x, own[0], sizeof x);
+        memcpy(y, own[1], sizeof y);
         for (int c = 0; c < CHAINS; c++) {
-            for (int l = 0; l < LANES64; l++) {
-                x[c][l] = scale * own[2 * (c * LANES64 + l)];
-                y[c][l] = scale * own[2 * (c * LANES64 + l) + 1];
-            }
             best[c] = splat(1);
         }
         for (size_t j = 0; j < near; j++) {

@@ -127,8 +127,8 @@ INLINE void store_units(const block *b, int chains, double *out)
 INLINE void store_words(const block *b, int chains, uint32_t *out)
 {
     for (int c = 0; c < chains; c++, out += 4 * LANES64) {
-        const lanes64_u x = lanes64_halves(b->w[0][c], b->w[1][c] << 32);
-        const lanes64_u y = lanes64_halves(b->w[2][c], b->w[3][c] << 32);
+        const lanes64_u x = lanes64_words(b->w[0][c], b->w[1][c]);
+        const lanes64_u y = lanes64_words(b->w[2][c], b->w[3][c]);
         lanes64_d low, high;
         lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
         memcpy(out, &low, sizeof low);
@@ -230,8 +230,8 @@ INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *ou
         for (int k = 0; k < 4; k++) {
             product[k] = (lanes64_u)lanes64_product((lanes64)b->w[k][c], (lanes64)(bound + splat((uint64_t)k)));
         }
-        const lanes64_u x = lanes64_halves(product[0] >> 32, product[1]);
-        const lanes64_u y = lanes64_halves(product[2] >> 32, product[3]);
+        const lanes64_u x = lanes64_upper_words(product[0], product[1]);
+        const lanes64_u y = lanes64_upper_words(product[2], product[3]);
         lanes64_d low, high;
         lanes64_pairs((lanes64_d)x, (lanes64_d)y, &low, &high);
         memcpy(out, &low, sizeof low);

@@ -114,6 +114,26 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #endif
 }
 
+/* Lanes that hold two words each, of which `even` lies first in memory: from the lower halves, and from the upper
+ * ones. */
+static inline lanes64_u lanes64_words(lanes64_u even, lanes64_u odd)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes64_halves(even, odd << 32);
+#else
+    return lanes64_halves(odd, even << 32);
+#endif
+}
+
+static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes64_halves(even >> 32, odd);
+#else
+    return lanes64_halves(odd >> 32, even);
+#endif
+}
+
 /* The largest whole numbers not above numbers in [0, 2^52). */
 static inline lanes64_d lanes64_floor(lanes64_d x)
 {

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Light from far away, the same everywhere or an image of latitude and longitude: row 0 is straight up, columns go
- * round from -z over -x to +z and +x. Ways are chosen with a density that is constant on each pixel and in proportion
- * to its luminance times the sine of its row (Pharr, Jakob & Humphreys 2016, section 14.2.4), and a hundredth of it
- * everywhere alike, so that no light is missed by rounding.
+ * round from +z over -x to -z, in the middle, and +x: who looks along -z sees the image as it is, not mirrored. Ways
+ * are chosen with a density that is constant on each pixel and in proportion to its luminance times the sine of its
+ * row (Pharr, Jakob & Humphreys 2016, section 14.2.4), and a hundredth of it everywhere alike, so that no light is
+ * missed by rounding.
  */
 #include <stdlib.h>
 
@@ -121,17 +122,17 @@ static size_t find(const float *cdf, size_t n, float u, float *within)
 
 static void way(const koksma__environment *e, float x, float y, float w[3])
 {
-    const float azimuth = 2 * KOKSMA__PI_F * (x + e->turn), polar = KOKSMA__PI_F * y;
+    const float azimuth = 2 * KOKSMA__PI_F * (x - e->turn), polar = KOKSMA__PI_F * y;
     w[0] = -sinf(polar) * sinf(azimuth);
     w[1] = cosf(polar);
-    w[2] = -sinf(polar) * cosf(azimuth);
+    w[2] = sinf(polar) * cosf(azimuth);
 }
 
 /* The place of w in the image, both in [0,1). */
 static void place(const koksma__environment *e, const float w[3], float *x, float *y)
 {
     const float up = w[1] < -1 ? -1 : w[1] > 1 ? 1 : w[1];
-    const float turns = atan2f(-w[0], -w[2]) / (2 * KOKSMA__PI_F) - e->turn;
+    const float turns = atan2f(-w[0], w[2]) / (2 * KOKSMA__PI_F) + e->turn;
     *x = turns - floorf(turns);
     *x = *x < 1 ? *x : 0;
     *y = acosf(up) / KOKSMA__PI_F;

@@ -144,22 +144,31 @@ koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status 
 
 /* ---- Documents and nodes --------------------------------------------------------------------------------- */
 
+/* Reads the text when as much memory as its longest string could take, twice over, is there: jansson 2.14 doesn't
+   look whether it got the memory for a longer string, and writes on (lex_save() in its load.c). */
+static koksma_status read_text(koksma__json *d, json_error_t *error)
+{
+    const size_t room = 4 * d->size + 4096;
+    char *volatile there = malloc(room); /* volatile: compilers leave out what is only freed */
+    if (!there) {
+        return koksma__fail_memory(room);
+    }
+    memset(there, 1, room); /* addresses alone are cheap */
+    free(there);
+    d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, error);
+    return KOKSMA_OK;
+}
+
 /* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second
-   reading, of a copy: as much memory as the text is long was there. */
+   reading. */
 static koksma_status load(koksma__json *d)
 {
     json_error_t error;
-    d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, &error);
-    if (d->root) {
-        return KOKSMA_OK;
+    koksma_status status = read_text(d, &error);
+    status = status || d->root ? status : read_text(d, &error);
+    if (status) {
+        return status;
     }
-    char *copy = malloc(d->size + 4096);
-    if (!copy) {
-        return koksma__fail_memory(d->size + 4096);
-    }
-    memcpy(copy, d->text, d->size);
-    d->root = json_loadb(copy, d->size, JSON_REJECT_DUPLICATES, &error);
-    free(copy);
     return d->root ? KOKSMA_OK
                    : koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", d->kind, d->name,
                                   error.line > 0 ? error.line : 1, error.text);

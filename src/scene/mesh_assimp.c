@@ -111,22 +111,23 @@ typedef struct taken {
     koksma_status status;
 } taken;
 
-/* io->UserData: taken. */
+/* io->UserData: taken. After a file that is there and can't be read no other is opened: without materials, say, it
+   would be another scene. */
 static struct aiFile *open_proc(struct aiFileIO *io, const char *path, const char *mode)
 {
     taken *all = (taken *)(void *)io->UserData;
-    open_file *f = strchr(mode, 'r') && koksma__is_plain_file(path) ? calloc(1, sizeof *f) : NULL;
-    if (f && koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &f->bytes, &f->size)) {
-        free(f);
-        f = NULL;
+    if (all->status || !strchr(mode, 'r') || !koksma__is_plain_file(path)) {
+        return NULL;
     }
-    if (f && !koksma__mesh_part_check(path, f->bytes, f->size)) {
+    open_file *f = calloc(1, sizeof *f);
+    all->status =
+        f ? koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &f->bytes, &f->size) : koksma__fail_memory(sizeof *f);
+    if (!all->status && !koksma__mesh_part_check(path, f->bytes, f->size)) {
         all->status = KOKSMA_MALFORMED;
         free(f->bytes);
-        free(f);
-        f = NULL;
     }
-    if (!f) {
+    if (all->status) {
+        free(f);
         return NULL;
     }
     all->hash += koksma__hash(f->bytes, f->size);
@@ -354,8 +355,11 @@ static koksma_status read_all(reader *r, bool *has_camera)
     if (status) {
         return status;
     }
-    for (unsigned i = 0; i < from->mNumMaterials; i++) {
+    for (unsigned i = 0; !r->build.status && i < from->mNumMaterials; i++) {
         read_material(r, from->mMaterials[i]);
+    }
+    if (r->build.status) {
+        return r->build.status;
     }
     if (!from->mNumMaterials) {
         koksma__build_grey(&r->build);

@@ -42,12 +42,13 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* An image of the file's own (glb), or a file beside it; what we can't read is left out, and the colour is taken. */
-static koksma_image *read_texture(const koksma__build *build, const koksma__file_material *from)
+/* An image of the file's own (glb), or a file beside it; what we can't read is left out, and the colour is taken.
+   Sets build->status when memory runs out. */
+static koksma_image *read_texture(koksma__build *build, const koksma__file_material *from)
 {
     char full[KOKSMA__MAX_PATH];
     koksma_image *image = calloc(1, sizeof *image);
-    koksma_status status = KOKSMA_MALFORMED;
+    koksma_status status = image ? KOKSMA_MALFORMED : koksma__fail_memory(sizeof *image);
     if (image && from->bytes) {
         status = koksma__image_read_bytes(from->bytes, from->size, image);
     } else if (image && !from->within && koksma__path_beside(build->path, from->texture, full) &&
@@ -55,6 +56,7 @@ static koksma_image *read_texture(const koksma__build *build, const koksma__file
         status = koksma_image_read(full, image);
     }
     if (status) {
+        build->status = status == KOKSMA_MEMORY ? status : build->status;
         koksma_image_fini(image);
         free(image);
         return NULL;

@@ -63,7 +63,7 @@ typedef struct koksma__build {
     koksma__gltf gltf;
     int *meshes;          /* the scene's, by the file's numbers; -1: not yet */
     double (*glows)[3];   /* by material */
-    koksma_status status; /* of the placements so far */
+    koksma_status status; /* of the materials and placements so far */
 } koksma__build;
 
 /* Room for so many; fini also after a failure. Errors: MALFORMED (too many), MEMORY. */

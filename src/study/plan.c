@@ -207,7 +207,7 @@ static koksma_status parse_table(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
     status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);
     status = status ? status : koksma__plan_spec(node, "also", koksma_measure_spec, false, &t->also);
-    status = status ? status : koksma__json_get_whole(node, "n", true, 1, 1 << 28, &t->n);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, (int)KOKSMA_MAX_COORDINATES, &t->n);
     t->dim = 2;
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
     if (!status && !t->scene == !t->measure) {

@@ -4,6 +4,7 @@
 #include "faults.h"
 
 #include <errno.h>
+#include <execinfo.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -26,15 +27,56 @@ static long wanted_at;
 static int mode;
 static bool listening; /* KOKSMA_FAULT is set */
 static atomic_long counts[N_FAULTS];
+static bool telling; /* KOKSMA_FAULT_COUNT is set */
 
 _Noreturn void fault_end(void)
 {
     _exit(ENDED);
 }
 
+/* ---- Places -------------------------------------------------------------------------------------------- */
+
+/* A place is where a call comes from: the addresses that the innermost FRAMES functions go back to. */
+enum { FRAMES = 12, MAX_PLACES = 1 << 14 };
+static struct {
+    uint64_t hash; /* 0: no place yet */
+    long first, last;
+} places[N_FAULTS][MAX_PLACES];
+static pthread_mutex_t places_lock = PTHREAD_MUTEX_INITIALIZER;
+
+static void note_place(fault_kind kind, long at)
+{
+    void *frames[FRAMES];
+    const int n = backtrace(frames, FRAMES);
+    uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, a word at a time */
+    for (int i = 0; i < n; i++) {
+        hash = (hash ^ (uintptr_t)frames[i]) * 0x100000001b3;
+        hash ^= hash >> 29;
+    }
+    hash = hash ? hash : 1;
+    pthread_mutex_lock(&places_lock);
+    for (size_t i = hash % MAX_PLACES, tries = 0;; i = (i + 1) % MAX_PLACES, tries++) {
+        if (tries == MAX_PLACES) {
+            abort();
+        }
+        if (!places[kind][i].hash) {
+            places[kind][i].hash = hash;
+            places[kind][i].first = at;
+        }
+        if (places[kind][i].hash == hash) {
+            places[kind][i].last = at > places[kind][i].last ? at : places[kind][i].last;
+            break;
+        }
+    }
+    pthread_mutex_unlock(&places_lock);
+}
+
 bool fault_here(fault_kind kind, bool *half)
 {
     const long at = atomic_fetch_add(&counts[kind], 1) + 1;
+    if (telling) {
+        note_place(kind, at);
+    }
     if (kind != wanted || at < wanted_at || (mode != MODE_ON && at > wanted_at)) {
         return false;
     }
@@ -90,6 +132,13 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size)
 char *__wrap_strdup(const char *text)
 {
     return no_memory() ? NULL : __real_strdup(text);
+}
+
+/* jansson 2.14 writes past its buffer where it doesn't get the memory for a longer string. That buffer grows by
+   powers of two from 32 on; requests of those sizes, its tables' among them, are not made to fail. */
+static void *json_memory(size_t size)
+{
+    return size >= 32 && !(size & (size - 1)) ? __real_malloc(size) : __wrap_malloc(size);
 }
 
 /* ---- Files --------------------------------------------------------------------------------------------- */
@@ -271,7 +320,13 @@ static void tell_counts(void)
     FILE *stream = __real_fopen(getenv("KOKSMA_FAULT_COUNT"), "w");
     if (stream) {
         for (int i = 1; i < N_FAULTS; i++) {
-            fprintf(stream, "%s %ld\n", names[i], atomic_load(&counts[i]));
+            fprintf(stream, "%s %ld", names[i], atomic_load(&counts[i]));
+            for (int j = 0; j < MAX_PLACES; j++) {
+                if (places[i][j].hash) {
+                    fprintf(stream, " %ld %ld", places[i][j].first, places[i][j].last);
+                }
+            }
+            fputc('\n', stream);
         }
         __real_fclose(stream);
     }
@@ -283,7 +338,7 @@ __attribute__((constructor)) static void begin(void)
     if (!kind) {
         return;
     }
-    json_set_alloc_funcs(__wrap_malloc, free);
+    json_set_alloc_funcs(json_memory, free);
     fault_install_sqlite();
     stdout = above(stdout, "w");
     memset(counts, 0, sizeof counts);
@@ -300,5 +355,6 @@ __attribute__((constructor)) static void begin(void)
     wanted = (fault_kind)i;
     if (getenv("KOKSMA_FAULT_COUNT")) {
         atexit(tell_counts);
+        telling = true;
     }
 }

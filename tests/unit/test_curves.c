@@ -289,7 +289,12 @@ static void diaphony_has_known_values(void **state)
     for (size_t i = 0; i < p.n; i++) {
         p.xs[i] = (double)i / 2000;
     }
-    assert_near(test_measure("diaphony", &p).value * 2000 * sqrt(3) / M_PI, 1, 1e-13);
+#ifdef __SIZEOF_INT128__
+    const double rounding = 1e-13;
+#else
+    const double rounding = 1e-12; /* of summing pairs */
+#endif
+    assert_near(test_measure("diaphony", &p).value * 2000 * sqrt(3) / M_PI, 1, rounding);
     koksma_points_fini(&p);
     /* the sum over frequencies up to 400; what is left out is below 2 (1 + pi^2/3) 2/400 */
     p = sets_points(7, 2, 0, 4);

@@ -212,6 +212,35 @@ static void hashes_cover_the_files_that_a_scene_names(void **state)
     unlink("one.pfm");
 }
 
+/* A square with a texture looks as one in the texture's colour; what is no image leaves the material's colour. */
+static void textures_of_models_are_read(void **state)
+{
+    (void)state;
+    need_meshes();
+#define SQUARE_OBJ(mtl)                                                                                              \
+    "mtllib " mtl "\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"             \
+    "f 1/1 2/2 3/3 4/4\n"
+    write_text("plain.obj", SQUARE_OBJ("plain.mtl"));
+    write_text("textured.obj", SQUARE_OBJ("textured.mtl"));
+    write_text("textured.mtl", "newmtl a\nKd 0.75 0.75 0.75\nmap_Kd texture.pfm\n");
+    write_text("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\076"); /* 0.126 */
+    write_text("plain.mtl", "newmtl a\nKd 0.12598039 0.12598039 0.12598039\n");
+    const uint64_t hash = hash_of("textured.obj");
+    assert_near(mean(NULL, "textured.obj", "distribution", 16, 4), mean(NULL, "plain.obj", "distribution", 16, 4),
+                1e-6);
+    write_text("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\077");
+    assert_true(hash != hash_of("textured.obj"));
+    write_text("texture.pfm", "no picture");
+    write_text("plain.mtl", "newmtl a\nKd 0.75 0.75 0.75\n");
+    assert_near(mean(NULL, "textured.obj", "distribution", 16, 4), mean(NULL, "plain.obj", "distribution", 16, 4),
+                1e-6);
+    unlink("plain.obj");
+    unlink("textured.obj");
+    unlink("plain.mtl");
+    unlink("textured.mtl");
+    unlink("texture.pfm");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -219,6 +248,7 @@ int main(void)
         cmocka_unit_test(images_are_albedos),
         cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
         cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),
+        cmocka_unit_test(textures_of_models_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

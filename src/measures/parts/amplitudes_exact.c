@@ -93,10 +93,10 @@ koksma_status koksma__power_exact(const koksma_points *points, int half, const k
 {
     const size_t rows = 2 * ((size_t)half + 1);
     job j = {.points = points, .half = half, .n_columns = (rows + COLUMNS - 1) / COLUMNS, .power = power};
-    const size_t bytes = j.n_columns * COLUMNS * points->n * sizeof(double);
-    j.y_panels = malloc(bytes);
+    const size_t wide = j.n_columns * COLUMNS, bytes = points->n * sizeof(double);
+    j.y_panels = calloc(wide, bytes); /* which looks whether the product is a size */
     if (!j.y_panels) {
-        return koksma__fail_memory(bytes);
+        return koksma__fail(KOKSMA_MEMORY, "out of memory: %zu times %zu bytes could not be had", wide, bytes);
     }
     for (size_t c = 0; c < j.n_columns; c++) {
         fill_panel(points, 1, c * COLUMNS, COLUMNS, 0, points->n, j.y_panels + c * points->n * COLUMNS);

@@ -8,7 +8,9 @@ typedef struct koksma__dd {
     double hi, lo;
 } koksma__dd;
 
+#ifdef __SIZEOF_INT128__ /* not where a register has 32 bits */
 __extension__ typedef __int128 koksma__int128;
+#endif
 
 /* a + b exactly. */
 static inline koksma__dd koksma__dd_sum(double a, double b)
@@ -60,10 +62,12 @@ static inline koksma__dd koksma__dd_divide(koksma__dd a, double b)
     return koksma__dd_quick_sum(q, rest.hi / b);
 }
 
+#ifdef __SIZEOF_INT128__
 static inline koksma__dd koksma__dd_of_int(koksma__int128 v)
 {
     const double hi = (double)v;
     return (koksma__dd){hi, (double)(v - (koksma__int128)hi)};
 }
+#endif
 
 #endif

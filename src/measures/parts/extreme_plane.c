@@ -270,6 +270,7 @@ static koksma_status bound_rest(plane *p, size_t n_blocks, const koksma_run *run
     for (size_t block = 0; block < n_blocks && !all && !status; block++) {
         p->upper[block] = fmin(p->upper[block], row_upper[block * COARSE / p->row_side]);
     }
+    p->row_upper = NULL;
     return status;
 }
 

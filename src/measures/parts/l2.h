@@ -55,7 +55,8 @@ koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
 
 /* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
-   coefficients of a24 and g but the first, and r. */
+   coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.
+ */
 koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                   double *square);
 koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,

@@ -16,6 +16,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 
+#ifdef __SIZEOF_INT128__ /* what else l2_sort.c does without */
+
 enum { MAX_BITS = 8, PARTS = 1 << MAX_BITS, LOW_BITS = 26, CHUNK = 1 << 15 };
 
 typedef koksma__int128 wide;
@@ -207,3 +209,5 @@ koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_p
     free(j.starts);
     return status;
 }
+
+#endif

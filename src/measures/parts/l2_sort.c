@@ -24,6 +24,16 @@
 #include "measures/parts/l2_below.h"
 #include "measures/parts/order.h"
 
+#ifndef __SIZEOF_INT128__
+/* Without integers of 128 bits, which a compiler for 32 bits lacks, the pairs are summed, in O(n^2). */
+koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                    double *square)
+{
+    return koksma__l2_by_pairs(row, points, run, square);
+}
+
+#else
+
 enum { POINTS_PER_BLOCK = 4096, LOW_BITS = 56, FACTOR_BITS = 112, G_SCALE = 16 };
 
 typedef koksma__int128 wide;
@@ -362,3 +372,5 @@ koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_poin
     free(p.before_x);
     return status;
 }
+
+#endif

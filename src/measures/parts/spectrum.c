@@ -7,6 +7,7 @@
 
 #include <koksma/spectrum.h>
 
+#include "core/points_io.h"
 #include "core/status.h"
 #include "measures/parts/amplitudes.h"
 
@@ -77,12 +78,16 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
     }
+    koksma_status status = koksma__points_fit(points->n, points->dim);
+    if (status) {
+        return status;
+    }
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     if (!power) {
         return koksma__fail_memory((count + 2 * rows) * sizeof *power);
     }
-    const koksma_status status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(
-        points, spectrum->half, run, power);
+    status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(points, spectrum->half, run,
+                                                                                          power);
     if (!status) {
         spectrum->sets++;
         const double sets = (double)spectrum->sets;

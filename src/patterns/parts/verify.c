@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/points_io.h"
 #include "core/room.h"
 #include "core/status.h"
 
@@ -198,6 +199,10 @@ static koksma_status verify_progress(const koksma_points *points, const koksma_r
 koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
     *findings = (koksma_findings){0};
+    koksma_status status = koksma__points_fit(points->n, points->dim);
+    if (status) {
+        return status;
+    }
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
             return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
@@ -205,7 +210,7 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
         }
     }
     uint32_t *counts = malloc((points->n + 1) * sizeof *counts);
-    koksma_status status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);
+    status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);
     if (!status) {
         status = koksma__verify_nets(points, run, counts, findings);
     }

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The integrator `whitted`: luminaires as points at their centres, and the tree of rays in glass. */
+#include "rendering.h"
+
+static double seen(const char *text, int depth)
+{
+    koksma_scene *scene = scene_of(text);
+    koksma_render_options options = options_of(scene, "regular", "whitted", 4, 2);
+    options.depth = depth;
+    const double mean = mean_of(scene, &options, NULL);
+    koksma_scene_close(scene);
+    return mean;
+}
+
+/* A patch of albedo 0.9 under radiance 2 from a small area A at distance d and cosines c: 0.9 / pi 2 A c c' / d^2. */
+static void lights_are_points_at_their_centres(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *light;
+        double reflected;
+    } cases[] = {
+        {"\"kind\": \"sphere\", \"centre\": [3, 4, 0], \"radius\": 0.5, \"radiance\": 2", 0.9 * 2 * 0.25 / 25 * 0.8},
+        {"\"kind\": \"disk\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"radius\": 1.5, \"radiance\": 2",
+         0.9 * 2 * 2.25 / 4},
+        {"\"kind\": \"rectangle\", \"centre\": [3, 4, 0], \"normal\": [0, -1, 0], \"half\": [0.5, 0.25], "
+         "\"radiance\": 2",
+         0.9 / M_PI * 2 * 0.5 / 25 * 0.64},
+        {"\"kind\": \"rectangle\", \"centre\": [3, 4, 0], \"normal\": [0, 1, 0], \"half\": [0.5, 0.25], "
+         "\"radiance\": 2",
+         0},
+        {"\"kind\": \"point\", \"centre\": [3, 4, 0], \"intensity\": 5", 0.9 / M_PI * 5 / 25 * 0.8},
+        {"\"kind\": \"directional\", \"direction\": [3, -4, 0], \"irradiance\": 5", 0.9 / M_PI * 5 * 0.8},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
+            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
+            "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
+            "\"lights\": [{%s}]}",
+            cases[i].light);
+        assert_near(seen(text, 2), cases[i].reflected, 2e-4 * cases[i].reflected);
+    }
+}
+
+/* Straight through a ball of glass, R = ((n - 1) / (n + 1))^2 = 0.04 at each of its sides: rays see the white around
+   it after a reflection, after the two refractions, and after these with reflections inside, each of which takes a
+   bounce. */
+static void glass_sends_rays_both_ways(void **state)
+{
+    (void)state;
+    static const char scene[] =
+        "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"dielectric\", \"ior\": 1.5}],"
+        "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}],"
+        "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1}]}";
+    const double r = 0.04, t = 1 - r;
+    assert_near(seen(scene, 0), 0, 0);
+    assert_near(seen(scene, 1), r, 1e-5);
+    assert_near(seen(scene, 2), r + t * t, 1e-5);
+    assert_near(seen(scene, 3), r + t * t * (1 + r), 1e-5);
+    assert_near(seen(scene, 4), r + t * t * (1 + r + r * r), 1e-5);
+    assert_near(seen(scene, 9), r + t * t * (1 + r + r * r), 1e-5); /* the next weighs less than 1/1000 */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lights_are_points_at_their_centres),
+        cmocka_unit_test(glass_sends_rays_both_ways),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
