@@ -12,11 +12,14 @@ static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
     return r->digit ? r->digit(r->context, r->base, j, a) : a;
 }
 
+/* The most indices of a set on any machine (KOKSMA_MAX_COORDINATES is less with 32 bits). */
+#define MOST 0x1p28
+
 /* The digits and the size of the table for indices below n. With mapped digits the place where the row of zeros
-   begins must not depend on n, so that the values do not either. */
+   begins must not depend on n, nor on the machine, so that the values do not either. */
 static void measure(koksma__radical *r, uint32_t base, size_t n, bool mapped)
 {
-    const double most = mapped ? (double)KOKSMA_MAX_COORDINATES : (double)n;
+    const double most = mapped ? MOST : (double)n;
     r->base = base;
     r->whole = base;
     r->digits = 1;
