@@ -29,6 +29,15 @@ static void bind_series(koksma__statement *s, int *column, const koksma__series 
     koksma__bind_text(s, column, key->what);
 }
 
+/* Numbers are small, unless the file is damaged. */
+static koksma_status check_number(const koksma__store *store, long long number)
+{
+    return number >= 0 && number <= MOST_SERIES
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_MALFORMED, "%s: a series with the number %lld; move it away to begin anew",
+                              koksma__database_path(store->database), number);
+}
+
 /* The id for a new series: the next of its group, or the first of a new one. */
 static koksma_status next_series(koksma__store *store, const koksma__series *series, long long *id)
 {
@@ -39,8 +48,12 @@ static koksma_status next_series(koksma__store *store, const koksma__series *ser
     const bool found = koksma__next_row(store->database, s, &status);
     const long long last = found ? koksma__column_whole(s, 0) : 0,
                     last_of_all = found ? koksma__column_whole(s, 1) : 0;
-    *id = (last + 1) % KOKSMA__GROUP && last ? last + 1 : koksma__group_of(last_of_all) + KOKSMA__GROUP;
     koksma__statement_reset(s);
+    status = status ? status : check_number(store, last);
+    status = status ? status : check_number(store, last_of_all);
+    if (!status) {
+        *id = (last + 1) % KOKSMA__GROUP && last ? last + 1 : koksma__group_of(last_of_all) + KOKSMA__GROUP;
+    }
     return status;
 }
 
@@ -49,9 +62,12 @@ static koksma_status add_series(koksma__store *store, const koksma__series *seri
     koksma__statement *s = store->queries[KOKSMA__ADD_SERIES];
     int column = 1;
     koksma_status status = next_series(store, series, id);
+    if (status) {
+        return status;
+    }
     bind_series(s, &column, series);
     koksma__bind_whole(s, &column, *id);
-    status = status ? status : koksma__store_write(store, KOKSMA__ADD_SERIES);
+    status = koksma__store_write(store, KOKSMA__ADD_SERIES);
     koksma__store_forget(store);
     return status;
 }
@@ -66,6 +82,7 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
     const bool found = koksma__next_row(store->database, s, &status);
     *id = found ? koksma__column_whole(s, 0) : 0;
     koksma__statement_reset(s);
+    status = status ? status : check_number(store, *id);
     if (!status && !found && add) {
         status = add_series(store, series, id);
     }
@@ -78,11 +95,7 @@ static koksma_status last_series(koksma__store *store, long long *last)
     koksma_status status = KOKSMA_OK;
     *last = koksma__next_row(store->database, s, &status) ? koksma__column_whole(s, 0) : 0;
     koksma__statement_reset(s);
-    if (!status && (*last < 0 || *last > MOST_SERIES)) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: a series with the number %lld; move it away to begin anew",
-                              koksma__database_path(store->database), *last);
-    }
-    return status;
+    return status ? status : check_number(store, *last);
 }
 
 koksma_status koksma__store_know_series(koksma__store *store)
