@@ -220,9 +220,12 @@ static koksma_status find_series(koksma__tasks *tasks, owners *o)
             most = t->series[k] > most ? t->series[k] : most;
         }
     }
+    if (status) {
+        return status;
+    }
     o->n = (size_t)most + 1;
     o->at = calloc(o->n, sizeof *o->at);
-    status = status || o->at ? status : koksma__fail_memory(o->n * sizeof *o->at);
+    status = o->at ? KOKSMA_OK : koksma__fail_memory(o->n * sizeof *o->at);
     for (size_t i = 0; !status && i < tasks->n; i++) {
         koksma__task *t = &tasks->at[i];
         for (size_t k = 0; !status && k < t->n_series; k++) {
