@@ -9,18 +9,6 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
 
 enum { LANES = 8, PARTS = LANES / LANES64 };
 
-static inline lanes64_d splat(double x)
-{
-    return x - (lanes64_d){0};
-}
-
-static inline lanes64_d load(const double *from)
-{
-    lanes64_d v;
-    memcpy(&v, from, sizeof v);
-    return v;
-}
-
 static inline lanes64_d masked(lanes64_i mask, lanes64_d x)
 {
     return (lanes64_d)((lanes64_i)x & mask);
@@ -41,7 +29,7 @@ static inline lanes64_d fall(lanes64_d z)
 
 static inline lanes64_d short_way(lanes64_d t)
 {
-    const lanes64_d one = splat(1);
+    const lanes64_d one = lanes64_splat_d(1);
     return t - masked((lanes64_i)(t > 0.5), one) + masked((lanes64_i)(t < -0.5), one);
 }
 
@@ -53,8 +41,8 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
         for (uint32_t i = run[2 * r], end = run[2 * r + 1]; i < end; i += LANES) {
             for (int p = 0; p < PARTS; p++) {
                 const lanes64_i inside = (lanes64_i)(lanes64_count() + (uint64_t)(p * LANES64) < (uint64_t)(end - i));
-                const lanes64_d a = short_way(load(xs + i + p * LANES64) - x);
-                const lanes64_d b = short_way(load(ys + i + p * LANES64) - y);
+                const lanes64_d a = short_way(lanes64_load_d(xs + i + p * LANES64) - x);
+                const lanes64_d b = short_way(lanes64_load_d(ys + i + p * LANES64) - y);
                 const lanes64_d square = a * a + b * b;
                 const lanes64_d w = masked(inside & (lanes64_i)(square <= cut2), fall(square * scale));
                 sum[0][p] -= w * a;

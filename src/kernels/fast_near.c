@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The two questions of maximal Poisson disk sampling, for several places at a time without branches. */
+/* Distances to points that are near, of several places at a time without branches: for maximal Poisson disks, whether
+   squares are covered; for pmj02bn, how far the nearest point is. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -9,17 +10,6 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
                                  double scale, double *least);
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2);
-static inline lanes64_d splat(double x)
-{
-    return x - (lanes64_d){0};
-}
-
-static inline lanes64_d load(const double *from)
-{
-    lanes64_d v;
-    memcpy(&v, from, sizeof v);
-    return v;
-}
 
 static inline bool any(lanes64_i mask)
 {
@@ -40,11 +30,12 @@ static inline lanes64_d reach(lanes64_d from, lanes64_d at, lanes64_d h)
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2)
 {
-    const lanes64_d x0 = splat(x - step), x1 = splat(x + step), y0 = splat(y - step), y1 = splat(y + step);
-    const lanes64_d half = splat(h), limit = splat(d2);
+    const lanes64_d x0 = lanes64_splat_d(x - step), x1 = lanes64_splat_d(x + step), y0 = lanes64_splat_d(y - step),
+                    y1 = lanes64_splat_d(y + step);
+    const lanes64_d half = lanes64_splat_d(h), limit = lanes64_splat_d(d2);
     lanes64_i found[4] = {{0}, {0}, {0}, {0}};
     for (size_t i = 0; i < count; i += LANES64) {
-        const lanes64_d px = load(xs + i), py = load(ys + i);
+        const lanes64_d px = lanes64_load_d(xs + i), py = lanes64_load_d(ys + i);
         const lanes64_d a0 = reach(px, x0, half), a1 = reach(px, x1, half);
         const lanes64_d b0 = reach(py, y0, half), b1 = reach(py, y1, half);
         found[0] |= (lanes64_i)(a0 + b0 < limit);
@@ -71,11 +62,11 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
         memcpy(x, own[0], sizeof x);
         memcpy(y, own[1], sizeof y);
         for (int c = 0; c < CHAINS; c++) {
-            best[c] = splat(1);
+            best[c] = lanes64_splat_d(1);
         }
         for (size_t j = 0; j < near; j++) {
             for (int c = 0; c < CHAINS; c++) {
-                const lanes64_d a = splat(dx[j]) - x[c], b = splat(dy[j]) - y[c];
+                const lanes64_d a = lanes64_splat_d(dx[j]) - x[c], b = lanes64_splat_d(dy[j]) - y[c];
                 best[c] = lanes64_min(a * a + b * b, best[c]);
             }
         }

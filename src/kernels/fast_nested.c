@@ -19,11 +19,6 @@ typedef struct strata {
     lanes64_u order[CHAINS];  /* digit d at bit 4 d; the first is the stratum's own */
 } strata;
 
-static inline lanes64_u splat(uint64_t x)
-{
-    return x - (lanes64_u){0};
-}
-
 /* Doubles of whole numbers below 2^32, and back. */
 static inline lanes64_d to_doubles(lanes64_u x)
 {
@@ -53,10 +48,10 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
         s->prefix[c] = lanes64_floor((upper + 0.5) * part) * base;
         const lanes64_u own = to_words(upper - s->prefix[c]);
         if (base == 3) { /* own, own + 1, own + 2 modulo 3 */
-            const lanes64_u two = chosen((lanes64_i)(own == 1), splat(0x021), splat(0x102));
-            s->order[c] = chosen((lanes64_i)(own == 0), splat(0x210), two);
+            const lanes64_u two = chosen((lanes64_i)(own == 1), lanes64_splat(0x021), lanes64_splat(0x102));
+            s->order[c] = chosen((lanes64_i)(own == 0), lanes64_splat(0x210), two);
         } else {
-            s->order[c] = ((EVERY_DIGIT & ~(splat(15) << 4 * own)) & ~splat(15)) | own;
+            s->order[c] = ((EVERY_DIGIT & ~(lanes64_splat(15) << 4 * own)) & ~lanes64_splat(15)) | own;
         }
     }
 }
@@ -69,7 +64,7 @@ static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t 
         lanes64_u w;
         memcpy(&w, word + 2 * c * LANES64, sizeof w);
         const lanes64_u product =
-            (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)splat(base - d));
+            (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)lanes64_splat(base - d));
         const lanes64_u pick = ((product >> 32) + d) << 2, kept = s->order[c] >> 4 * d & 15;
         const lanes64_u digit = s->order[c] >> pick & 15;
         s->order[c] ^= (digit ^ kept) << pick; /* place d is not looked at again */

@@ -21,11 +21,6 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
 void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
 
-static inline lanes64_u splat(uint64_t x)
-{
-    return x - (lanes64_u){0};
-}
-
 /* What counters share that differ in the lowest word only: that round 0 makes w[0] and w[1] the same for all, and
    round 1 w[3] and what w[2] is xored with. The keys of the other rounds; in memory they take no instruction. */
 typedef struct stream {
@@ -41,16 +36,16 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
     uint32_t k0 = (uint32_t)seed, k1 = (uint32_t)(seed >> 32);
     const uint64_t p1 = (uint64_t)lane * multiplier[1];
     const uint32_t w0 = (uint32_t)(p1 >> 32) ^ high ^ k0, w1 = (uint32_t)p1;
-    out->w2_of_0 = splat(purpose ^ k1);
+    out->w2_of_0 = lanes64_splat(purpose ^ k1);
     k0 += weyl[0];
     k1 += weyl[1];
     const uint64_t p0 = (uint64_t)w0 * multiplier[0];
-    out->w0_of_1 = splat(w1 ^ k0);
-    out->w2_of_1 = splat((uint32_t)(p0 >> 32) ^ k1);
-    out->w3_of_1 = splat((uint32_t)p0);
+    out->w0_of_1 = lanes64_splat(w1 ^ k0);
+    out->w2_of_1 = lanes64_splat((uint32_t)(p0 >> 32) ^ k1);
+    out->w3_of_1 = lanes64_splat((uint32_t)p0);
     for (int round = 0; round < ROUNDS; round++) {
-        out->keys[round][0] = splat(k0 += weyl[0]);
-        out->keys[round][1] = splat(k1 += weyl[1]);
+        out->keys[round][0] = lanes64_splat(k0 += weyl[0]);
+        out->keys[round][1] = lanes64_splat(k1 += weyl[1]);
     }
 }
 
@@ -59,10 +54,10 @@ static __attribute__((noinline)) void make_stream(uint64_t seed, uint32_t purpos
 /* The first two rounds, and one of the others. */
 INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
 {
-    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
     block b;
     for (int c = 0; c < chains; c++) {
-        const lanes64_u counter = order + splat(first + (uint64_t)(c * LANES64));
+        const lanes64_u counter = order + lanes64_splat(first + (uint64_t)(c * LANES64));
         const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)counter, m0);
         const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)((p0 >> 32) ^ s->w2_of_0), m1);
         b.w[0][c] = (p1 >> 32) ^ s->w0_of_1;
@@ -75,7 +70,7 @@ INLINE block begin(const stream *s, lanes64_u order, uint64_t first, int chains)
 
 INLINE void go_on(const stream *s, int round, int chains, block *b)
 {
-    const lanes64 m0 = (lanes64)splat(multiplier[0]), m1 = (lanes64)splat(multiplier[1]);
+    const lanes64 m0 = (lanes64)lanes64_splat(multiplier[0]), m1 = (lanes64)lanes64_splat(multiplier[1]);
     for (int c = 0; c < chains; c++) {
         const lanes64_u p0 = (lanes64_u)lanes64_product((lanes64)b->w[0][c], m0);
         const lanes64_u p1 = (lanes64_u)lanes64_product((lanes64)b->w[2][c], m1);
@@ -106,7 +101,7 @@ typedef uint32_t words_of_lanes __attribute__((vector_size(8 * LANES64)));
    1/2 + (low / 2^11) 2^-53 have these numbers as the lower bits of their mantissas. */
 static inline lanes64_d unit(lanes64_u high, lanes64_u low)
 {
-    const lanes64_u upper = splat(0x4130000000000000u), lower = splat(0x3fe0000000000000u);
+    const lanes64_u upper = lanes64_splat(0x4130000000000000u), lower = lanes64_splat(0x3fe0000000000000u);
     const lanes64_d h = (lanes64_d)lanes64_halves(high, upper) - 0x1p20;
     const lanes64_d l = (lanes64_d)lanes64_halves((lanes64_u)((words_of_lanes)low >> 11), lower) - 0x1p-1;
     return h + l;
@@ -224,11 +219,12 @@ void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_
 /* koksma__below(word, first + i + 1) for the words number i of a block, in order: the products' upper halves. */
 INLINE void store_below(const block *b, uint32_t first, int chains, uint32_t *out)
 {
-    lanes64_u bound = 4 * lanes64_count_pairs() + splat(first + 1);
-    for (int c = 0; c < chains; c++, out += 4 * LANES64, bound += splat(4 * LANES64)) {
+    lanes64_u bound = 4 * lanes64_count_pairs() + lanes64_splat(first + 1);
+    for (int c = 0; c < chains; c++, out += 4 * LANES64, bound += lanes64_splat(4 * LANES64)) {
         lanes64_u product[4];
         for (int k = 0; k < 4; k++) {
-            product[k] = (lanes64_u)lanes64_product((lanes64)b->w[k][c], (lanes64)(bound + splat((uint64_t)k)));
+            product[k] =
+                (lanes64_u)lanes64_product((lanes64)b->w[k][c], (lanes64)(bound + lanes64_splat((uint64_t)k)));
         }
         const lanes64_u x = lanes64_upper_words(product[0], product[1]);
         const lanes64_u y = lanes64_upper_words(product[2], product[3]);
@@ -285,13 +281,13 @@ INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d whole, lanes64
 INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n, bool exact,
                           double *xs)
 {
-    const lanes64_u exponent = splat(0x4330000000000000u), one = splat((uint64_t)1 << 32);
+    const lanes64_u exponent = lanes64_splat(0x4330000000000000u), one = lanes64_splat((uint64_t)1 << 32);
     const lanes64_d whole = n * 0x1p32 - (lanes64_d){0}, inverse = 1 / whole;
-    lanes64_u column = (2 * lanes64_count() + splat(first)) << 32 | exponent;
+    lanes64_u column = (2 * lanes64_count() + lanes64_splat(first)) << 32 | exponent;
     size_t i = 0;
     while (i + 2 * LANES <= count) {
         const block b = philox_in(s, lanes64_count(), (first + i) / 2, CHAINS);
-        for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += splat((uint64_t)2 * LANES64 << 32)) {
+        for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += lanes64_splat((uint64_t)2 * LANES64 << 32)) {
             lanes64_u pair;
             memcpy(&pair, rows + i, sizeof pair);
             const lanes64_u even = lanes64_even_words(pair) << 32 | exponent;

@@ -46,6 +46,24 @@ typedef uint64_t lanes64_u __attribute__((vector_size(8 * LANES64)));
 typedef int64_t lanes64_i __attribute__((vector_size(8 * LANES64)));
 typedef double lanes64_d __attribute__((vector_size(8 * LANES64)));
 
+/* The same in every lane. */
+static inline lanes64_u lanes64_splat(uint64_t x)
+{
+    return x - (lanes64_u){0};
+}
+
+static inline lanes64_d lanes64_splat_d(double x)
+{
+    return x - (lanes64_d){0};
+}
+
+static inline lanes64_d lanes64_load_d(const double *from)
+{
+    lanes64_d v;
+    memcpy(&v, from, sizeof v);
+    return v;
+}
+
 /* 0, 1, 2, ... */
 static inline lanes64_u lanes64_count(void)
 {
