@@ -13,37 +13,34 @@
 #include <stdlib.h>
 
 #include "core/pages.h"
-#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/parts/cells.h"
+#include "patterns/parts/columns.h"
 #include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
 
-enum { FEW = 256, GROUP = 1 << 15 };
+enum { FEW = 256 };
 
 /* In 2D u has 32 bits: two points for one draw of 128. */
 typedef struct plane {
     uint64_t seed;
     const uint32_t *rows;
-    koksma_points *out;
 } plane;
 
-static koksma_status place(void *context, size_t group)
+static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
 {
     const plane *p = context;
-    const size_t first = group * GROUP, left = p->out->n - first;
-    koksma__kernels()->rooks_2d(p->seed, p->rows + first, first, left < GROUP ? left : GROUP, p->out->n,
-                                p->out->xs + 2 * first);
-    return KOKSMA_OK;
+    (void)stream;
+    koksma__kernels()->rooks_2d(p->seed, p->rows + first, first, count, out->n, out->xs + 2 * first);
 }
 
 static koksma_status fill_plane(uint64_t seed, const koksma_run *run, uint32_t *rows, koksma_points *out)
 {
-    plane p = {seed, rows, out};
+    const plane p = {seed, rows};
     koksma__fill_permutation(seed, 1, (uint32_t)out->n, rows);
-    return out->n <= GROUP ? place(&p, 0) : koksma__parallel(run, (out->n + GROUP - 1) / GROUP, place, &p);
+    return koksma__fill_rows(run, out, place, &p);
 }
 
 static koksma_status fill_space(uint64_t seed, const koksma_run *run, uint32_t *permutation, koksma_points *out)
