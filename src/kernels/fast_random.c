@@ -268,21 +268,22 @@ void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t
     insert(at, first, n - first, out);
 }
 
-/* The double of cell + word 2^-32 over n, from the bits cell 2^32 + word, below 2^52, which are the lower ones of the
-   mantissa of 2^52. `upper` has the cell, and the exponent of that. */
-INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d whole, lanes64_d inverse, bool exact)
+/* (cell + word 2^-32) / n. `upper` has the cell in its upper half, with the exponent of `base`, 2^20: with the word
+   below it, it is their sum to the last bit. For powers of two base is 2^20 / n, and all of it smaller by n. */
+INLINE lanes64_d place(lanes64_u word, lanes64_u upper, lanes64_d base, lanes64_d n, bool power_of_two)
 {
-    const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - 0x1p52;
-    return exact ? x * inverse : x / whole;
+    const lanes64_d x = (lanes64_d)lanes64_halves(word, upper) - base;
+    return power_of_two ? x : x / n;
 }
 
 /* With n <= 2^20 the quotient is below the cell's end: they are 2^-52 apart, and the double before 1 is 2^-53 from
-   it. For powers of two it is a product. Two points a counter, which are rows of four numbers. */
-INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n, bool exact,
-                          double *xs)
+   it. Two points a counter, which are rows of four numbers. */
+INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, size_t count, double n,
+                          bool power_of_two, double *xs)
 {
-    const lanes64_u exponent = lanes64_splat(0x4330000000000000u), one = lanes64_splat((uint64_t)1 << 32);
-    const lanes64_d whole = n * 0x1p32 - (lanes64_d){0}, inverse = 1 / whole;
+    const lanes64_d base = lanes64_splat_d(power_of_two ? 0x1p20 / n : 0x1p20), whole = lanes64_splat_d(n);
+    const lanes64_u exponent = (lanes64_u)base, exponents = exponent | exponent >> 32;
+    const lanes64_u one = lanes64_splat((uint64_t)1 << 32);
     lanes64_u column = (2 * lanes64_count() + lanes64_splat(first)) << 32 | exponent;
     size_t i = 0;
     while (i + 2 * LANES <= count) {
@@ -290,11 +291,11 @@ INLINE size_t place_rooks(const stream *s, const uint32_t *rows, size_t first, s
         for (int c = 0; c < CHAINS; c++, i += 2 * LANES64, column += lanes64_splat((uint64_t)2 * LANES64 << 32)) {
             lanes64_u pair;
             memcpy(&pair, rows + i, sizeof pair);
-            const lanes64_u even = lanes64_even_words(pair) << 32 | exponent;
-            const lanes64_u odd = lanes64_odd_words(pair) << 32 | exponent;
-            const lanes64_d points[4] = {
-                place(b.w[0][c], column, whole, inverse, exact), place(b.w[1][c], even, whole, inverse, exact),
-                place(b.w[2][c], column + one, whole, inverse, exact), place(b.w[3][c], odd, whole, inverse, exact)};
+            pair |= exponents;
+            const lanes64_d points[4] = {place(b.w[0][c], column, base, whole, power_of_two),
+                                         place(b.w[1][c], lanes64_even_upper(pair), base, whole, power_of_two),
+                                         place(b.w[2][c], column + one, base, whole, power_of_two),
+                                         place(b.w[3][c], lanes64_odd_upper(pair), base, whole, power_of_two)};
             lanes64_store_rows(points, 4, false, xs + 2 * i);
         }
     }

@@ -132,6 +132,25 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #endif
 }
 
+/* The same words in the upper halves of lanes; the lower ones are garbage. */
+static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes << 32;
+#else
+    return lanes;
+#endif
+}
+
+static inline lanes64_u lanes64_odd_upper(lanes64_u lanes)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    return lanes;
+#else
+    return lanes << 32;
+#endif
+}
+
 /* Lanes that hold two words each, of which `even` lies first in memory: from the lower halves, and from the upper
  * ones. */
 static inline lanes64_u lanes64_words(lanes64_u even, lanes64_u odd)
