@@ -9,11 +9,6 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
 
 enum { LANES = 8, PARTS = LANES / LANES64 };
 
-static inline lanes64_d masked(lanes64_i mask, lanes64_d x)
-{
-    return (lanes64_d)((lanes64_i)x & mask);
-}
-
 /* exp(z) of z from -50 to 0, to 1e-11 of it: 2^k exp(r), z = k ln 2 + r, |r| <= ln 2 / 2 and Taylor's series up to
    r^9 (Estrin's scheme: few steps wait for others). Adding 3 2^51 rounds to the nearest whole number, whose bits are
    the lower ones of the sum's. */
@@ -30,7 +25,7 @@ static inline lanes64_d fall(lanes64_d z)
 static inline lanes64_d short_way(lanes64_d t)
 {
     const lanes64_d one = lanes64_splat_d(1);
-    return t - masked((lanes64_i)(t > 0.5), one) + masked((lanes64_i)(t < -0.5), one);
+    return t - lanes64_masked((lanes64_i)(t > 0.5), one) + lanes64_masked((lanes64_i)(t < -0.5), one);
 }
 
 void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs, const double *ys, double x,
@@ -44,7 +39,7 @@ void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs
                 const lanes64_d a = short_way(lanes64_load_d(xs + i + p * LANES64) - x);
                 const lanes64_d b = short_way(lanes64_load_d(ys + i + p * LANES64) - y);
                 const lanes64_d square = a * a + b * b;
-                const lanes64_d w = masked(inside & (lanes64_i)(square <= cut2), fall(square * scale));
+                const lanes64_d w = lanes64_masked(inside & (lanes64_i)(square <= cut2), fall(square * scale));
                 sum[0][p] -= w * a;
                 sum[1][p] -= w * b;
             }

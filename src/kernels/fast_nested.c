@@ -7,8 +7,8 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
-                                double width, const uint32_t *word, double *v);
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+                                double *const *v);
 
 enum { CHAINS = 2, LANES = CHAINS * LANES64 };
 
@@ -19,10 +19,10 @@ typedef struct strata {
     lanes64_u order[CHAINS];  /* digit d at bit 4 d; the first is the stratum's own */
 } strata;
 
-/* Doubles of whole numbers below 2^32, and back. */
+/* Doubles of the lower halves, and back. */
 static inline lanes64_d to_doubles(lanes64_u x)
 {
-    return (lanes64_d)(x | 0x4330000000000000u) - 0x1p52;
+    return (lanes64_d)lanes64_halves(x, lanes64_splat(0x4330000000000000u)) - 0x1p52;
 }
 
 static inline lanes64_u to_words(lanes64_d x)
@@ -38,13 +38,14 @@ static inline lanes64_u chosen(lanes64_i mask, lanes64_u x, lanes64_u y)
 static inline __attribute__((always_inline)) void look_at(uint32_t base, double width, const double *v, strata *s)
 {
     const double inverse = 1 / width, part = 1.0 / base;
+    const lanes64_d one = lanes64_splat_d(1);
     for (int c = 0; c < CHAINS; c++) {
         lanes64_d x;
         memcpy(&x, v + c * LANES64, sizeof x);
         /* The estimate is off by one at most, and the product by width is exact. */
         lanes64_d upper = lanes64_floor(x * inverse);
         const lanes64_d rest = x - upper * width;
-        upper += __builtin_convertvector((lanes64_i)(rest < 0) - (lanes64_i)(rest >= width), lanes64_d);
+        upper += lanes64_masked((lanes64_i)(rest >= width), one) - lanes64_masked((lanes64_i)(rest < 0), one);
         s->prefix[c] = lanes64_floor((upper + 0.5) * part) * base;
         const lanes64_u own = to_words(upper - s->prefix[c]);
         if (base == 3) { /* own, own + 1, own + 2 modulo 3 */
@@ -56,33 +57,34 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
     }
 }
 
-/* Relatives number d, whose words are at `word`. */
-static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, const uint32_t *word,
-                                                        strata *s, double *v)
+/* Relatives number d, at v. */
+static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t d, double width, strata *s, double *v)
 {
+    const double part = width * 0x1p-32;
     for (int c = 0; c < CHAINS; c++) {
-        lanes64_u w;
-        memcpy(&w, word + 2 * c * LANES64, sizeof w);
-        const lanes64_u product =
-            (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)lanes64_splat(base - d));
-        const lanes64_u pick = ((product >> 32) + d) << 2, kept = s->order[c] >> 4 * d & 15;
-        const lanes64_u digit = s->order[c] >> pick & 15;
-        s->order[c] ^= (digit ^ kept) << pick; /* place d is not looked at again */
-        const lanes64_d below = lanes64_floor(width * (to_doubles(lanes64_odd_words(w)) * 0x1p-32));
+        lanes64_u w, digit = s->order[c] >> 4 * d & 15;
+        memcpy(&w, v + c * LANES64, sizeof w);
+        if (base - d > 1) {
+            const lanes64_u product =
+                (lanes64_u)lanes64_product((lanes64)lanes64_even_words(w), (lanes64)lanes64_splat(base - d));
+            const lanes64_u pick = ((product >> 32) + d) << 2, kept = digit;
+            digit = s->order[c] >> pick & 15;
+            s->order[c] ^= (digit ^ kept) << pick; /* place d is not looked at again */
+        }
+        const lanes64_d below = lanes64_floor(part * to_doubles(lanes64_odd_words(w)));
         const lanes64_d x = (s->prefix[c] + to_doubles(digit)) * width + below;
         memcpy(v + c * LANES64, &x, sizeof x);
     }
 }
 
-static inline __attribute__((always_inline)) void place_all(uint32_t base, uint32_t relatives, size_t first,
-                                                            size_t count, size_t step, double width,
-                                                            const uint32_t *word, double *v)
+static inline __attribute__((always_inline)) void place_all(uint32_t base, uint32_t relatives, size_t count,
+                                                            double width, const double *own, double *const *v)
 {
-    for (size_t r = first; r + LANES <= first + count; r += LANES) {
+    for (size_t r = 0; r + LANES <= count; r += LANES) {
         strata s;
-        look_at(base, width, v + r, &s);
+        look_at(base, width, own + r, &s);
         for (uint32_t d = 1; d <= relatives; d++) {
-            place(base, d, width, word + 2 * (r + d * step), &s, v + r + d * step);
+            place(base, d, width, &s, v[d - 1] + r);
         }
     }
 }
@@ -92,35 +94,35 @@ static double whole_part(double x)
     return (double)(int64_t)x;
 }
 
-static void place_one(uint32_t base, uint32_t relatives, size_t r, size_t step, double width, const uint32_t *word,
-                      double *v)
+static void place_one(uint32_t base, uint32_t relatives, size_t r, double width, double own, double *const *v)
 {
-    const double upper = whole_part(v[r] / width), prefix = whole_part(upper / base) * base;
-    const uint32_t own = (uint32_t)(upper - prefix);
-    uint64_t order = (EVERY_DIGIT & ~((uint64_t)15 << 4 * own) & ~(uint64_t)15) | own;
+    const double upper = whole_part(own / width), prefix = whole_part(upper / base) * base;
+    const uint32_t digit0 = (uint32_t)(upper - prefix);
+    uint64_t order = (EVERY_DIGIT & ~((uint64_t)15 << 4 * digit0) & ~(uint64_t)15) | digit0;
     if (base == 3) {
-        order = own == 0 ? 0x210 : own == 1 ? 0x021 : 0x102;
+        order = digit0 == 0 ? 0x210 : digit0 == 1 ? 0x021 : 0x102;
     }
     for (uint32_t d = 1; d <= relatives; d++) {
-        const size_t i = r + d * step;
-        const uint32_t pick = d + koksma__below(word[2 * i], base - d);
+        uint32_t word[2];
+        memcpy(word, &v[d - 1][r], sizeof word);
+        const uint32_t pick = d + koksma__below(word[0], base - d);
         const uint64_t digit = order >> 4 * pick & 15, kept = order >> 4 * d & 15;
         order ^= (digit ^ kept) << 4 * pick;
-        v[i] = (prefix + (double)(int32_t)digit) * width + whole_part(width * (word[2 * i + 1] * 0x1p-32));
+        v[d - 1][r] = (prefix + (double)(int32_t)digit) * width + whole_part(width * (word[1] * 0x1p-32));
     }
 }
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
-                                double width, const uint32_t *word, double *v)
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+                                double *const *v)
 {
     if (base == 3 && relatives == 1) {
-        place_all(3, 1, first, count, step, width, word, v);
+        place_all(3, 1, count, width, own, v);
     } else if (base == 3) {
-        place_all(3, 2, first, count, step, width, word, v);
+        place_all(3, 2, count, width, own, v);
     } else {
-        place_all(base, relatives, first, count, step, width, word, v);
+        place_all(base, relatives, count, width, own, v);
     }
-    for (size_t r = first + count / LANES * LANES; r < first + count; r++) {
-        place_one(base, relatives, r, step, width, word, v);
+    for (size_t r = count / LANES * LANES; r < count; r++) {
+        place_one(base, relatives, r, width, own[r], v);
     }
 }

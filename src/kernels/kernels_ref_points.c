@@ -3,6 +3,7 @@
 #define KOKSMA_ISA ref
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <koksma/sampler.h>
 
@@ -123,11 +124,11 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
     }
 }
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first, size_t count, size_t step,
-                                double width, const uint32_t *word, double *v)
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+                                double *const *v)
 {
-    for (size_t r = first; r < first + count; r++) {
-        const double upper = floor(v[r] / width), prefix = floor(upper / base) * base;
+    for (size_t r = 0; r < count; r++) {
+        const double upper = floor(own[r] / width), prefix = floor(upper / base) * base;
         uint32_t order[13];
         for (uint32_t d = 0; d < base; d++) {
             order[d] = base == 3 ? ((uint32_t)(upper - prefix) + d) % 3 : d;
@@ -137,11 +138,12 @@ void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t first,
             order[0] = (uint32_t)(upper - prefix);
         }
         for (uint32_t d = 1; d <= relatives; d++) {
-            const size_t i = r + d * step;
-            const uint32_t pick = d + koksma__below(word[2 * i], base - d), digit = order[pick];
+            uint32_t word[2];
+            memcpy(word, &v[d - 1][r], sizeof word);
+            const uint32_t pick = d + koksma__below(word[0], base - d), digit = order[pick];
             order[pick] = order[d];
             order[d] = digit;
-            v[i] = (prefix + digit) * width + floor(width * ldexp(word[2 * i + 1], -32));
+            v[d - 1][r] = (prefix + digit) * width + floor(width * ldexp(word[1], -32));
         }
     }
 }

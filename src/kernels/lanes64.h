@@ -113,11 +113,11 @@ static inline lanes64_u lanes64_halves(lanes64_u low, lanes64_u high)
 #endif
 }
 
-/* The words that lay at even and at odd places where lanes of two were loaded from. */
+/* The words that lay at even and at odd places where lanes of two were loaded from; the upper halves are garbage. */
 static inline lanes64_u lanes64_even_words(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    return lanes & 0xffffffffu;
+    return lanes;
 #else
     return lanes >> 32;
 #endif
@@ -128,11 +128,11 @@ static inline lanes64_u lanes64_odd_words(lanes64_u lanes)
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     return lanes >> 32;
 #else
-    return lanes & 0xffffffffu;
+    return lanes;
 #endif
 }
 
-/* The same words in the upper halves of lanes; the lower ones are garbage. */
+/* The same words in the upper halves; the lower ones are garbage. */
 static inline lanes64_u lanes64_even_upper(lanes64_u lanes)
 {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
@@ -171,6 +171,12 @@ static inline lanes64_u lanes64_upper_words(lanes64_u even, lanes64_u odd)
 #endif
 }
 
+/* x where the mask is set, and 0 elsewhere. */
+static inline lanes64_d lanes64_masked(lanes64_i mask, lanes64_d x)
+{
+    return (lanes64_d)((lanes64_i)x & mask);
+}
+
 /* The largest whole numbers not above numbers in [0, 2^52). */
 static inline lanes64_d lanes64_floor(lanes64_d x)
 {
@@ -178,7 +184,7 @@ static inline lanes64_d lanes64_floor(lanes64_d x)
     return (lanes64_d)_mm256_floor_pd((__m256d)x);
 #else
     const lanes64_d nearest = (x + 0x1p52) - 0x1p52;
-    return nearest + __builtin_convertvector((lanes64_i)(nearest > x), lanes64_d);
+    return nearest - lanes64_masked((lanes64_i)(nearest > x), lanes64_splat_d(1));
 #endif
 }
 

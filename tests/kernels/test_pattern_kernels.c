@@ -155,12 +155,12 @@ static void nearest_offset(const koksma__kernel_table *t, size_t count, void *ou
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
 }
 
-/* Points r < some of the largest power of the base, their relatives, and the places between untouched. */
+/* Numbers, the words of their relatives, and what lies between, which stays as it is. */
 static void nested_digits(const koksma__kernel_table *t, size_t count, void *out)
 {
     static const uint32_t bases[] = {3, 5, 7, 11, 13};
     const uint32_t base = bases[count % 5], relatives = 1 + (uint32_t)(count / 5 % (base - 1));
-    double *v = out, whole = base, width = 1;
+    double *v = out, *relative[12], whole = base, width = 1;
     while (whole * base <= 0x1p53) {
         whole *= base;
     }
@@ -170,12 +170,15 @@ static void nested_digits(const koksma__kernel_table *t, size_t count, void *out
     if (count % 3 == 0) {
         width = whole / base;
     }
-    for (size_t i = 0; i < MAX; i++) {
+    const size_t first = count % 7, step = (MAX - first) / (relatives + 1);
+    memcpy(v, words, MAX * sizeof *v);
+    for (size_t i = first; i < first + step; i++) {
         v[i] = i == 3 ? whole - 1 : i == 4 ? width : i == 5 ? 0 : (double)(uint64_t)(units[i] * whole);
     }
-    const size_t first = count % 7, step = (MAX - first) / (relatives + 1);
-    const size_t some = count < step ? count : step;
-    t->nested_digits(base, relatives, first, some, step, width, words, v);
+    for (size_t d = 0; d < relatives; d++) {
+        relative[d] = v + first + (d + 1) * step;
+    }
+    t->nested_digits(base, relatives, count < step ? count : step, width, v + first, relative);
 }
 
 /* Runs of every length up to 12, at all distances up to twice the cut's. */

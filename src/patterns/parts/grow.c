@@ -124,3 +124,10 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
     free(memory);
     return status;
 }
+
+koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                                  size_t n, uint32_t *v)
+{
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .dim = 1, .n = n, .v = v};
+    return grow_columns(&g, run);
+}

@@ -14,4 +14,8 @@
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
 
+/* v[i] = the fraction of coordinate 0 of point i < n times 2^32, of which partners has the first 32. */
+koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                                  size_t n, uint32_t *v);
+
 #endif

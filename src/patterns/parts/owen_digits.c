@@ -4,10 +4,14 @@
  * Kensler 2021). Point r < b^j and its relatives r + d b^j, 0 < d < b, agree in the first j output digits. The digit
  * at place j of r is known from its random fraction; those of its relatives are drawn from the other b - 1 without
  * replacement, and what lies below is uniform. A value is a whole number of b^-M, with b^M just below 2^53.
+ *
+ * The points' own memory is all that the columns take but the first: a block of points holds its coordinates one
+ * column after the other, until they become rows. A number is two random words before it has a value.
  */
 #include "patterns/parts/owen_digits.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/pages.h"
 #include "core/parallel.h"
@@ -18,21 +22,41 @@
 #include "patterns/parts/grow.h"
 #include "patterns/parts/radical.h"
 
-enum { FEW = 256, MANY = 4096, STREAM = 1 << 20, MAX_BASE = 38880, SMALL_BASE = 13 };
+enum { FEW = 256, MANY = 4096, MAX_BASE = 38880, SMALL_BASE = 13, BLOCK_NUMBERS = 1 << 14 };
 
 typedef struct job {
     uint64_t seed;
     koksma_points *out;
-    double *columns; /* of n values, which become rows together; NULL: each column is stored by itself */
+    size_t block;     /* points of a block, a power of two: all but the last have as many */
+    uint32_t *halves; /* base 2: the first column, times 2^32 */
 } job;
 
 typedef struct column {
+    const job *job;
+    int k;
     uint32_t base;
-    size_t n;
-    double *v;            /* n values: whole numbers below 2^53 */
-    const uint32_t *word; /* two for each point */
     uint16_t *order, *picked;
 } column;
+
+/* The points of the block that begins at point `start`. */
+static size_t block_of(const job *j, size_t start)
+{
+    return j->out->n - start < j->block ? j->out->n - start : j->block;
+}
+
+/* Where number i of column k is; `left` numbers from it on lie side by side. */
+static double *find(const job *j, int k, size_t i, size_t *left)
+{
+    const size_t within = i & (j->block - 1), start = i - within, count = block_of(j, start);
+    *left = count - within;
+    return j->out->xs + start * (size_t)j->out->dim + (size_t)k * count + within;
+}
+
+static double *number(const column *c, size_t i)
+{
+    size_t left;
+    return find(c->job, c->k, i, &left);
+}
 
 /* floor, which is a call without SSE 4.1. */
 static inline double whole_part(double x)
@@ -49,18 +73,21 @@ static inline double below(double width, uint32_t word)
    numbers below 2^53 have the right floor. */
 static void place_relatives(const column *c, size_t r, size_t step, double width)
 {
-    const double upper = whole_part(c->v[r] / width), prefix = whole_part(upper / c->base) * c->base;
+    const double upper = whole_part(*number(c, r) / width), prefix = whole_part(upper / c->base) * c->base;
     const uint32_t own = (uint32_t)(upper - prefix);
     uint32_t d = 1;
     c->order[own] = 0;
     c->order[0] = (uint16_t)own;
-    for (size_t i = r + step; d < c->base && i < c->n; i += step, d++) {
-        const uint32_t pick = d + koksma__below(c->word[2 * i], c->base - d);
+    for (size_t i = r + step; d < c->base && i < c->job->out->n; i += step, d++) {
+        double *v = number(c, i);
+        uint32_t word[2];
+        memcpy(word, v, sizeof word);
+        const uint32_t pick = d + koksma__below(word[0], c->base - d);
         const uint16_t digit = c->order[pick];
         c->order[pick] = c->order[d];
         c->order[d] = digit;
         c->picked[d] = (uint16_t)pick;
-        c->v[i] = (prefix + digit) * width + below(width, c->word[2 * i + 1]);
+        *v = (prefix + digit) * width + below(width, word[1]);
     }
     while (--d) {
         const uint16_t digit = c->order[d];
@@ -71,126 +98,155 @@ static void place_relatives(const column *c, size_t r, size_t step, double width
     c->order[own] = (uint16_t)own;
 }
 
-/* Small bases: the same number of relatives at a time. Base 3 has draws of its own: the others of its digits come in
-   their cyclic order or in the opposite one. */
-static void place_small(const column *c, size_t step, double width)
+/* Small bases: points first .. end - 1, which have the same number of relatives, as many at a time as lie side by
+   side, and so do their relatives. Base 3 has draws of its own: the others of its digits come in their cyclic order
+   or in the opposite one. */
+static void place_alike(const column *c, uint32_t relatives, size_t first, size_t end, size_t step, double width)
 {
-    size_t first = 0;
-    for (uint32_t relatives = c->base - 1; relatives; relatives--) {
-        const size_t left = c->n > relatives * step ? c->n - relatives * step : 0, end = left < step ? left : step;
-        if (end > first) {
-            koksma__kernels()->nested_digits(c->base, relatives, first, end - first, step, width, c->word, c->v);
-            first = end;
+    while (first < end) {
+        size_t count;
+        double *v[SMALL_BASE];
+        const double *own = find(c->job, c->k, first, &count);
+        count = count < end - first ? count : end - first;
+        for (uint32_t d = 0; d < relatives; d++) {
+            size_t left;
+            v[d] = find(c->job, c->k, first + (d + 1) * step, &left);
+            count = left < count ? left : count;
         }
+        koksma__kernels()->nested_digits(c->base, relatives, count, width, own, v);
+        first += count;
     }
 }
 
 static void place_level(const column *c, size_t step, double width)
 {
-    if (c->base <= SMALL_BASE) {
-        place_small(c, step, width);
-        return;
+    const size_t n = c->job->out->n;
+    size_t first = 0;
+    for (uint32_t relatives = c->base - 1; relatives && c->base <= SMALL_BASE; relatives--) {
+        const size_t left = n > relatives * step ? n - relatives * step : 0, end = left < step ? left : step;
+        place_alike(c, relatives, first, end, step, width);
+        first = end > first ? end : first;
     }
-    for (size_t r = 0; r < (c->n - step < step ? c->n - step : step); r++) {
+    for (size_t r = 0; r < (n - step < step ? n - step : step) && c->base > SMALL_BASE; r++) {
         place_relatives(c, r, step, width);
     }
 }
 
-static void place_all(const column *c, double whole)
+/* The largest power of the base up to 2^53. */
+static double whole_of(uint32_t base)
 {
+    double whole = base;
+    while (whole * base <= 0x1p53) {
+        whole *= base;
+    }
+    return whole;
+}
+
+static void place_all(const column *c)
+{
+    const double whole = whole_of(c->base);
+    double *v = number(c, 0);
+    uint32_t word[2];
+    memcpy(word, v, sizeof word);
     for (uint32_t a = 0; a < c->base; a++) {
         c->order[a] = (uint16_t)a;
     }
-    c->v[0] = below(whole, c->word[0]) + c->word[1] % c->base;
-    c->v[0] -= c->v[0] >= whole ? whole : 0;
+    *v = below(whole, word[0]) + word[1] % c->base;
+    *v -= *v >= whole ? whole : 0;
     double width = whole;
-    for (size_t step = 1; step < c->n; step *= c->base) {
+    for (size_t step = 1; step < c->job->out->n; step *= c->base) {
         width /= c->base;
         place_level(c, step, width);
     }
 }
 
-/* Base 2 by the kernel of the nets in base 2; the digital sequence is the identity. */
-static koksma_status fill_base2(const job *j)
+/* Two words for each number: four for a pair, of which the last may be half. */
+static void draw(const job *j, int k)
 {
-    const uint32_t partners[32] = {0};
-    double few[FEW];
-    const size_t n = j->out->n;
-    koksma_points line = {n, 1, j->columns ? j->columns : n <= FEW ? few : malloc(n * sizeof *line.xs)};
-    if (!line.xs) {
-        return koksma__fail_memory(n * sizeof *line.xs);
+    const koksma__kernel_table *kernels = koksma__kernels();
+    for (size_t start = 0; start < j->out->n; start += j->block) {
+        size_t count;
+        double *v = find(j, k, start, &count);
+        kernels->words(j->seed, KOKSMA__PURPOSE_SCRAMBLE, start / 2, (uint32_t)k, count / 2, (uint32_t *)v);
+        if (count % 2) {
+            uint32_t word[4];
+            kernels->words(j->seed, KOKSMA__PURPOSE_SCRAMBLE, (start + count) / 2, (uint32_t)k, 1, word);
+            memcpy(v + count - 1, word, sizeof *v);
+        }
     }
-    const koksma_run one = {.threads = 1};
-    const koksma_status status = koksma__grow(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, &line);
-    if (!j->columns) {
-        koksma__store_column(n, line.xs, j->out->dim, 0, j->out->xs);
-    }
-    if (!j->columns && line.xs != few) {
-        free(line.xs);
-    }
-    return status;
 }
 
+/* Base 2 by the kernel of the nets in base 2; the digital sequence is the identity. */
 static koksma_status fill(void *context, size_t k)
 {
     const job *j = context;
     if (k == 0) {
-        return fill_base2(j);
+        const uint32_t partners[32] = {0};
+        const koksma_run one = {.threads = 1};
+        return koksma__grow_column(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, j->out->n, j->halves);
     }
-    const size_t n = j->out->n;
-    double few_values[FEW];
-    uint32_t few_words[2 * FEW + 2];
     uint16_t order[MAX_BASE], picked[MAX_BASE];
-    column c = {.base = koksma__prime((int)k), .n = n, .v = few_values, .order = order, .picked = picked};
-    uint32_t *word = few_words;
-    void *memory = NULL;
-    if (n > FEW) {
-        const size_t bytes = (j->columns ? 0 : n * sizeof *c.v) + (2 * n + 2) * sizeof *word;
-        memory = malloc(bytes);
-        if (!memory) {
-            return koksma__fail_memory(bytes);
-        }
-        koksma__large_pages(memory, bytes);
-        c.v = j->columns ? j->columns + k * n : memory;
-        word = j->columns ? memory : (uint32_t *)(c.v + n);
-    }
-    koksma__kernels()->words(j->seed, KOKSMA__PURPOSE_SCRAMBLE, 0, (uint32_t)k, (n + 1) / 2, word);
-    c.word = word;
-    double whole = c.base;
-    while (whole * c.base <= 0x1p53) {
-        whole *= c.base;
-    }
-    place_all(&c, whole);
-    koksma__kernels()->quotients(n, c.v, 0, whole, c.v);
-    if (!j->columns) {
-        koksma__store_column(n, c.v, j->out->dim, (int)k, j->out->xs);
-    }
-    free(memory);
+    draw(j, (int)k);
+    place_all(&(column){j, (int)k, koksma__prime((int)k), order, picked});
     return KOKSMA_OK;
+}
+
+/* The columns of a block become rows. */
+static koksma_status turn(void *context, size_t block)
+{
+    const job *j = context;
+    const int dim = j->out->dim;
+    const size_t start = block * j->block, count = block_of(j, start);
+    double columns[BLOCK_NUMBERS], *xs = j->out->xs + start * (size_t)dim;
+    koksma__kernels()->fractions(count, j->halves + start, columns);
+    for (int k = 1; k < dim; k++) {
+        const size_t at = (size_t)k * count;
+        koksma__kernels()->quotients(count, xs + at, 0, whole_of(koksma__prime(k)), columns + at);
+    }
+    if (dim == 2 || dim == 4) {
+        koksma__kernels()->rows_of_columns(count, dim, columns, count, false, xs);
+        return KOKSMA_OK;
+    }
+    for (int k = 0; k < dim; k++) {
+        koksma__store_column(count, columns + (size_t)k * count, dim, k, xs);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status fill_all(job *j, const koksma_run *run)
+{
+    const size_t n = j->out->n, dim = (size_t)j->out->dim, blocks = (n + j->block - 1) / j->block;
+    if (n < MANY) {
+        for (size_t k = 0; k < dim; k++) {
+            fill(j, k);
+        }
+        for (size_t b = 0; b < blocks; b++) {
+            turn(j, b);
+        }
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__parallel(run, dim, fill, j);
+    return status ? status : koksma__parallel(run, blocks, turn, j);
 }
 
 koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_points *out)
 {
-    const size_t n = out->n, dim = (size_t)out->dim;
-    job j = {seed, out, NULL};
-    koksma_status status = KOKSMA_OK;
-    if (n < MANY) {
-        for (size_t k = 0; k < dim && !status; k++) {
-            status = fill(&j, k);
+    uint32_t few[FEW];
+    job j = {seed, out, BLOCK_NUMBERS, few};
+    while (j.block * (size_t)out->dim > BLOCK_NUMBERS) {
+        j.block /= 2;
+    }
+    if (out->n > FEW) {
+        const size_t bytes = out->n * sizeof *j.halves;
+        j.halves = malloc(bytes);
+        if (!j.halves) {
+            return koksma__fail_memory(bytes);
         }
-        return status;
+        koksma__large_pages(j.halves, bytes);
     }
-    if (dim == 2 || dim == 4) {
-        j.columns = malloc(dim * n * sizeof *j.columns);
-        if (!j.columns) {
-            return koksma__fail_memory(dim * n * sizeof *j.columns);
-        }
-        koksma__large_pages(j.columns, dim * n * sizeof *j.columns);
+    const koksma_status status = fill_all(&j, run);
+    if (j.halves != few) {
+        free(j.halves);
     }
-    status = koksma__parallel(run, dim, fill, &j);
-    if (!status && j.columns) {
-        koksma__kernels()->rows_of_columns(n, out->dim, j.columns, n, dim * n > STREAM, out->xs);
-    }
-    free(j.columns);
     return status;
 }
