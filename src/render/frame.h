@@ -84,18 +84,18 @@ koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group
                                  koksma__sample_room *room, float *pairs);
 
 /* What a task needs to draw its samples and to know what they come to. */
-typedef struct koksma__room {
+typedef struct koksma__workroom {
     const koksma__pipeline *pipeline;
     void *own; /* the pipeline's */
     koksma__sample_room draw;
     koksma__values values;
-} koksma__room;
+} koksma__workroom;
 
 /* For groups of `capacity` samples; all_layers: albedo, normal and depth too. fini also after a failure. Errors:
  * MEMORY. */
-koksma_status koksma__room_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
-                                bool all_layers, koksma__room *room);
-void koksma__room_fini(koksma__room *room);
+koksma_status koksma__workroom_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                    bool all_layers, koksma__workroom *room);
+void koksma__workroom_fini(koksma__workroom *room);
 
 /* samples, rounded up to whole lanes */
 static inline size_t koksma__whole_lanes(size_t samples)

@@ -64,16 +64,16 @@ static void values_fini(koksma__values *v)
     free(v->depth);
 }
 
-koksma_status koksma__room_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
-                                bool all_layers, koksma__room *room)
+koksma_status koksma__workroom_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                    bool all_layers, koksma__workroom *room)
 {
-    *room = (koksma__room){.pipeline = pipeline};
+    *room = (koksma__workroom){.pipeline = pipeline};
     koksma_status status = values_init(&room->values, capacity, frame->channels, all_layers);
     status = status ? status : koksma__sample_room_init(&room->draw, &frame->sampler);
     return status ? status : pipeline->open(frame, capacity, &room->own);
 }
 
-void koksma__room_fini(koksma__room *room)
+void koksma__workroom_fini(koksma__workroom *room)
 {
     koksma__sample_room_fini(&room->draw);
     if (room->own) {

@@ -27,7 +27,7 @@ typedef struct job {
 
 /* ---- Groups ----------------------------------------------------------------------------------------------- */
 
-static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__room *r)
+static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__workroom *r)
 {
     const koksma__frame *f = j->frame;
     koksma_status status = KOKSMA_OK;
@@ -54,9 +54,9 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
-    koksma__room r;
+    koksma__workroom r;
     koksma__group group;
-    koksma_status status = koksma__room_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
+    koksma_status status = koksma__workroom_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
     status = status ? status : koksma__film_open_task(f, &j->film, task, first_row, rows);
     for (int y = first_row; y < first_row + rows; y++) {
         const size_t end = ((size_t)y + 1) * width;
@@ -66,7 +66,7 @@ static koksma_status render_rows(void *context, size_t task)
         }
     }
     atomic_fetch_add(&j->rays, r.values.rays);
-    koksma__room_fini(&r);
+    koksma__workroom_fini(&r);
     return status;
 }
 

@@ -100,7 +100,9 @@ static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__
             topic.images[topic.n_images++] = &plan->images[b];
         }
     }
-    koksma__html_add(html, "<h3 id=\"question-%s\">(%s) ", q->id, q->id);
+    koksma__html_add(html, "<h3");
+    koksma__html_id(html, "question", q->id);
+    koksma__html_add(html, ">(%s) ", q->id);
     koksma__html_text(html, q->title);
     koksma__html_add(html, "</h3>\n");
     return answers[q->kind](study, html, &topic);

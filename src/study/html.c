@@ -44,6 +44,20 @@ void koksma__html_add(koksma__html *html, const char *format, ...)
     va_end(again);
 }
 
+void koksma__html_id(koksma__html *html, const char *kind, const char *name)
+{
+    const size_t before = html->size;
+    koksma__html_add(html, " id=\"%s-%s\"", kind, name);
+    for (int number = 2; !html->failed; number++) {
+        const char *first = strstr(html->text, html->text + before);
+        if (first == html->text + before) {
+            return;
+        }
+        html->size = before;
+        koksma__html_add(html, " id=\"%s-%s-%d\"", kind, name, number);
+    }
+}
+
 void koksma__html_text(koksma__html *html, const char *text)
 {
     for (; *text; text++) {

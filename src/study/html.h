@@ -14,6 +14,9 @@ typedef struct koksma__html {
 /* Appends formatted markup; what comes from outside goes through koksma__html_text. */
 void koksma__html_add(koksma__html *html, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
+/* Appends ` id="KIND-NAME"`, where the text has it already with a number behind, from 2 on. NAME needs no escapes. */
+void koksma__html_id(koksma__html *html, const char *kind, const char *name);
+
 /* Appends text with the characters of markup escaped. */
 void koksma__html_text(koksma__html *html, const char *text);
 

@@ -54,14 +54,13 @@ bool koksma__ledger_take(koksma__ledger *ledger, bool lost, koksma__deal *deal)
     bool found = false;
     *deal = (koksma__deal){0};
     pthread_mutex_lock(&ledger->lock);
-    if (ledger->status) {
-        found = false;
-    } else if (koksma__queue_take(&ledger->part_queue, 1, NULL, NULL, &i) ||
-               (lost && ledger->part_queue.left && koksma__queue_take_lost(&ledger->part_queue, &i))) {
+    const bool failed = ledger->status != KOKSMA_OK;
+    if (!failed && (koksma__queue_take(&ledger->part_queue, 1, NULL, NULL, &i) ||
+                    (lost && ledger->part_queue.left && koksma__queue_take_lost(&ledger->part_queue, &i)))) {
         *deal = (koksma__deal){.kind = KOKSMA__DEAL_PART, .number = i, .part = ledger->parts.at[i]};
         found = true;
-    } else if (koksma__queue_take(&ledger->jobs, ledger->pool->tasks->n, job_is_ready, ledger, &i) ||
-               (lost && !ledger->part_queue.left && koksma__queue_take_lost(&ledger->jobs, &i))) {
+    } else if (!failed && (koksma__queue_take(&ledger->jobs, ledger->pool->tasks->n, job_is_ready, ledger, &i) ||
+                           (lost && !ledger->part_queue.left && koksma__queue_take_lost(&ledger->jobs, &i)))) {
         *deal = (koksma__deal){.kind = KOKSMA__DEAL_JOB, .number = i};
         found = true;
     }

@@ -76,7 +76,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     koksma__discrepancy_block *b = item;
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", false, &b->id);
+    status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
     status = status ? status : koksma__plan_specs(node, "measures", koksma_measure_spec, &b->measures);
     if (!status && koksma__json_has(node, "warps")) {
@@ -133,7 +133,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     koksma__image_block *b = item;
     double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", false, &b->id);
+    status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
@@ -202,7 +202,7 @@ static koksma_status parse_table(const koksma__json_node *node, const koksma__pl
                                        "n",       "dim", "rows",  "notes", NULL};
     koksma__table *t = item;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", true, &t->id);
+    status = status ? status : koksma__plan_id(node, true, &t->id);
     status = status ? status : koksma__plan_text(node, "title", true, &t->title);
     status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
     status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);

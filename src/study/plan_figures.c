@@ -83,7 +83,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     (void)trials;
     f->strata[0] = f->strata[1] = -1;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", true, &f->id);
+    status = status ? status : koksma__plan_id(node, true, &f->id);
     status = status ? status : koksma__plan_text(node, "title", true, &f->title);
     status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
     status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);

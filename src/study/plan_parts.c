@@ -38,6 +38,16 @@ koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, 
     return status || !text ? status : copy(text, out);
 }
 
+koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
+{
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    const koksma_status status = koksma__plan_text(node, "id", needed, out);
+    if (!status && *out && (!**out || (*out)[strspn(*out, allowed)])) {
+        return koksma__json_fail(node, "id '%.40s': it takes letters, digits, '.', '-' and '_'", *out);
+    }
+    return status;
+}
+
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out)
 {

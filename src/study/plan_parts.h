@@ -13,6 +13,9 @@ typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, cons
 /* A copy of the member's text; *out stays NULL when it is not there and not needed. */
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out);
 
+/* Its "id": letters, digits, '.', '-' and '_', as reports have it in links. */
+koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out);
+
 /* The same for a spec, checked, in its canonical form. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);

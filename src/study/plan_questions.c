@@ -13,7 +13,7 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
     koksma__question *q = item;
     const char *kind;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_text(node, "id", true, &q->id);
+    status = status ? status : koksma__plan_id(node, true, &q->id);
     status = status ? status : koksma__plan_text(node, "title", true, &q->title);
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &q->discrepancies);
     status = status ? status : koksma__plan_text(node, "images", false, &q->images);

@@ -81,7 +81,9 @@ static void add_notes(koksma__html *h, const koksma__table *t)
 
 static void begin_table(koksma__html *h, const koksma__table *t)
 {
-    koksma__html_add(h, "<h3 id=\"table-%s\">Table %s: ", t->id, t->id);
+    koksma__html_add(h, "<h3");
+    koksma__html_id(h, "table", t->id);
+    koksma__html_add(h, ">Table %s: ", t->id);
     koksma__html_text(h, t->title);
     koksma__html_add(h, "</h3>\n<div class=\"scroll\"><table>\n<thead>");
 }

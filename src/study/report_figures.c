@@ -175,7 +175,9 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
     for (size_t i = 0; !status && i < study->plan.n_figures; i++) {
         const koksma__figure *f = &study->plan.figures[i];
         char note[NOTE] = "";
-        koksma__html_add(html, "<figure id=\"figure-%s\">", f->id);
+        koksma__html_add(html, "<figure");
+        koksma__html_id(html, "figure", f->id);
+        koksma__html_add(html, ">");
         if (f->lines) {
             koksma__report_lines(html, f, koksma__job_seed("figure|lines|%lld", f->n));
         } else {

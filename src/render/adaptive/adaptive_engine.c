@@ -23,7 +23,7 @@ typedef struct job {
 } job;
 
 typedef struct room {
-    koksma__room pixels;
+    koksma__workroom pixels;
     void *scratch;
 } room;
 
@@ -129,7 +129,7 @@ static koksma_status render_task(void *context, size_t task)
     }
     room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
-    status = koksma__room_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
+    status = koksma__workroom_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
     if (!status && !r.scratch) {
         status = koksma__fail_memory(run->scratch + 1);
     }
@@ -140,7 +140,7 @@ static koksma_status render_task(void *context, size_t task)
     if (!run->probing) {
         atomic_fetch_add(&j->rays, r.pixels.values.rays);
     }
-    koksma__room_fini(&r.pixels);
+    koksma__workroom_fini(&r.pixels);
     free(r.scratch);
     return status;
 }

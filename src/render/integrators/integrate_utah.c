@@ -5,6 +5,8 @@
  *
  *     L(x, out) = E(x, out) + albedo ambient + sum over luminaires of f(in, out) cos(in) irradiance from its centre
  *
+ * An environment has no centre: rays see it, and no surface has light from it; that is what ambient light stands for.
+ *
  * Source: Phong 1975; Shirley 1991. Nothing in it is random but the place in the pixel, on the lens and in time.
  */
 #include "render/integrators/integrators.h"
