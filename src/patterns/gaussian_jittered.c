@@ -12,54 +12,67 @@
 #include "core/elementary.h"
 #include "core/random.h"
 #include "patterns/parts/cells.h"
+#include "patterns/parts/columns.h"
 #include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
 
+typedef struct bell {
+    double scale, a, erf_a; /* sqrt(2) sigma; half a cell over it */
+    size_t along_x, along_rest;
+} bell;
+
 /* t in [-a, a] with erf(t) = p erf(a): Newton's iteration kept inside a bracket that is halved when it strays. */
-static double inverse_erf(double p, double a)
+static double inverse_erf(double p, const bell *b)
 {
-    const double target = p * koksma__erf(a), slope = 1.1283791670955126; /* 2 / sqrt(pi) */
-    double low = -a, high = a, t = fmax(-a, fmin(a, target / slope));
-    for (int i = 0; i < 80 && high - low > 1e-16 * a; i++) {
-        const double excess = koksma__erf(t) - target;
+    const double target = p * b->erf_a, slope = 1.1283791670955126; /* 2 / sqrt(pi) */
+    double low = -b->a, high = b->a, t = fmax(-b->a, fmin(b->a, target / slope));
+    for (int i = 0; i < 80 && high - low > 1e-16 * b->a; i++) {
+        const double excess = koksma__erf(t) - target, last = t;
         if (excess > 0) {
             high = t;
         } else {
             low = t;
         }
         const double next = t - excess / (slope * koksma__exp(-t * t));
-        const double last = t;
         t = next > low && next < high ? next : (low + high) / 2;
-        if (fabs(t - last) <= 1e-15 * a) {
+        if (fabs(t - last) <= 1e-15 * b->a) {
             break;
         }
     }
     return t;
 }
 
+/* Makes the uniform numbers of some points Gaussian ones in their cells. */
+static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
+{
+    const bell *b = context;
+    (void)stream;
+    for (size_t i = first; i < first + count; i++) {
+        double *x = out->xs + i * (size_t)out->dim;
+        size_t rest = i;
+        for (int k = out->dim - 1; k >= 0; k--) {
+            const size_t along = k ? b->along_rest : b->along_x, cell = rest % along;
+            const double u = fmin(fmax(0.5 + b->scale * inverse_erf(2 * x[k] - 1, b), 0), 1);
+            x[k] = koksma__in_cell((double)cell, u, (double)along);
+            rest /= along;
+        }
+    }
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    size_t along_x, along_rest;
-    koksma_status status = koksma__cells("gaussian-jittered", out, args->params[0], &along_x, &along_rest);
+    bell b;
+    koksma_status status = koksma__cells("gaussian-jittered", out, args->params[0], &b.along_x, &b.along_rest);
     if (!status) {
         status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
     }
     if (status) {
         return status;
     }
-    const double scale = sqrt(2) * args->params[1], a = 0.5 / scale;
-    size_t cell[KOKSMA_MAX_DIM] = {0};
-    for (size_t i = 0; i < out->n; i++) {
-        double *x = out->xs + i * (size_t)out->dim;
-        for (int k = 0; k < out->dim; k++) {
-            const double u = fmin(fmax(0.5 + scale * inverse_erf(2 * x[k] - 1, a), 0), 1);
-            x[k] = koksma__in_cell((double)cell[k], u, (double)(k ? along_rest : along_x));
-        }
-        for (int k = out->dim - 1; k >= 0 && ++cell[k] == (k ? along_rest : along_x); k--) {
-            cell[k] = 0;
-        }
-    }
-    return KOKSMA_OK;
+    b.scale = sqrt(2) * args->params[1];
+    b.a = 0.5 / b.scale;
+    b.erf_a = koksma__erf(b.a);
+    return koksma__fill_rows(args->run, out, place, &b);
 }
 
 static const koksma_param params[] = {

@@ -3,6 +3,7 @@
 #include "test.h"
 
 #include "core/elementary.h"
+#include "core/random.h"
 
 static double ulp(double x)
 {
@@ -51,12 +52,41 @@ static void test_limits(void **state)
     assert_true(isnan(koksma__exp((double)NAN)) && isnan(koksma__erf((double)NAN)));
 }
 
+/* Where they are used: gaussian-jittered inverts the law of its points in their cells, for narrow and wide ones. */
+static void test_gaussian_jittered(void **state)
+{
+    (void)state;
+    static const double sigmas[] = {0.001, 0.01, 0.1, 0.25, 3, 1000};
+    enum { M = 190, N = M * M }; /* more than one thread takes at a time */
+    const koksma_run run = {.threads = 3};
+    for (size_t s = 0; s < sizeof sigmas / sizeof *sigmas; s++) {
+        char text[64];
+        koksma_spec spec;
+        koksma_points points;
+        snprintf(text, sizeof text, "gaussian-jittered:sigma=%g", sigmas[s]);
+        assert_ok(koksma_pattern_spec(text, &spec));
+        assert_ok(koksma_points_init(&points, N, 2));
+        assert_ok(koksma_generate(&spec, 3, &run, &points));
+        const double scale = sqrt(2) * sigmas[s];
+        for (int i = 0; i < N; i++) {
+            double u[2];
+            koksma__random_pair(3, KOKSMA__PURPOSE_POINT, (uint64_t)i, 0, u);
+            for (int k = 0; k < 2; k++) {
+                const double z = (points.xs[2 * i + k] * M - (k ? i % M : i / M) - 0.5) / scale;
+                assert_near(erf(z) / erf(0.5 / scale), 2 * u[k] - 1, 1e-13 / fmin(scale, 1));
+            }
+        }
+        koksma_points_fini(&points);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_near_libm),
         cmocka_unit_test(test_bits),
         cmocka_unit_test(test_limits),
+        cmocka_unit_test(test_gaussian_jittered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
