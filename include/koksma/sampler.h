@@ -295,7 +295,7 @@ KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
     mask |= mask >> 4;
     mask |= mask >> 8;
     mask |= mask >> 16;
-    while (mask >> (2 * shift)) {
+    while (shift < 16 && mask >> (2 * shift)) {
         shift++;
     }
     do {

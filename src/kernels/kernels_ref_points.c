@@ -84,6 +84,13 @@ void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *dir
     }
 }
 
+void KERNEL_NAME(permute)(uint32_t first, size_t count, uint32_t n, uint64_t key, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++) {
+        out[i] = koksma_permute(first + (uint32_t)i, n, key);
+    }
+}
+
 void KERNEL_NAME(owen_hash)(size_t count, const uint32_t *v, bool mirror_in, bool mirror_out, uint32_t seed,
                             uint32_t *out)
 {

@@ -10,38 +10,80 @@
  */
 #include <koksma/sampler.h>
 
-#include "core/parallel.h"
+#include <stdlib.h>
+
+#include "core/pages.h"
+#include "core/random.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/parts/cells.h"
+#include "patterns/parts/columns.h"
 #include "patterns/patterns.h"
 
-enum { GROUP = 1 << 14 };
+enum { FEW = 256, BLOCK = 256 };
 
-typedef struct job {
-    koksma_domain domain;
-    size_t columns, rows;
-    koksma_points *out;
-} job;
+/* What koksma_cmj_2d of koksma/sampler.h has for each point is made once for all. */
+typedef struct grid {
+    uint64_t seed, key; /* of the order */
+    uint32_t columns;
+    uint32_t *in_column, *in_row; /* p, of `rows` numbers, and q, of `columns` */
+    uint32_t rows;
+} grid;
 
-static koksma_status group(void *context, size_t g)
+static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
 {
-    const job *j = context;
-    const size_t end = (g + 1) * GROUP < j->out->n ? (g + 1) * GROUP : j->out->n;
-    for (size_t i = g * GROUP; i < end; i++) {
-        koksma_cmj_2d(j->domain, (uint32_t)i, (uint32_t)j->columns, (uint32_t)j->rows, j->out->xs + 2 * i);
+    const grid *g = context;
+    const koksma__kernel_table *kernels = koksma__kernels();
+    const double cells = (double)out->n, inverse = 1.0 / g->columns;
+    (void)stream;
+    while (count) {
+        uint32_t cell[BLOCK];
+        const size_t some = count < BLOCK ? count : BLOCK;
+        double *xs = out->xs + 2 * first;
+        kernels->permute((uint32_t)first, some, (uint32_t)out->n, g->key, cell);
+        kernels->uniform(g->seed, KOKSMA__PURPOSE_POINT, first, 0, some, xs);
+        for (size_t i = 0; i < some; i++, xs += 2) {
+            /* The quotient: half a cell is more than what the product can be off. */
+            const uint32_t row = (uint32_t)(int32_t)((cell[i] + 0.5) * inverse), column = cell[i] - row * g->columns;
+            xs[0] = koksma_place((double)(column * g->rows + g->in_column[row]), xs[0], cells);
+            xs[1] = koksma_place((double)(row * g->columns + g->in_row[column]), xs[1], cells);
+        }
+        first += some;
+        count -= some;
     }
-    return KOKSMA_OK;
+}
+
+static uint64_t key_of(const uint32_t words[2])
+{
+    return (uint64_t)words[1] << 32 | words[0];
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    job j = {.domain = {seed}, .out = out};
-    const koksma_status status =
-        koksma__divisors("correlated-multi-jittered", out->n, args->params[0], &j.columns, &j.rows);
+    size_t columns, rows;
+    koksma_status status = koksma__divisors("correlated-multi-jittered", out->n, args->params[0], &columns, &rows);
     if (status) {
         return status;
     }
-    const size_t groups = (out->n + GROUP - 1) / GROUP;
-    return groups == 1 ? group(&j, 0) : koksma__parallel(args->run, groups, group, &j);
+    uint32_t few[FEW], *orders = few;
+    if (columns + rows > FEW) {
+        const size_t bytes = (columns + rows) * sizeof *orders;
+        orders = malloc(bytes);
+        if (!orders) {
+            return koksma__fail_memory(bytes);
+        }
+        koksma__large_pages(orders, bytes);
+    }
+    const koksma__words keys = koksma__random(seed, KOKSMA__PURPOSE_SHUFFLE, 0, 0);
+    const koksma__words more = koksma__random(seed, KOKSMA__PURPOSE_SHUFFLE, 1, 0);
+    const grid g = {seed, key_of(keys.w), (uint32_t)columns, orders, orders + rows, (uint32_t)rows};
+    koksma__kernels()->permute(0, rows, (uint32_t)rows, key_of(keys.w + 2), g.in_column);
+    koksma__kernels()->permute(0, columns, (uint32_t)columns, key_of(more.w), g.in_row);
+    status = koksma__fill_rows(args->run, out, place, &g);
+    if (orders != few) {
+        free(orders);
+    }
+    return status;
 }
 
 static const koksma_param params[] = {KOKSMA__PARAM_DIVISOR, {0}};

@@ -201,6 +201,18 @@ static void rows_of_columns(const koksma__kernel_table *t, size_t count, void *o
     t->rows_of_columns(count, 2, units, 131, count % 2, (double *)out + 600 + count % 3);
 }
 
+static void permute(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const uint32_t sizes[] = {0, 1, 300, 4095, 65536, 0x7fffffff};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        const uint32_t n = sizes[s] + (uint32_t)(sizes[s] < 300 ? count : 0);
+        if (n) {
+            const uint32_t first = n > count ? (n - (uint32_t)count) / 3 : 0;
+            t->permute(first, n > count ? count : n, n, 0x123456789abcdefu * (s + count), (uint32_t *)out + MAX * s);
+        }
+    }
+}
+
 static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
 {
     static const size_t sides[] = {(size_t)1 << 20, ((size_t)1 << 20) - 1, 1000003, 300, 2000000};
@@ -234,6 +246,7 @@ TEST(covers, 250)
 TEST(dart_cells, 200)
 TEST(nearest_offset, MAX)
 TEST(nested_digits, MAX)
+TEST(permute, MAX)
 TEST(rooks_2d, 120)
 TEST(gauss_force, MAX)
 TEST(rows_of_columns, 150)
@@ -249,7 +262,7 @@ int main(void)
         cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(dart_cells_equals_reference),
         cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
         cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
-        cmocka_unit_test(gauss_force_equals_reference),
+        cmocka_unit_test(gauss_force_equals_reference),    cmocka_unit_test(permute_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -105,6 +105,17 @@ static void permutations_are_permutations(void **state)
             seen[j] = 1;
         }
     }
+    static const uint32_t large[] = {1u << 30, (1u << 30) + 1, 0x7fffffffu};
+    for (size_t s = 0; s < sizeof large / sizeof *large; s++) {
+        uint32_t to[60];
+        for (uint32_t i = 0; i < 60; i++) {
+            to[i] = koksma_permute(i < 30 ? i : large[s] - 1 - (i - 30), large[s], 77);
+            assert_true(to[i] < large[s]);
+            for (uint32_t j = 0; j < i; j++) {
+                assert_true(to[j] != to[i]);
+            }
+        }
+    }
     /* and random ones: where 0 goes, and who is next to it */
     enum { KEYS = 12000, SIZE = 6 };
     int place[SIZE] = {0}, second[SIZE] = {0};
