@@ -39,24 +39,57 @@ static void fill_matrix(const job *j, uint32_t k, uint32_t *matrix)
     }
 }
 
+/* An index and what the matrix makes of its digits: y, and x = y_0 b^(digits-1) + y_1 b^(digits-2) + ... */
+typedef struct walk {
+    uint32_t a[MAX_DIGITS], y[MAX_DIGITS];
+    double weight[MAX_DIGITS], x; /* whole numbers below 2^53 */
+} walk;
+
+/* Adds column c of the matrix to y, modulo b. */
+static void add_column(const job *j, const uint32_t *matrix, int c, walk *w)
+{
+    for (int r = 0; r <= c; r++) {
+        const uint32_t sum = w->y[r] + matrix[r * j->digits + c], y = sum < j->base ? sum : sum - j->base;
+        w->x += ((double)y - w->y[r]) * w->weight[r];
+        w->y[r] = y;
+    }
+}
+
+static void begin(const job *j, const uint32_t *matrix, size_t index, walk *w)
+{
+    *w = (walk){.x = 0};
+    double weight = j->whole;
+    for (int r = 0; r < j->digits; r++) {
+        w->weight[r] = weight /= j->base;
+    }
+    for (int c = 0; index; c++, index /= j->base) {
+        for (w->a[c] = 0; w->a[c] < index % j->base; w->a[c]++) {
+            add_column(j, matrix, c, w);
+        }
+    }
+}
+
+/* The next index. A digit that goes from b - 1 to 0 has become one more, modulo b, too. */
+static void step(const job *j, const uint32_t *matrix, walk *w)
+{
+    for (int c = 0; c < j->digits; c++) {
+        add_column(j, matrix, c, w);
+        if (++w->a[c] < j->base) {
+            return;
+        }
+        w->a[c] = 0;
+    }
+}
+
 static void column(const void *context, int k, size_t first, size_t count, double *xs)
 {
     const job *j = context;
     const uint32_t *matrix = j->matrices + (size_t)k * (size_t)(j->digits * j->digits);
+    walk w;
+    begin(j, matrix, first, &w);
     for (size_t i = 0; i < count; i++) {
-        uint32_t a[MAX_DIGITS], used = 0;
-        for (size_t rest = first + i; rest; rest /= j->base) {
-            a[used++] = (uint32_t)(rest % j->base);
-        }
-        double value = 0;
-        for (uint32_t r = 0; r < (uint32_t)j->digits; r++) {
-            uint32_t y = 0;
-            for (uint32_t c = r; c < used; c++) {
-                y += matrix[r * (uint32_t)j->digits + c] * a[c];
-            }
-            value = value * j->base + y % j->base;
-        }
-        xs[i] = value / j->whole;
+        xs[i] = w.x / j->whole;
+        step(j, matrix, &w);
     }
 }
 
