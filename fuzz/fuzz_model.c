@@ -8,13 +8,12 @@
 
 #include "target.h"
 
-/* The file's path without its ending. It lies in memory where the system has such a place. */
+/* The file's path without its ending. */
 static const char *place(void)
 {
     static char path[64];
     if (!*path) {
-        snprintf(path, sizeof path, "%s/koksma-fuzz-%ld", access("/dev/shm", W_OK) ? "/tmp" : "/dev/shm",
-                 (long)getpid());
+        snprintf(path, sizeof path, "%s/koksma-fuzz-%ld", fuzz_place(), (long)getpid());
     }
     return path;
 }

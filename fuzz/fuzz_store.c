@@ -20,8 +20,7 @@ static const char plan[] =
     "\"trials\": 30}], \"questions\": [{\"id\": \"e\", \"kind\": \"table\", \"title\": \"t\", "
     "\"discrepancies\": \"d\"}]}";
 
-static char folder[] = "/tmp/koksma-fuzz-store-XXXXXX";
-static char database[64], plan_path[64];
+static char folder[64], database[80], plan_path[80];
 static unsigned char *sound;
 static size_t sound_size;
 
@@ -63,6 +62,7 @@ static void run_study(bool with_plan)
 
 static void make_sound(void)
 {
+    snprintf(folder, sizeof folder, "%s/koksma-fuzz-store-XXXXXX", fuzz_place());
     if (!mkdtemp(folder)) {
         abort();
     }

@@ -11,9 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <unistd.h>
+
 #include <koksma/koksma.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
+
+/* Where files are made that have to be: in memory, where the system has such a place. */
+static inline const char *fuzz_place(void)
+{
+    return access("/dev/shm", W_OK) ? "/tmp" : "/dev/shm";
+}
 
 /* What every reader owes to its caller: a failure with a text of one line. */
 static inline void fuzz_check_status(koksma_status status)
