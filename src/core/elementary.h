@@ -89,4 +89,35 @@ static inline double koksma__erf(double x)
     return copysign(1 - 0x1.20dd750429b6dp-1 * koksma__exp(-square) / fraction, x);
 }
 
+/* t with erf(t) = x, |x| <= 1; 6, beyond which koksma__erf is 1, for 1. Giles's approximation (2012), to 4e-7 of t
+   but for the last 1e-7 of x, and Halley's iteration (erf'' = -2 t erf'), which has three times as many digits after
+   a step. */
+static inline double koksma__inverse_erf(double x)
+{
+    static const double middle[] = {2.81022636e-8,  3.43273939e-7,  -3.5233877e-6, -4.39150654e-6, 2.1858087e-4,
+                                    -0.00125372503, -0.00417768164, 0.246640727,   1.50140941};
+    static const double tail[] = {-2.00214257e-4, 1.00950558e-4, 0.00134934322, -0.00367342844, 0.00573950773,
+                                  -0.0076224613,  0.00943887047, 1.00167406,    2.83297682};
+    if (!(fabs(x) < 1)) {
+        return x * 6;
+    }
+    const double minus_log = -koksma__log((1 - x) * (1 + x)),
+                 w = minus_log < 5 ? minus_log - 2.5 : sqrt(minus_log) - 3;
+    const double *c = minus_log < 5 ? middle : tail;
+    double t = c[0];
+    for (int i = 1; i < 9; i++) {
+        t = t * w + c[i];
+    }
+    t *= x;
+    for (int i = 0; i < 8; i++) {
+        const double newton = (koksma__erf(t) - x) / (0x1.20dd750429b6dp+0 * koksma__exp(-t * t)); /* 2 / sqrt(pi) */
+        const double step = newton / (1 + t * newton);
+        t -= step;
+        if (fabs(step) <= 2e-6) {
+            break;
+        }
+    }
+    return t;
+}
+
 #endif

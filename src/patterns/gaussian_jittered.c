@@ -5,7 +5,8 @@
  *
  *     x_k = (c_k + 1/2 + sigma z_k) / m,   z normal given |sigma z| < 1/2, by inverting its distribution function
  *
- * Source: Cook 1986, after Shirley 1991, section 5.5.3. Small sigma is nearly regular, large sigma nearly jittered.
+ * Source: Cook 1986, after Shirley 1991, section 5.5.3; the inverse: Giles 2012. Small sigma is nearly regular, large
+ * sigma nearly jittered.
  */
 #include <math.h>
 
@@ -17,30 +18,9 @@
 #include "patterns/patterns.h"
 
 typedef struct bell {
-    double scale, a, erf_a; /* sqrt(2) sigma; half a cell over it */
+    double scale, erf_a; /* sqrt(2) sigma; erf of half a cell over it */
     size_t along_x, along_rest;
 } bell;
-
-/* t in [-a, a] with erf(t) = p erf(a): Newton's iteration kept inside a bracket that is halved when it strays. */
-static double inverse_erf(double p, const bell *b)
-{
-    const double target = p * b->erf_a, slope = 1.1283791670955126; /* 2 / sqrt(pi) */
-    double low = -b->a, high = b->a, t = fmax(-b->a, fmin(b->a, target / slope));
-    for (int i = 0; i < 80 && high - low > 1e-16 * b->a; i++) {
-        const double excess = koksma__erf(t) - target, last = t;
-        if (excess > 0) {
-            high = t;
-        } else {
-            low = t;
-        }
-        const double next = t - excess / (slope * koksma__exp(-t * t));
-        t = next > low && next < high ? next : (low + high) / 2;
-        if (fabs(t - last) <= 1e-15 * b->a) {
-            break;
-        }
-    }
-    return t;
-}
 
 /* Makes the uniform numbers of some points Gaussian ones in their cells. */
 static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
@@ -52,7 +32,8 @@ static void place(const void *context, size_t first, size_t count, bool stream, 
         size_t rest = i;
         for (int k = out->dim - 1; k >= 0; k--) {
             const size_t along = k ? b->along_rest : b->along_x, cell = rest % along;
-            const double u = fmin(fmax(0.5 + b->scale * inverse_erf(2 * x[k] - 1, b), 0), 1);
+            const double t = koksma__inverse_erf((2 * x[k] - 1) * b->erf_a);
+            const double u = fmin(fmax(0.5 + b->scale * t, 0), 1);
             x[k] = koksma__in_cell((double)cell, u, (double)along);
             rest /= along;
         }
@@ -70,8 +51,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         return status;
     }
     b.scale = sqrt(2) * args->params[1];
-    b.a = 0.5 / b.scale;
-    b.erf_a = koksma__erf(b.a);
+    b.erf_a = koksma__erf(0.5 / b.scale);
     return koksma__fill_rows(args->run, out, place, &b);
 }
 
@@ -84,7 +64,7 @@ static const koksma_param params[] = {
 const koksma_pattern koksma__pattern_gaussian_jittered = {
     .name = "gaussian-jittered",
     .title = "a Gaussian point about the centre of each cell of a grid",
-    .cite = "cook1986 shirley1991",
+    .cite = "cook1986 shirley1991 giles2012",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_STRATIFIED,

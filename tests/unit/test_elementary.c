@@ -27,6 +27,24 @@ static void test_near_libm(void **state)
     }
 }
 
+/* The way there and back; near 1 a number's neighbours are far apart in t. */
+static void test_inverse_erf(void **state)
+{
+    (void)state;
+    for (int i = -300000; i <= 300000; i++) {
+        const double x = i < -200000  ? -1 + ldexp(1, -(i + 300000) % 53)
+                         : i > 200000 ? 1 - ldexp(1, -i % 53)
+                                      : i * 5e-6;
+        const double t = koksma__inverse_erf(fmax(-1, fmin(1, x)));
+        assert_near(erf(t), x, 3e-15 * fabs(x));
+        assert_true(t == -koksma__inverse_erf(-x));
+    }
+    for (int i = 1; i < 5900; i++) { /* our erf is good to 2e-15 */
+        const double t = i * 0.001, back = koksma__inverse_erf(erf(t));
+        assert_near(back, t, 1e-15 * t + 2.2e-15 / (1.13 * exp(-t * t)));
+    }
+}
+
 static void test_bits(void **state)
 {
     (void)state;
@@ -83,10 +101,8 @@ static void test_gaussian_jittered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_near_libm),
-        cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_gaussian_jittered),
+        cmocka_unit_test(test_near_libm), cmocka_unit_test(test_inverse_erf),       cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_limits),    cmocka_unit_test(test_gaussian_jittered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
