@@ -3,7 +3,8 @@
 """fences.py PROGRAM DOCUMENT: does what a document says, in an empty folder.
 
 A fenced block after "... as `NAME`:" becomes the file NAME; blocks of sh are run; a block of text is what the sh block
-before it prints, to the letter. Time limits are cut to eight seconds. Blocks of console are examples and are not compared.
+before it prints, to the letter. Time limits are cut to eight seconds; where a busy machine finds that too short, the document's
+own holds. Blocks of console are examples and are not compared.
 """
 import os
 import re
@@ -11,6 +12,12 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+
+def run(script, folder, environment):
+    return subprocess.run(["sh", "-e"], input=script, cwd=folder, env=environment, capture_output=True, text=True, timeout=600,
+                          check=False)
+
 
 program, document = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 blocks = re.findall(r"([^\n]*)\n*\n```(\w+)\n(.*?)\n```", document.read_text(encoding="utf-8"), re.S)
@@ -26,12 +33,12 @@ with tempfile.TemporaryDirectory() as folder:
         if name:
             (work / name[1]).write_text(text + "\n", encoding="utf-8")
         elif kind == "sh":
-            script = re.sub(r"--time-limit \d+", "--time-limit 8", text)
-            done = subprocess.run(["sh", "-e"], input=script, cwd=work, env=environment, capture_output=True, text=True, timeout=600,
-                                  check=False)
+            done = run(re.sub(r"--time-limit \d+", "--time-limit 8", text), work, environment)
+            if " s are too short " in done.stderr:
+                done = run(text, work, environment)
             ran, said = ran + 1, done.stdout
             if done.returncode:
-                failures.append(f"{script}\n  exit code {done.returncode}: {done.stderr.strip()}")
+                failures.append(f"{text}\n  exit code {done.returncode}: {done.stderr.strip()}")
         elif kind == "text" and [line.rstrip() for line in said.splitlines()] != text.splitlines():
             failures.append(f"it says\n{text}\nand the program\n{said}")
         elif kind not in ("text", "console"):
