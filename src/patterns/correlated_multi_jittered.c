@@ -24,10 +24,9 @@ enum { FEW = 256, BLOCK = 256 };
 
 /* What koksma_cmj_2d of koksma/sampler.h has for each point is made once for all. */
 typedef struct grid {
-    uint64_t seed, key; /* of the order */
-    uint32_t columns;
+    uint64_t seed, key; /* the key of the order */
+    uint32_t columns, rows;
     uint32_t *in_column, *in_row; /* p, of `rows` numbers, and q, of `columns` */
-    uint32_t rows;
 } grid;
 
 static void place(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
@@ -76,7 +75,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     const koksma__words keys = koksma__random(seed, KOKSMA__PURPOSE_SHUFFLE, 0, 0);
     const koksma__words more = koksma__random(seed, KOKSMA__PURPOSE_SHUFFLE, 1, 0);
-    const grid g = {seed, key_of(keys.w), (uint32_t)columns, orders, orders + rows, (uint32_t)rows};
+    const grid g = {seed, key_of(keys.w), (uint32_t)columns, (uint32_t)rows, orders, orders + rows};
     koksma__kernels()->permute(0, rows, (uint32_t)rows, key_of(keys.w + 2), g.in_column);
     koksma__kernels()->permute(0, columns, (uint32_t)columns, key_of(more.w), g.in_row);
     status = koksma__fill_rows(args->run, out, place, &g);

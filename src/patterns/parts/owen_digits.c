@@ -27,8 +27,9 @@ enum { FEW = 256, MANY = 4096, MAX_BASE = 38880, SMALL_BASE = 13, BLOCK_NUMBERS 
 typedef struct job {
     uint64_t seed;
     koksma_points *out;
-    size_t block;     /* points of a block, a power of two: all but the last have as many */
-    uint32_t *halves; /* base 2: the first column, times 2^32 */
+    size_t block; /* points of all blocks but the last: a power of two, at least 2, as two numbers' words are drawn at
+                     once */
+    uint32_t *binary; /* the column of base 2, times 2^32 */
 } job;
 
 typedef struct column {
@@ -183,7 +184,7 @@ static koksma_status fill(void *context, size_t k)
     if (k == 0) {
         const uint32_t partners[32] = {0};
         const koksma_run one = {.threads = 1};
-        return koksma__grow_column(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, j->out->n, j->halves);
+        return koksma__grow_column(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, &one, j->out->n, j->binary);
     }
     uint16_t order[MAX_BASE], picked[MAX_BASE];
     draw(j, (int)k);
@@ -198,7 +199,7 @@ static koksma_status turn(void *context, size_t block)
     const int dim = j->out->dim;
     const size_t start = block * j->block, count = block_of(j, start);
     double columns[BLOCK_NUMBERS], *xs = j->out->xs + start * (size_t)dim;
-    koksma__kernels()->fractions(count, j->halves + start, columns);
+    koksma__kernels()->fractions(count, j->binary + start, columns);
     for (int k = 1; k < dim; k++) {
         const size_t at = (size_t)k * count;
         koksma__kernels()->quotients(count, xs + at, 0, whole_of(koksma__prime(k)), columns + at);
@@ -216,17 +217,18 @@ static koksma_status turn(void *context, size_t block)
 static koksma_status fill_all(job *j, const koksma_run *run)
 {
     const size_t n = j->out->n, dim = (size_t)j->out->dim, blocks = (n + j->block - 1) / j->block;
-    if (n < MANY) {
-        for (size_t k = 0; k < dim; k++) {
-            fill(j, k);
-        }
-        for (size_t b = 0; b < blocks; b++) {
-            turn(j, b);
-        }
-        return KOKSMA_OK;
+    koksma_status status = KOKSMA_OK;
+    if (n >= MANY) {
+        status = koksma__parallel(run, dim, fill, j);
+        return status ? status : koksma__parallel(run, blocks, turn, j);
     }
-    const koksma_status status = koksma__parallel(run, dim, fill, j);
-    return status ? status : koksma__parallel(run, blocks, turn, j);
+    for (size_t k = 0; k < dim && !status; k++) {
+        status = fill(j, k);
+    }
+    for (size_t b = 0; b < blocks && !status; b++) {
+        status = turn(j, b);
+    }
+    return status;
 }
 
 koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_points *out)
@@ -237,16 +239,16 @@ koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_p
         j.block /= 2;
     }
     if (out->n > FEW) {
-        const size_t bytes = out->n * sizeof *j.halves;
-        j.halves = malloc(bytes);
-        if (!j.halves) {
+        const size_t bytes = out->n * sizeof *j.binary;
+        j.binary = malloc(bytes);
+        if (!j.binary) {
             return koksma__fail_memory(bytes);
         }
-        koksma__large_pages(j.halves, bytes);
+        koksma__large_pages(j.binary, bytes);
     }
     const koksma_status status = fill_all(&j, run);
-    if (j.halves != few) {
-        free(j.halves);
+    if (j.binary != few) {
+        free(j.binary);
     }
     return status;
 }
