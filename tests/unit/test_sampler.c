@@ -140,6 +140,47 @@ static void floats_stay_below_one(void **state)
     assert_true((float)(1 - 0x1p-53) == 1.0f);
 }
 
+/* A number of any size up to `bits` bits. */
+static uint32_t of_any_size(uint32_t i, uint32_t lane, uint32_t bits)
+{
+    const koksma__words w = koksma__random(9, KOKSMA__PURPOSE_TEST, i, lane);
+    const uint32_t size = koksma__below(w.w[1], bits + 1);
+    return size ? w.w[0] >> (32 - size) : 0;
+}
+
+static void assert_in_unit(const double *xs, int count)
+{
+    for (int k = 0; k < count; k++) {
+        assert_true(xs[k] >= 0 && xs[k] < 1);
+    }
+}
+
+/* Whatever the index, the pixel and the grid are. */
+static void all_arguments_serve(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 20000; i++) {
+        const koksma_domain pixel = koksma_domain_of_pixel(i, of_any_size(i, 0, 32), of_any_size(i, 1, 32));
+        const koksma_domain domain = koksma_domain_of_use(pixel, of_any_size(i, 2, 32));
+        const uint32_t index = of_any_size(i, 3, 32), columns = of_any_size(i, 4, 30) + 1;
+        const uint32_t rows = of_any_size(i, 5, 30) % (0x7fffffffu / columns) + 1;
+        const int levels = (int)(i % 17);
+        double xs[4];
+        koksma_sobol_2d(domain, index, xs);
+        assert_in_unit(xs, 2);
+        koksma_sobol_4d(domain, index, xs);
+        assert_in_unit(xs, 4);
+        koksma_pmj02_2d(domain, index, xs);
+        assert_in_unit(xs, 2);
+        koksma_r_2d(domain, (uint64_t)index << i % 33, xs);
+        assert_in_unit(xs, 2);
+        koksma_cmj_2d(domain, index % (columns * rows), columns, rows, xs);
+        assert_in_unit(xs, 2);
+        const uint32_t side = 1u << levels;
+        assert_true((uint64_t)koksma_z_rank(domain, index % side, columns % side, levels) < (uint64_t)side * side);
+    }
+}
+
 /* The lower half of the ranks is spread: each pixel of rank below a tenth keeps its distance. */
 static void masks_are_permutations(void **state)
 {
@@ -160,7 +201,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_the_librarys),    cmocka_unit_test(samples_are_the_librarys),
         cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
-        cmocka_unit_test(floats_stay_below_one),     cmocka_unit_test(masks_are_permutations),
+        cmocka_unit_test(all_arguments_serve),       cmocka_unit_test(floats_stay_below_one),
+        cmocka_unit_test(masks_are_permutations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
