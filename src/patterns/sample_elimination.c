@@ -9,6 +9,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -17,35 +18,42 @@
 #include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
+typedef struct entry {
+    double weight;
+    uint32_t point;
+} entry;
+
+/* The heaviest first. Points are numbered cell by cell of a grid. */
 typedef struct heap {
     size_t count;
-    uint32_t *item, *place; /* the points in order of the heap, and where each is */
-    double *weight;
+    entry *entry;
+    uint32_t *place;  /* of each point in the heap */
+    uint32_t *origin; /* its number as it was drawn */
     double radius;
 } heap;
 
-static bool heavier(const heap *h, uint32_t a, uint32_t b)
+static bool heavier(const heap *h, const entry *a, const entry *b)
 {
-    return h->weight[a] > h->weight[b] || (h->weight[a] == h->weight[b] && a < b);
+    return a->weight > b->weight || (a->weight == b->weight && h->origin[a->point] < h->origin[b->point]);
 }
 
-static void put(heap *h, size_t at, uint32_t item)
+static void put(heap *h, size_t at, entry e)
 {
-    h->item[at] = item;
-    h->place[item] = (uint32_t)at;
+    h->entry[at] = e;
+    h->place[e.point] = (uint32_t)at;
 }
 
 static void sink(heap *h, size_t at)
 {
-    const uint32_t item = h->item[at];
+    const entry e = h->entry[at];
     for (size_t child; (child = 2 * at + 1) < h->count; at = child) {
-        child += child + 1 < h->count && heavier(h, h->item[child + 1], h->item[child]);
-        if (!heavier(h, h->item[child], item)) {
+        child += child + 1 < h->count && heavier(h, &h->entry[child + 1], &h->entry[child]);
+        if (!heavier(h, &h->entry[child], &e)) {
             break;
         }
-        put(h, at, h->item[child]);
+        put(h, at, h->entry[child]);
     }
-    put(h, at, item);
+    put(h, at, e);
 }
 
 static double load_of(const heap *h, double dx, double dy)
@@ -59,11 +67,12 @@ typedef struct visit {
     uint32_t self;
 } visit;
 
+/* While entries are in the order of their points. */
 static void weigh(void *context, uint32_t point, double dx, double dy)
 {
     const visit *v = context;
     if (point != v->self) {
-        v->h->weight[v->self] += load_of(v->h, dx, dy);
+        v->h->entry[v->self].weight += load_of(v->h, dx, dy);
     }
 }
 
@@ -71,8 +80,9 @@ static void relieve(void *context, uint32_t point, double dx, double dy)
 {
     const visit *v = context;
     if (point != v->self) {
-        v->h->weight[point] -= load_of(v->h, dx, dy);
-        sink(v->h, v->h->place[point]);
+        const size_t at = v->h->place[point];
+        v->h->entry[at].weight -= load_of(v->h, dx, dy);
+        sink(v->h, at);
     }
 }
 
@@ -84,9 +94,8 @@ static koksma_status eliminate(heap *h, koksma__torus_grid *grid, const double *
     }
     for (uint32_t i = 0; i < all; i++) {
         visit v = {h, i};
-        h->weight[i] = 0;
+        put(h, i, (entry){0, i});
         koksma__torus_grid_each(grid, xs[2 * (size_t)i], xs[2 * (size_t)i + 1], h->radius, weigh, &v);
-        put(h, i, i);
         if (i % 4096 == 0 && !koksma__keep_going(run, 0)) {
             return koksma__fail_interrupted();
         }
@@ -95,9 +104,9 @@ static koksma_status eliminate(heap *h, koksma__torus_grid *grid, const double *
         sink(h, at);
     }
     while (h->count > n) {
-        const uint32_t out = h->item[0];
+        const uint32_t out = h->entry[0].point;
         h->count--;
-        put(h, 0, h->item[h->count]);
+        put(h, 0, h->entry[h->count]);
         sink(h, 0);
         koksma__torus_grid_remove(grid, out);
         visit v = {h, out};
@@ -109,6 +118,22 @@ static koksma_status eliminate(heap *h, koksma__torus_grid *grid, const double *
     return KOKSMA_OK;
 }
 
+/* The points that are left, in the order in which they were drawn. */
+static void keep(heap *h, size_t all, const double *drawn, double *xs)
+{
+    uint32_t *left = h->place; /* no more needed */
+    memset(left, 0, all * sizeof *left);
+    for (size_t at = 0; at < h->count; at++) {
+        left[h->origin[h->entry[at].point]] = 1;
+    }
+    for (size_t i = 0; i < all; i++) {
+        if (left[i]) {
+            memcpy(xs, drawn + 2 * i, 2 * sizeof *xs);
+            xs += 2;
+        }
+    }
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t n = out->n, all = (size_t)args->params[0] * n;
@@ -117,28 +142,29 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                             KOKSMA_MAX_COORDINATES / 2 / (size_t)args->params[0]);
     }
     heap h = {.count = all, .radius = fmin(sqrt(2 / (sqrt(3) * (double)n)), 0.5)};
-    double *xs = calloc(3 * all, sizeof *xs);
-    h.item = malloc(2 * all * sizeof *h.item);
+    double *drawn = malloc(4 * all * sizeof *drawn), *xs = NULL; /* as they are numbered */
+    h.entry = malloc(all * sizeof *h.entry);
+    h.place = malloc(2 * all * sizeof *h.place);
     koksma__torus_grid grid = {0};
-    koksma_status status = xs && h.item ? koksma__torus_grid_init(&grid, all, xs) : koksma__fail_memory(32 * all);
+    koksma_status status = drawn && h.entry && h.place ? KOKSMA_OK : koksma__fail_memory(56 * all);
+    status = status ? status : koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * all, drawn);
     if (!status) {
-        h.weight = xs + 2 * all;
-        h.place = h.item + all;
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * all, xs);
+        xs = drawn + 2 * all;
+        h.origin = h.place + all;
+        status = koksma__torus_grid_order(all, drawn, h.origin);
     }
+    for (size_t i = 0; i < all && !status; i++) {
+        memcpy(xs + 2 * i, drawn + 2 * (size_t)h.origin[i], 2 * sizeof *xs);
+    }
+    status = status ? status : koksma__torus_grid_init(&grid, all, xs);
+    status = status ? status : eliminate(&h, &grid, xs, n, args->run);
     if (!status) {
-        status = eliminate(&h, &grid, xs, n, args->run);
-    }
-    size_t kept = 0;
-    for (uint32_t i = 0; i < all && !status; i++) {
-        if (h.place[i] < h.count && h.item[h.place[i]] == i) {
-            out->xs[2 * kept] = xs[2 * (size_t)i];
-            out->xs[2 * kept++ + 1] = xs[2 * (size_t)i + 1];
-        }
+        keep(&h, all, drawn, out->xs);
     }
     koksma__torus_grid_fini(&grid);
-    free(h.item);
-    free(xs);
+    free(h.place);
+    free(h.entry);
+    free(drawn);
     return status;
 }
 

@@ -95,15 +95,33 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
     return best;
 }
 
+/* A row or column of `count` cells about one, from the first on, around the torus. */
+typedef struct span {
+    long first, count;
+} span;
+
+static span span_about(const koksma__torus_grid *g, double x, long reach)
+{
+    const long cells = (long)g->cells, first = ((long)cell_of(g, x) - reach) % cells;
+    return (span){first < 0 ? first + cells : first, 2 * reach + 1 < cells ? 2 * reach + 1 : cells};
+}
+
+/* Cell number i of a span. */
+static inline long around(const koksma__torus_grid *g, const span *s, long i)
+{
+    const long cell = s->first + i;
+    return cell < (long)g->cells ? cell : cell - (long)g->cells;
+}
+
 bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, double d, bool torus)
 {
-    const long cells = (long)g->cells, half = cells / 2 + 1, wide = (long)(fmin(d, 1) * g->cells * (1 + 1e-9)) + 1;
-    const long reach = wide < half ? wide : half, count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells;
-    const long first_x = (long)cell_of(g, x) - reach + 2 * cells, first_y = (long)cell_of(g, y) - reach + 2 * cells;
-    for (long v = 0; v < count; v++) {
-        for (long u = 0; u < count; u++) {
-            const long cell = (first_y + v) % cells * cells + (first_x + u) % cells;
-            for (uint32_t i = g->head[cell]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+    const long half = (long)g->cells / 2 + 1, wide = (long)(fmin(d, 1) * g->cells * (1 + 1e-9)) + 1;
+    const long reach = wide < half ? wide : half;
+    const span columns = span_about(g, x, reach), rows = span_about(g, y, reach);
+    for (long v = 0; v < rows.count; v++) {
+        const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
+        for (long u = 0; u < columns.count; u++) {
+            for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
                 const double px = g->xs[2 * (size_t)i], py = g->xs[2 * (size_t)i + 1];
                 const double a = torus ? koksma__way(x, px) : px - x, b = torus ? koksma__way(y, py) : py - y;
                 if (a * a + b * b < d * d) {
@@ -118,13 +136,12 @@ bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, do
 void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, double radius,
                              void (*f)(void *context, uint32_t point, double dx, double dy), void *context)
 {
-    const long cells = (long)g->cells, reach = (long)ceil(radius * g->cells);
-    const long count = 2 * reach + 1 < cells ? 2 * reach + 1 : cells;
-    const long first_x = (long)cell_of(g, x) - reach + cells, first_y = (long)cell_of(g, y) - reach + cells;
-    for (long v = 0; v < count; v++) {
-        for (long u = 0; u < count; u++) {
-            const long cell = (first_y + v) % cells * cells + (first_x + u) % cells;
-            for (uint32_t i = g->head[cell]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+    const long reach = (long)ceil(radius * g->cells);
+    const span columns = span_about(g, x, reach), rows = span_about(g, y, reach);
+    for (long v = 0; v < rows.count; v++) {
+        const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
+        for (long u = 0; u < columns.count; u++) {
+            for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
                 const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
                 if (a * a + b * b <= radius * radius) {
                     f(context, i, a, b);
@@ -132,4 +149,23 @@ void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, do
             }
         }
     }
+}
+
+koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order)
+{
+    koksma__torus_grid g;
+    const koksma_status status = koksma__torus_grid_init(&g, n, xs);
+    if (status) {
+        return status;
+    }
+    for (size_t i = n; i-- > 0;) { /* each cell's list begins with its first point */
+        koksma__torus_grid_add(&g, (uint32_t)i);
+    }
+    for (size_t cell = 0; cell < (size_t)g.cells * g.cells; cell++) {
+        for (uint32_t i = g.head[cell]; i != KOKSMA__NO_POINT; i = g.next[i]) {
+            *order++ = i;
+        }
+    }
+    koksma__torus_grid_fini(&g);
+    return KOKSMA_OK;
 }

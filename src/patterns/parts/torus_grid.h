@@ -34,6 +34,9 @@ bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y,
 void koksma__torus_grid_each(const koksma__torus_grid *grid, double x, double y, double radius,
                              void (*f)(void *context, uint32_t point, double dx, double dy), void *context);
 
+/* order[0] .. order[n-1] = the points cell by cell, in each as they come: neighbours are near in memory then. */
+koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order);
+
 /* b - a the short way around, in [-1/2, 1/2]. */
 static inline double koksma__way(double a, double b)
 {
