@@ -74,9 +74,8 @@ const cli_command cli_command_generate = {
     .synopsis = "PATTERN -n N [-d DIM] [-s S] [-o FILE]",
     .details =
         "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
-        "Equal arguments give equal bits, on any number of threads. Patterns that choose each point by those before "
-        "it, as\n"
-        "Poisson disks, best candidates and eliminated samples, are made on one.",
+        "Equal arguments give equal bits, on any number of threads. Poisson disks, best candidates and eliminated\n"
+        "samples take one: each point depends on those before it.",
     .options = options,
     .run = run,
 };
