@@ -42,8 +42,9 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* An image of the file's own (glb), or a file beside it; what we can't read is left out, and the colour is taken.
-   Sets build->status when memory runs out. */
+/* An image of the file's own (glb), or a file beside it; a file that isn't there, and an image that we can't make
+   out, are left out, and the colour is taken. Sets build->status when memory runs out and when a file that is there
+   can't be read. */
 static koksma_image *read_texture(koksma__build *build, const koksma__file_material *from)
 {
     char full[KOKSMA__MAX_PATH];
@@ -56,7 +57,7 @@ static koksma_image *read_texture(koksma__build *build, const koksma__file_mater
         status = koksma_image_read(full, image);
     }
     if (status) {
-        build->status = status == KOKSMA_MEMORY ? status : build->status;
+        build->status = status == KOKSMA_MEMORY || status == KOKSMA_MISSING ? status : build->status;
         koksma_image_fini(image);
         free(image);
         return NULL;
