@@ -5,7 +5,7 @@
  * at place j of r is known from its random fraction; those of its relatives are drawn from the other b - 1 without
  * replacement, and what lies below is uniform. A value is a whole number of b^-M, with b^M just below 2^53.
  *
- * The points' own memory is all that the columns take but the first: a block of points holds its coordinates one
+ * The columns but the first lie in the points' own memory: a block of points holds its coordinates one
  * column after the other, until they become rows. A number is two random words before it has a value.
  */
 #include "patterns/parts/owen_digits.h"
