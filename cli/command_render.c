@@ -139,6 +139,9 @@ static int run(const cli_arguments *arguments)
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code)) {
         options.spp = (int)spp;
+        if (!cli_flag(arguments, "quiet")) {
+            cli_scene_warnings(arguments, arguments->operands[0], scene, 3);
+        }
         code = render(arguments, scene, &options, &adaptive);
     }
     koksma_scene_close(scene);

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include <stdio.h>
 #include <string.h>
 
-#include <koksma/render.h>
-
 #include "cli.h"
+#include "render_options.h"
 
 static int run(const cli_arguments *arguments)
 {
     koksma_scene *scene;
-    char text[256];
     if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
         return cli_usage_error(arguments, "it takes check FILE");
     }
@@ -19,11 +16,7 @@ static int run(const cli_arguments *arguments)
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
-    bool odd = false;
-    for (size_t i = 0; koksma_scene_warning(scene, i, text, sizeof text); i++) {
-        odd = true;
-        fprintf(stderr, "koksma scene: %s: warning: %s\n", arguments->operands[1], text);
-    }
+    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, SIZE_MAX) > 0;
     cli_row_text(rows, "scene", arguments->operands[1]);
     cli_row_whole(rows, "shapes", counts.shapes);
     cli_row_whole(rows, "meshes", counts.meshes);

@@ -103,3 +103,19 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     }
     return true;
 }
+
+size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene, size_t most)
+{
+    char text[512];
+    size_t n = 0;
+    for (; koksma_scene_warning(scene, n, text, sizeof text); n++) {
+        if (n < most) {
+            fprintf(stderr, "koksma %s: %s: warning: %s\n", arguments->command->name, name, text);
+        }
+    }
+    if (n > most) {
+        fprintf(stderr, "koksma %s: %s: %zu more warnings; 'koksma scene check' tells all\n",
+                arguments->command->name, name, n - most);
+    }
+    return n;
+}

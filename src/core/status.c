@@ -38,7 +38,7 @@ const char *koksma_version(void)
     return KOKSMA_VERSION;
 }
 
-static void make_printable(char *text)
+void koksma__make_printable(char *text)
 {
     for (; *text; text++) {
         if ((unsigned char)*text < 0x20 || *text == 0x7f) {
@@ -54,7 +54,7 @@ koksma_status koksma__fail(koksma_status status, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    make_printable(text);
+    koksma__make_printable(text);
     memcpy(error_text, text, sizeof text);
     return status;
 }

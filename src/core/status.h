@@ -11,6 +11,9 @@
    name may hold any) are shown as '?'. */
 KOKSMA__LAB koksma_status koksma__fail(koksma_status status, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
+/* Control characters become '?'. */
+KOKSMA__LAB void koksma__make_printable(char *text);
+
 /* malloc's and realloc's failure, said in one place. */
 KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 

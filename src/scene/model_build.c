@@ -42,27 +42,47 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* An image of the file's own (glb), or a file beside it; a file that isn't there, and an image that we can't make
-   out, are left out, and the colour is taken. Sets build->status when memory runs out and when a file that is there
-   can't be read. */
-static koksma_image *read_texture(koksma__build *build, const koksma__file_material *from)
+/* An image of the file's own (glb), or a file beside it. Errors: MALFORMED (it isn't there, or we can't make it out),
+   MISSING (it is there and can't be read), MEMORY. */
+static koksma_status read_texture(const koksma__build *build, const koksma__file_material *from, koksma_image *image)
 {
     char full[KOKSMA__MAX_PATH];
-    koksma_image *image = calloc(1, sizeof *image);
-    koksma_status status = image ? KOKSMA_MALFORMED : koksma__fail_memory(sizeof *image);
-    if (image && from->bytes) {
-        status = koksma__image_read_bytes(from->bytes, from->size, image);
-    } else if (image && !from->within && koksma__path_beside(build->path, from->texture, full) &&
-               koksma__is_plain_file(full)) {
-        status = koksma_image_read(full, image);
+    if (from->bytes) {
+        const koksma_status status = koksma__image_read_bytes(from->bytes, from->size, image);
+        return status ? koksma__fail_in(status, from->texture) : KOKSMA_OK;
     }
-    if (status) {
-        build->status = status == KOKSMA_MEMORY || status == KOKSMA_MISSING ? status : build->status;
-        koksma_image_fini(image);
-        free(image);
-        return NULL;
+    if (from->within) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: bare texels", from->texture);
     }
-    return image;
+    if (!koksma__path_beside(build->path, from->texture, full) || !koksma__is_plain_file(full)) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->texture);
+    }
+    return koksma_image_read(full, image);
+}
+
+/* What isn't there or can't be made out is left out with a warning, and the colour is taken; what fails otherwise
+   is build->status. */
+static void take_texture(koksma__build *build, const koksma__file_material *from, koksma__material *m)
+{
+    if (m->kind != KOKSMA__MATERIAL_LAMBERT) {
+        snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->texture);
+        return;
+    }
+    m->image = calloc(1, sizeof *m->image);
+    const koksma_status status =
+        m->image ? read_texture(build, from, m->image) : koksma__fail_memory(sizeof *m->image);
+    if (!status) {
+        koksma__material_mean(m);
+        return;
+    }
+    koksma_image_fini(m->image);
+    free(m->image);
+    m->image = NULL;
+    if (status == KOKSMA_MEMORY || status == KOKSMA_MISSING) {
+        build->status = status;
+    } else {
+        snprintf(m->lost, sizeof m->lost, "%s", koksma_error_text());
+    }
 }
 
 void koksma__build_material(koksma__build *build, const koksma__file_material *from)
@@ -80,11 +100,8 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
         build->glows[i][k] = glow > 0 ? fmin(glow, BRIGHT) : 0;
     }
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
-    if (m->kind == KOKSMA__MATERIAL_LAMBERT && from->texture) {
-        m->image = read_texture(build, from);
-    }
-    if (m->image) {
-        koksma__material_mean(m);
+    if (from->texture && !build->status) {
+        take_texture(build, from, m);
     }
 }
 

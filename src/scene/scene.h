@@ -49,6 +49,7 @@ typedef struct koksma__material {
     double period, phase[2], angle_rad;
     double exponent, roughness, ior;
     koksma_image *image; /* the albedo over a surface's coordinates, in place of albedo; or NULL */
+    char lost[256];      /* why the model file's texture is left out; "": it isn't */
 } koksma__material;
 
 typedef enum koksma__light_kind {

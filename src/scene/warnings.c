@@ -2,6 +2,7 @@
 /* What is odd in a scene that can be rendered all the same. */
 #include <stdio.h>
 
+#include "core/status.h"
 #include "scene/scene.h"
 
 /* The warning that is asked for: `left` are still to be passed by. */
@@ -65,29 +66,49 @@ static bool of_lights(const koksma_scene *scene, asked *a)
     return false;
 }
 
-bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+static bool of_materials(const koksma_scene *scene, asked *a)
 {
-    asked a = {i, text, size};
-    for (size_t m = 0; m < scene->n_materials; m++) {
-        if (!scene->is_model && !is_used(scene, (int)m) && here(&a)) {
-            snprintf(text, size, "material '%s' is used by nothing", scene->materials[m].name);
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const koksma__material *m = &scene->materials[i];
+        if (!scene->is_model && !is_used(scene, (int)i) && here(a)) {
+            snprintf(a->text, a->size, "material '%s' is used by nothing", m->name);
+            return true;
+        }
+        if (*m->lost && here(a)) {
+            snprintf(a->text, a->size, "material %zu is without its texture: %s", i, m->lost);
             return true;
         }
     }
-    if (!scene->n_shapes && !scene->n_placements && here(&a)) {
-        snprintf(text, size, "no shapes");
+    return false;
+}
+
+static bool of_all(const koksma_scene *scene, asked *a)
+{
+    if (!scene->n_shapes && !scene->n_placements && here(a)) {
+        snprintf(a->text, a->size, "no shapes");
         return true;
     }
-    if (scene->n_animations && here(&a)) {
-        snprintf(text, size, "animations (%zu) are not read: everything stays where its node puts it",
+    if (scene->n_animations && here(a)) {
+        snprintf(a->text, a->size, "animations (%zu) are not read: everything stays where its node puts it",
                  scene->n_animations);
         return true;
     }
-    if (scene->n_skins && here(&a)) {
-        snprintf(text, size, "skins (%zu) are not read: their meshes stand as they were modelled", scene->n_skins);
+    if (scene->n_skins && here(a)) {
+        snprintf(a->text, a->size, "skins (%zu) are not read: their meshes stand as they were modelled",
+                 scene->n_skins);
         return true;
     }
-    return of_meshes(scene, &a) || of_lights(scene, &a);
+    return false;
+}
+
+bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+{
+    asked a = {i, text, size};
+    const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) || of_lights(scene, &a);
+    if (found && size) {
+        koksma__make_printable(text);
+    }
+    return found;
 }
 
 koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
