@@ -315,14 +315,15 @@ KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
     return i;
 }
 
-/* A place u of cell `cell` of `cells`, never outside it after rounding. */
+/* A place u of cell `cell` of at most 2^29 `cells`, never outside it after rounding. u / 2^24 is exact, so that the
+   result has the same bits where a product and a sum are rounded once. */
 KOKSMA_INLINE double koksma_place(double cell, double u, double cells)
 {
-    return (cell + u * (1 - 1.0 / 16777216.0)) / cells;
+    return (cell + (u - u * (1.0 / 16777216.0))) / cells;
 }
 
 /* Sample i of columns * rows: one in each cell of the grid, and one in each of the columns * rows strata of either
-   axis. i is below columns * rows < 2^31. */
+   axis. i is below columns * rows <= 2^29. */
 KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows, double xy[2])
 {
     uint32_t keys[4], more[4], w[4], s, c, r;

@@ -13,17 +13,17 @@
 extern "C" {
 #endif
 
-typedef enum koksma_domain {
+typedef enum koksma_warp_domain {
     KOKSMA_DOMAIN_DISK,             /* x^2 + y^2 <= 1, uniform area */
     KOKSMA_DOMAIN_TRIANGLE,         /* x >= 0, y >= 0, x + y <= 1, uniform area: x, y and 1-x-y are the barycentric
                                        coordinates in a triangle of any shape */
     KOKSMA_DOMAIN_HEMISPHERE,       /* x^2 + y^2 + z^2 = 1, z >= 0, uniform solid angle */
     KOKSMA_DOMAIN_HEMISPHERE_COSINE /* the same, with density z/pi */
-} koksma_domain;
+} koksma_warp_domain;
 
 typedef struct koksma_warp {
     const char *name, *title, *cite;
-    koksma_domain domain;
+    koksma_warp_domain domain;
     int dim;                                      /* coordinates of a mapped point: 2 or 3 */
     void (*map)(const double in[2], double *out); /* one point */
 } koksma_warp;

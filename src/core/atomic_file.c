@@ -2,6 +2,7 @@
 #include "core/atomic_file.h"
 
 #include <errno.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -9,18 +10,22 @@
 
 #include "core/status.h"
 
-/* Names that end alike stay alike, because libraries choose a format by the ending: out.png -> .koksma-1234-out.png
- */
+enum { MOST_OF_NAME = 100 };
+
+/* Names that end alike stay alike, because libraries choose a format by the ending: out.png ->
+   .koksma-1234-0-out.png. Two threads that write one path have two of them. */
 static char *temporary_name(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-    const size_t size = strlen(path) + 40;
-    char *name = malloc(size);
-    if (name) {
-        snprintf(name, size, "%.*s.koksma-%ld-%s", (int)folder, path, (long)getpid(), path + folder);
+    static atomic_uint count;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const int folder = (int)(name - path);
+    const size_t length = strlen(name), size = strlen(path) + 60;
+    char *temporary = malloc(size);
+    if (temporary) {
+        snprintf(temporary, size, "%.*s.koksma-%ld-%u-%s", folder, path, (long)getpid(), atomic_fetch_add(&count, 1),
+                 name + (length > MOST_OF_NAME ? length - MOST_OF_NAME : 0));
     }
-    return name;
+    return temporary;
 }
 
 koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
@@ -36,8 +41,10 @@ koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
     }
     /* A device or a pipe is written directly: renaming over it would replace it. */
     const bool special = !stat(path, &info) && !S_ISREG(info.st_mode);
-    file->path = strdup(path);
-    file->temporary = special ? strdup(path) : temporary_name(path);
+    /* What a link leads to is replaced, not the link. */
+    char *target = special ? NULL : realpath(path, NULL);
+    file->path = target ? target : strdup(path);
+    file->temporary = special || !file->path ? strdup(path) : temporary_name(file->path);
     if (!file->path || !file->temporary) {
         koksma__atomic_close(file, false);
         return koksma__fail_memory(strlen(path));
@@ -49,6 +56,9 @@ koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
         free(file->temporary);
         *file = (koksma__atomic_file){0};
         return koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(reason));
+    }
+    if (target) {
+        fchmod(fileno(file->stream), info.st_mode & 07777); /* a private file stays private */
     }
     return KOKSMA_OK;
 }

@@ -72,8 +72,9 @@ static koksma_status parse_header(const char *name, const char *header, layout *
     if (!type || !order || !shape || *shape != '(') {
         return malformed(name, "descr, fortran_order or shape is missing");
     }
-    const bool float64 = !strncmp(type + 2, "f8'", 3), float32 = !strncmp(type + 2, "f4'", 3);
-    if (type[0] != '\'' || !strchr("<>", type[1]) || !(float64 || float32)) {
+    const bool typed = type[0] == '\'' && (type[1] == '<' || type[1] == '>');
+    const bool float64 = typed && !strncmp(type + 2, "f8'", 3), float32 = typed && !strncmp(type + 2, "f4'", 3);
+    if (!float64 && !float32) {
         return malformed(name, "the type is not float32 or float64");
     }
     out->big_endian = type[1] == '>';

@@ -81,11 +81,12 @@ static const char *next_field(const char *s)
     return s;
 }
 
-static koksma_status read_promise(reader *r, const char *format)
+static koksma_status read_promise(reader *r, const char *line, const char *format)
 {
     char key[8];
     char digits[24];
-    if (sscanf(r->line, format, key, digits) == 2) {
+    char after = ' '; /* "# n 1e2 points" promises nothing */
+    if (sscanf(line, format, key, digits, &after) >= 2 && (after == ' ' || after == '\t')) {
         unsigned long long *promise = !strcmp(key, "n")     ? &r->promised_n
                                       : !strcmp(key, "dim") ? &r->promised_dim
                                                             : NULL;
@@ -120,7 +121,7 @@ static bool take_preamble(reader *r, const char *s, koksma_status *status)
         return false;
     }
     r->in_preamble = true;
-    *status = read_promise(r, "%7[a-z] %23[0-9]");
+    *status = read_promise(r, s, "%7[a-z] %23[0-9]%c");
     return true;
 }
 
@@ -145,21 +146,24 @@ static koksma_status append(reader *r, double x)
     return KOKSMA_OK;
 }
 
-/* A first line without a single number is a CSV header. */
+/* A first line of names is a CSV header: each field begins with a letter or _, maybe quoted. Where there are commas
+   or semicolons, names may have blanks in them. */
 static bool take_header(reader *r, const char *s)
 {
+    const char *separators = strpbrk(s, ",;") ? ",;" : " \t";
     size_t fields = 0;
     while (s && *s) {
+        const char first = s[*s == '"'];
         char *end;
-        strtod(s, &end);
+        strtod(s, &end); /* "nan 0.5" is a bad point */
+        if (!((first | 32) >= 'a' && (first | 32) <= 'z') && first != '_') {
+            return false;
+        }
         if (end != s && (is_separator(*end) || !*end)) {
             return false;
         }
-        while (*s && !is_separator(*s)) {
-            s++;
-        }
         fields++;
-        s = next_field(s);
+        s = next_field(s + strcspn(s, separators));
     }
     if (!s) {
         return false;
@@ -223,12 +227,13 @@ static koksma_status take_line(reader *r)
             return malformed(r, "not text (a control character)");
         }
     }
-    const char *s = skip_blanks(r->line);
+    const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3); /* as Excel writes UTF-8 */
+    const char *s = skip_blanks(r->line + (marked ? 3 : 0));
     if (*s == '\0') {
         return KOKSMA_OK;
     }
     if (*s == '#') {
-        return read_promise(r, "# %7[a-z] %23[0-9]");
+        return read_promise(r, s, "# %7[a-z] %23[0-9]%c");
     }
     koksma_status status = KOKSMA_OK;
     if (r->points->dim == 0 && !r->header_seen && take_preamble(r, s, &status)) {

@@ -9,6 +9,7 @@
  */
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "patterns/parts/lattice.h"
 #include "patterns/patterns.h"
@@ -23,9 +24,9 @@ static void powers(uint64_t a, size_t n, int dim, uint64_t *z)
     }
 }
 
-static uint64_t best_multiplier(size_t n, int dim, double *product)
+static koksma_status best_multiplier(size_t n, int dim, const koksma_run *run, double *product, uint64_t *best)
 {
-    uint64_t best = 1, a, z[MAX_DIM];
+    uint64_t a, z[MAX_DIM];
     double least = 0;
     for (size_t c = 0; (a = koksma__lattice_candidate(n, c)); c++) {
         powers(a, n, dim, z);
@@ -33,15 +34,18 @@ static uint64_t best_multiplier(size_t n, int dim, double *product)
             product[i] = 1;
         }
         for (int k = 0; k < dim - 1; k++) {
+            if (n > 4096 && !koksma__keep_going(run, 0)) {
+                return koksma__fail_interrupted();
+            }
             koksma__lattice_extend(n, z[k], product);
         }
         const double error = koksma__lattice_error(n, z[dim - 1], product);
         if (c == 0 || error < least) {
             least = error;
-            best = a;
+            *best = a;
         }
     }
-    return best;
+    return KOKSMA_OK;
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -55,9 +59,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         if (!product) {
             return koksma__fail_memory(n * sizeof *product);
         }
-        a = best_multiplier(n, out->dim, product);
+        const koksma_status status = best_multiplier(n, out->dim, args->run, product, &a);
         if (product != few) {
             free(product);
+        }
+        if (status) {
+            return status;
         }
     }
     powers(a, n, out->dim, z);

@@ -12,9 +12,34 @@
 
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
+
+enum { BLOCK = 4096 };
+
+typedef struct filling {
+    uint64_t seed;
+    size_t spp, pixels;
+    const uint32_t *ranks;
+    koksma_points *out;
+} filling;
+
+static koksma_status fill_block(void *context, size_t block)
+{
+    const filling *f = context;
+    const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
+    for (size_t i = block * BLOCK; i < end; i++) {
+        double *xy = f->out->xs + 2 * i;
+        koksma_sobol_2d((koksma_domain){f->seed}, (uint32_t)(i % f->spp), xy);
+        for (size_t k = 0; k < 2; k++) {
+            xy[k] += ((double)f->ranks[k * f->pixels + i / f->spp] + 0.5) / (double)f->pixels;
+            xy[k] -= xy[k] >= 1;
+        }
+    }
+    return KOKSMA_OK;
+}
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
@@ -32,14 +57,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         status = koksma_mask_void_and_cluster((int)width, koksma__random_seed(seed, k, KOKSMA__PURPOSE_SHIFT),
                                               args->run, ranks + k * pixels);
     }
-    const size_t spp = out->n / pixels;
-    for (size_t i = 0; i < out->n && !status; i++) {
-        koksma_sobol_2d((koksma_domain){seed}, (uint32_t)(i % spp), out->xs + 2 * i);
-        for (size_t k = 0; k < 2; k++) {
-            double *x = &out->xs[2 * i + k];
-            *x += ((double)ranks[k * pixels + i / spp] + 0.5) / (double)pixels;
-            *x -= *x >= 1;
-        }
+    if (!status) {
+        filling f = {seed, out->n / pixels, pixels, ranks, out};
+        status = koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
     }
     free(ranks);
     return status;

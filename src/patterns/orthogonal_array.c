@@ -56,6 +56,10 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
     if (low < 2 || low < least || low == s) {
         low = low == s && (size_t)dim <= columns ? s : high;
     }
+    if (power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim) {
+        return koksma__fail(KOKSMA_DIM, "orthogonal-array: dim = %d: of strength %d no set that fits has so many",
+                            dim, strength);
+    }
     char other[32] = "";
     if (low != high) {
         snprintf(other, sizeof other, " or %zu", power(high, strength));
@@ -121,7 +125,7 @@ const koksma_pattern koksma__pattern_orthogonal_array = {
     .title = "all 2D (or 3D) projections stratified",
     .cite = "bose1938 bush1952 owen1992 jarosz2019",
     .min_dim = 2,
-    .max_dim = 1000,
+    .max_dim = 644, /* 643 levels; more points than these have too many coordinates */
     .claims = KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3 | KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,

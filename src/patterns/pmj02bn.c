@@ -6,6 +6,9 @@
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; candidates inside the stratum as in Helmer, Christensen & Kensler
  * 2021.
+ *
+ * Not unbiased, for the best candidate's law depends on where its rectangle lies: of 4 points 7.5 % are in the bands
+ * of width 0.04 at the axes' ends in the mean, in place of 4 %, of 256 points 4.03 %. pmj02 is.
  */
 #include <koksma/sampler.h>
 
@@ -141,8 +144,7 @@ const koksma_pattern koksma__pattern_pmj02bn = {
     .cite = "christensen2018 helmer2021",
     .min_dim = 2,
     .max_dim = 2,
-    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
-              KOKSMA_CLAIM_UNBIASED,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
     .generate = generate,
 };

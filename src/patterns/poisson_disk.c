@@ -48,7 +48,8 @@ static size_t throw_darts(uint64_t seed, double d, bool torus, koksma__torus_gri
         for (int k = 0; k < out->dim; k += 2) {
             koksma__random_pair(seed, KOKSMA__PURPOSE_DART, dart_number, (uint32_t)k / 2, dart + k);
         }
-        if (dart_number % 65536 == 65535 && !koksma__keep_going(run, (double)placed / (double)out->n)) {
+        if (dart_number % (placed > 1024 ? 256 : 65536) == 255 &&
+            !koksma__keep_going(run, (double)placed / (double)out->n)) {
             return placed;
         }
         if (grid ? koksma__torus_grid_near(grid, dart[0], dart[1], d, torus)
@@ -92,11 +93,10 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
             break; /* hopeless */
         }
     }
-    return koksma__fail(
-        KOKSMA_IMPOSSIBLE,
-        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; the largest possible d is "
-        "%.4f, and dart throwing gets to about %.3g",
-        most, out->n, d, limit, 0.7 * limit);
+    return koksma__fail(KOKSMA_IMPOSSIBLE,
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g and jammed; no d above "
+                        "%.4f is possible, and dart throwing gets to about %.3g",
+                        most, out->n, d, limit, 0.7 * limit);
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -106,8 +106,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
     if (d > limit) {
         return koksma__fail(KOKSMA_IMPOSSIBLE,
-                            "poisson-disk: no %zu points in dim %d are d=%g apart; the largest possible d is "
-                            "%.4f, and dart throwing gets to about %.3g",
+                            "poisson-disk: no %zu points in dim %d are d=%g apart; no d above "
+                            "%.4f is possible, and dart throwing gets to about %.3g",
                             out->n, out->dim, d, limit, 0.7 * limit);
     }
     koksma__torus_grid grid = {0};

@@ -19,7 +19,7 @@
 #include "patterns/parts/dart_cover.h"
 #include "patterns/patterns.h"
 
-enum { TRIES = 100, MANY = 100000 };
+enum { TRIES = 100, SEARCHES = 8, MANY = 100000 };
 
 #define PER_AREA 0.6965 /* points times d^2, on average */
 
@@ -61,12 +61,13 @@ static koksma_status shrink_to(koksma__disks *disks, size_t n, const koksma_run 
                               n, kept);
 }
 
-static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, koksma__disks *disks)
+/* TRIES from `first` on are this search's. */
+static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksma_run *run, koksma__disks *disks)
 {
     const double few = fmax((double)n - 0.6 * sqrt((double)n) - 0.4, 0.9);
     double d = fmin(sqrt(PER_AREA / few), 0.72);
     koksma_status status = KOKSMA_OK;
-    for (uint32_t try = 0; try < TRIES && !status; try++) {
+    for (uint32_t try = first; try < first + TRIES && !status; try++) {
         status = koksma__disks_init(disks, koksma__random_seed(seed, try, KOKSMA__PURPOSE_DART), d);
         if (!status) {
             status = koksma__disks_fill(disks, n + 1, run);
@@ -78,6 +79,18 @@ static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, k
         d = fmin(d * (1 + 0.3 / sqrt((double)n)), 0.72);
     }
     return status || disks->n >= n ? status : shrink_to(disks, n, run);
+}
+
+/* A search may end without n points: two points on the torus are symmetric about two others, so that room may open
+   for two at once. Which sets do so depends on no place, and another search follows. */
+static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, koksma__disks *disks)
+{
+    koksma_status status = search(seed, 0, n, run, disks);
+    for (uint32_t again = 1; status == KOKSMA_IMPOSSIBLE && again < SEARCHES; again++) {
+        koksma__disks_fini(disks);
+        status = search(seed, again * TRIES, n, run, disks);
+    }
+    return status;
 }
 
 static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run, koksma__disks *disks)

@@ -13,7 +13,8 @@
  *     scramble=owen           Owen's nested uniform scrambling (1995), exact, by stochastic generation (Helmer et al.
  *                             2021); the bits below the last that n distinguishes are random
  *     scramble=hash-owen      nested scrambling by a hash (Laine & Karras 2011, Burley 2020, constants of Vegdahl
- *                             2021): random access, the same law but for the quality of the hash
+ *                             2021): random access; single and pairs of flips as in Owen's law, so that
+ *                             variances are the same; of the 128 trees of three bits it has 32
  *     shuffle=1               with hash-owen: the order is scrambled alike; prefixes stay aligned blocks
  *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).

@@ -49,7 +49,7 @@ const koksma_pattern koksma__pattern_void_and_cluster = {
     .cite = "ulichney1993",
     .min_dim = 2,
     .max_dim = 2,
-    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_BLUE,
+    .claims = KOKSMA_CLAIM_SEQUENCE,
     .params = params,
     .generate = generate,
 };

@@ -11,9 +11,36 @@
  */
 #include <koksma/sampler.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
+
+enum { BLOCK = 4096 };
+
+typedef struct filling {
+    uint64_t seed;
+    uint32_t width;
+    int levels;
+    size_t spp;
+    koksma_points *out;
+} filling;
+
+static koksma_status fill_block(void *context, size_t block)
+{
+    const filling *f = context;
+    const koksma_domain domain = {f->seed};
+    const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
+    uint32_t rank = 0;
+    for (size_t i = block * BLOCK; i < end; i++) {
+        const uint32_t pixel = (uint32_t)(i / f->spp);
+        if (i == block * BLOCK || i % f->spp == 0) {
+            rank = koksma_z_rank(domain, pixel % f->width, pixel / f->width, f->levels);
+        }
+        koksma_sobol_2d(domain, (uint32_t)(rank * f->spp + i % f->spp), f->out->xs + 2 * i);
+    }
+    return KOKSMA_OK;
+}
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
@@ -31,16 +58,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         return koksma__fail(KOKSMA_N, "z-sampler: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n,
                             pixels, (out->n / pixels + 1) * pixels);
     }
-    const size_t spp = out->n / pixels;
-    const koksma_domain domain = {seed};
-    double *xy = out->xs;
-    for (size_t p = 0; p < pixels; p++) {
-        const uint32_t rank = koksma_z_rank(domain, (uint32_t)p % width, (uint32_t)p / width, levels);
-        for (size_t s = 0; s < spp; s++, xy += 2) {
-            koksma_sobol_2d(domain, (uint32_t)(rank * spp + s), xy);
-        }
-    }
-    return KOKSMA_OK;
+    filling f = {seed, width, levels, out->n / pixels, out};
+    return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }
 
 static const koksma_param params[] = {

@@ -348,40 +348,66 @@ static void check_blue(const koksma_spec *spec, const koksma_points *points, uin
     }
 }
 
-/* Mean over sets of the fraction of points in a box, and of the first point's coordinate, in standard errors. */
+static const double means_side[2] = {0.37, 0.61};
+
+/* What of the first n points lies in a box with sides 0.37, 0.61, ... */
+static double share_of_box(const koksma_points *points, size_t n)
+{
+    double inside = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool in = true;
+        for (int k = 0; k < points->dim; k++) {
+            in = in && points->xs[i * (size_t)points->dim + (size_t)k] < means_side[k % 2];
+        }
+        inside += in ? 1.0 / (double)n : 0;
+    }
+    return inside;
+}
+
+/* What of their coordinates lies in a band of width 0.04: that about 0 and 1, or another one. */
+static double share_of_band(const koksma_points *points, size_t n, double from)
+{
+    const size_t count = n * (size_t)points->dim;
+    double inside = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double x = points->xs[i], turned = x < from ? x + 1 - from : x - from;
+        inside += turned < 0.04 ? 1.0 / (double)count : 0;
+    }
+    return inside;
+}
+
+/* Means over sets of what a box and bands hold of all points, or of the first, in standard errors. */
 static void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only)
 {
-    enum { SETS = 120 };
-    const double side[2] = {0.37, 0.61};
-    double sum = 0, square = 0;
+    enum { SETS = 120, BANDS = 3 };
+    static const double bands[BANDS] = {0.98, 0.105, 0.355};
+    double sum[BANDS + 1] = {0}, square[BANDS + 1] = {0}, volume = 1;
     if (points->n > 32 || points->n < 4 || points->dim > 3 || seed != 0) {
         return;
     }
     koksma_points other;
     assert_ok(koksma_points_init(&other, points->n, points->dim));
     for (uint64_t s = 0; s < SETS; s++) {
-        double inside = 0;
         if (koksma_generate(spec, 1000 + s, NULL, &other)) {
             fail_claim(spec, points, "seed %d: %s", (int)(1000 + s), koksma_error_text());
         }
         const size_t n = first_only ? 1 : other.n;
-        for (size_t i = 0; i < n; i++) {
-            bool in = true;
-            for (int k = 0; k < other.dim; k++) {
-                in = in && other.xs[i * (size_t)other.dim + (size_t)k] < side[k % 2];
-            }
-            inside += in ? 1.0 / (double)n : 0;
+        for (int b = 0; b <= BANDS; b++) {
+            const double inside = b < BANDS ? share_of_band(&other, n, bands[b]) : share_of_box(&other, n);
+            sum[b] += inside;
+            square[b] += inside * inside;
         }
-        sum += inside;
-        square += inside * inside;
     }
-    double volume = 1;
     for (int k = 0; k < points->dim; k++) {
-        volume *= side[k % 2];
+        volume *= means_side[k % 2];
     }
-    const double mean = sum / SETS, variance = fmax(square / SETS - mean * mean, 1e-6);
-    if (fabs(mean - volume) > 4.5 * sqrt(variance / SETS) + 1e-3) {
-        fail_claim(spec, points, "a box of volume %.4f holds %.4f of the points in the mean", volume, mean);
+    for (int b = 0; b <= BANDS; b++) {
+        const double mean = sum[b] / SETS, variance = fmax(square[b] / SETS - mean * mean, 1e-6);
+        const double expected = b < BANDS ? 0.04 : volume;
+        if (fabs(mean - expected) > 4.5 * sqrt(variance / SETS) + 1e-3) {
+            fail_claim(spec, points, "a %s of volume %.4f holds %.4f of the points in the mean",
+                       b < BANDS ? "band" : "box", expected, mean);
+        }
     }
     koksma_points_fini(&other);
 }

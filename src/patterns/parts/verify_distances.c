@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smallest distances, by a grid in 2D and by a sweep along the first coordinate in other dimensions; and equal
- * points. */
+/* Smallest distances, by a grid on the torus in 2D (of the square: of points half as far apart, where no way around
+ * is shorter) and by a sweep along the first coordinate in other dimensions; and equal points. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +11,8 @@
 #include "patterns/parts/packing.h"
 #include "patterns/parts/torus_grid.h"
 #include "patterns/parts/verify.h"
+
+enum { PAIRS_AT_ONCE = 1 << 22 };
 
 typedef struct point {
     const double *xs;
@@ -39,9 +41,10 @@ static double square_of(const point *p, const point *q, bool torus)
 }
 
 /* Over points sorted by their first coordinate: only those nearer along it than the best so far are looked at. */
-static double sweep(const point *sorted, size_t n, bool torus)
+static koksma_status sweep(const point *sorted, size_t n, bool torus, const koksma_run *run, double *distance)
 {
     double best = INFINITY;
+    size_t pairs = 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t step = 1; step < n; step++) {
             const size_t j = i + step;
@@ -53,31 +56,51 @@ static double sweep(const point *sorted, size_t n, bool torus)
                 break;
             }
             best = fmin(best, square_of(&sorted[i], &sorted[j % n], torus));
+            if (++pairs % PAIRS_AT_ONCE == 0 && !koksma__keep_going(run, (double)i / (double)n)) {
+                return koksma__fail_interrupted();
+            }
         }
     }
-    return sqrt(best);
+    *distance = sqrt(best);
+    return KOKSMA_OK;
 }
 
-static koksma_status grid_distance(const koksma_points *points, const koksma_run *run, double *distance)
+static koksma_status grid_distance(size_t n, const double *xs, const koksma_run *run, double *distance)
 {
     koksma__torus_grid grid;
-    koksma_status status = koksma__torus_grid_init(&grid, points->n, points->xs);
+    koksma_status status = koksma__torus_grid_init(&grid, n, xs);
     if (status) {
         return status;
     }
-    for (size_t i = 0; i < points->n; i++) {
+    for (size_t i = 0; i < n; i++) {
         koksma__torus_grid_add(&grid, (uint32_t)i);
     }
     double best = 1;
-    for (size_t i = 0; i < points->n && !status; i++) {
-        const double *x = points->xs + 2 * i;
+    for (size_t i = 0; i < n && !status; i++) {
+        const double *x = xs + 2 * i;
         best = fmin(best, koksma__torus_grid_nearest(&grid, x[0], x[1], (uint32_t)i, 0));
-        if (i % 65536 == 65535 && !koksma__keep_going(run, (double)i / (double)points->n)) {
+        if (i % 1024 == 1023 && !koksma__keep_going(run, (double)i / (double)n)) {
             status = koksma__fail_interrupted();
         }
     }
     *distance = sqrt(best);
     koksma__torus_grid_fini(&grid);
+    return status;
+}
+
+/* In the square, not on the torus. */
+static koksma_status square_distance(const koksma_points *points, const koksma_run *run, double *distance)
+{
+    double *half = malloc(2 * points->n * sizeof *half);
+    if (!half) {
+        return koksma__fail_memory(2 * points->n * sizeof *half);
+    }
+    for (size_t i = 0; i < 2 * points->n; i++) {
+        half[i] = points->xs[i] / 2;
+    }
+    const koksma_status status = grid_distance(points->n, half, run, distance);
+    *distance *= 2;
+    free(half);
     return status;
 }
 
@@ -116,16 +139,16 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
         *distance = INFINITY;
         return KOKSMA_OK;
     }
-    if (torus && points->dim == 2) {
-        return grid_distance(points, run, distance);
+    if (points->dim == 2) {
+        return torus ? grid_distance(points->n, points->xs, run, distance) : square_distance(points, run, distance);
     }
     point *sorted = sort_points(points);
     if (!sorted) {
         return KOKSMA_MEMORY;
     }
-    *distance = sweep(sorted, points->n, torus);
+    const koksma_status status = sweep(sorted, points->n, torus, run, distance);
     free(sorted);
-    return KOKSMA_OK;
+    return status;
 }
 
 koksma_status koksma__verify_distances(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
