@@ -46,11 +46,11 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     status = koksma_study_run(study, &work->run, summary);
     cli_work_end(work);
-    if (!status) {
+    if (!status && options->folder) {
         status = koksma_study_report(study, &work->run);
     }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
-    if (!status && table && strcmp(table, "none") != 0) {
+    if (!status && options->folder && table && strcmp(table, "none") != 0) {
         status = put_table(study, table, rows);
     }
     const koksma_status closed = koksma_study_close(study);
@@ -89,6 +89,7 @@ static int run(const cli_arguments *arguments)
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_study_summary summary;
     const char *plans[MAX_PLANS];
+    folder = koksma_study_rank() > 0 ? NULL : folder; /* one rank of several keeps the results */
     const koksma_study_options options = {.plans = plans,
                                           .n_plans = choose_plans(arguments, plans),
                                           .folder = folder,
@@ -99,15 +100,17 @@ static int run(const cli_arguments *arguments)
     const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : 0;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {
-        fprintf(stderr,
-                "koksma reproduce: interrupted; what is done is kept in %s, and the same command goes on there\n",
-                folder);
+        if (folder) {
+            fprintf(stderr,
+                    "koksma reproduce: interrupted; what is done is kept in %s, and the same command goes on there\n",
+                    folder);
+        }
         return koksma_status_exit_code(status);
     }
     if (failed) {
         return failed;
     }
-    if (!cli_flag(arguments, "quiet")) {
+    if (folder && !cli_flag(arguments, "quiet")) {
         fprintf(stderr, "%zu jobs, %zu of them done before; report: %s/report.html\n", summary.jobs,
                 summary.done_before, folder);
     }

@@ -66,8 +66,10 @@ static int new_plan(const cli_arguments *arguments)
 
 static int say_interrupted(const cli_arguments *arguments, koksma_status status, const char *folder)
 {
-    fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
-            arguments->command->name, folder);
+    if (folder) { /* one rank of several says it */
+        fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
+                arguments->command->name, folder);
+    }
     return koksma_status_exit_code(status);
 }
 
@@ -158,6 +160,9 @@ static int estimate(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
+    if (koksma_study_rank() > 0) { /* one rank of several does it */
+        return CLI_YES;
+    }
     options.folder = NULL;
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_estimate(study, &work.run, &cost);
@@ -179,12 +184,17 @@ static int estimate(const cli_arguments *arguments)
 
 /* ---- export and report --------------------------------------------------------------------------------- */
 
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot ? dot + 1 : "";
+}
+
 static int export_rows(const cli_arguments *arguments)
 {
     static const char *const formats[] = {"csv", "json", "npy", NULL};
     const char *path = cli_text(arguments, "output", "-");
-    const char *dot = strrchr(path, '.');
-    const char *name = cli_text(arguments, "format", dot ? dot + 1 : "csv");
+    const char *given = cli_text(arguments, "format", NULL), *name = given ? given : ending_of(path);
     int format = 0;
     if (arguments->n_operands != 2) {
         return cli_usage_error(arguments, "export takes a study's folder, as in export DIR --format csv");
@@ -192,9 +202,10 @@ static int export_rows(const cli_arguments *arguments)
     while (formats[format] && strcmp(formats[format], name) != 0) {
         format++;
     }
-    if (!formats[format]) {
+    if (!formats[format] && given) {
         return cli_usage_error(arguments, "--format %s: it takes csv, json or npy", name);
     }
+    format = formats[format] ? format : 0;
     const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
@@ -208,6 +219,9 @@ static int report(const cli_arguments *arguments)
     }
     if (!cli_work_begin(arguments, "reporting", &work)) {
         return CLI_USAGE;
+    }
+    if (koksma_study_rank() > 0) {
+        return CLI_YES;
     }
     const koksma_study_options options = {.folder = arguments->operands[1]};
     koksma_status status = koksma_study_open(&options, &study);
@@ -265,16 +279,37 @@ static int images(const cli_arguments *arguments)
 
 /* ---- The command --------------------------------------------------------------------------------------- */
 
+/* False after an error that names an option which this verb has no use for. */
+static bool takes_options(const cli_arguments *arguments, const char *own)
+{
+    static const char common[] = " threads progress quiet help ";
+    for (int i = 0; arguments->command->options[i].name; i++) {
+        char name[32];
+        snprintf(name, sizeof name, " %s ", arguments->command->options[i].name);
+        if (arguments->values[i] && !strstr(own, name) && !strstr(common, name)) {
+            cli_usage_error(arguments, "%s takes no --%s", arguments->operands[0],
+                            arguments->command->options[i].name);
+            return false;
+        }
+    }
+    return true;
+}
+
 static int run(const cli_arguments *arguments)
 {
     static const struct {
         const char *name;
         int (*run)(const cli_arguments *arguments);
-    } verbs[] = {{"run", run_plans},      {"new", new_plan},  {"estimate", estimate},
-                 {"export", export_rows}, {"report", report}, {"images", images}};
+        const char *options; /* that it takes beside those of all long work */
+    } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
+                 {"new", new_plan, " output "},
+                 {"estimate", estimate, " trials quick time-limit json "},
+                 {"export", export_rows, " output format "},
+                 {"report", report, " "},
+                 {"images", images, " reference json "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
-            return verbs[i].run(arguments);
+            return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
     return cli_usage_error(arguments, "it takes run, new, estimate, export, report or images");

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "study/clocks.h"
+#include "study/pool.h"
 #include "study/tasks.h"
 #include "study/watch.h"
 
@@ -258,6 +259,7 @@ koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, 
     const double start_s = koksma__now_s(), budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
     const bool both = study->plan.n_discrepancies && study->plan.n_images;
     *out = (koksma_study_cost){0};
+    koksma__pool_release();
     koksma_status status = estimate_kind(study, false, run, both ? budget_s / 2 : budget_s, out);
     const double left_s = budget_s - (koksma__now_s() - start_s);
     status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/parts.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +39,17 @@ static koksma_status add_parts(koksma__parts *parts, size_t reference)
     return status;
 }
 
+/* The picture, and the row with its own error: where the database was moved away, both are made anew. */
+static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
+{
+    char name[KOKSMA__REFERENCE_NAME];
+    const koksma__series key = koksma__reference_key(reference, name);
+    double error;
+    return koksma__reference_exists(study, reference) &&
+           (reference->reference->replicates < 2 ||
+            (!koksma__store_reference(study->store, &key, &error) && !isnan(error)));
+}
+
 koksma_status koksma__parts_open(const koksma__tasks *tasks, koksma__parts *parts)
 {
     koksma_study *study = tasks->study;
@@ -55,7 +67,7 @@ koksma_status koksma__parts_open(const koksma__tasks *tasks, koksma__parts *part
             if (study->references[index].image.pixels || parts->rows_left[index]) {
                 continue;
             }
-            status = koksma__reference_exists(study, &study->references[index])
+            status = is_kept(study, &study->references[index])
                          ? koksma__reference_read(study, &study->references[index])
                          : add_parts(parts, index);
         }

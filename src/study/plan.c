@@ -15,7 +15,7 @@
 #include "study/plans_embedded.h"
 #include "study/variants.h"
 
-enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20 };
+enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64 };
 
 const char *koksma_plan_name_at(size_t i)
 {
@@ -87,6 +87,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
     status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
+    status = status ? status : koksma__plan_check_measures(node, b);
     return status ? status : check_warps(node, b);
 }
 
@@ -101,6 +102,9 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
+    if (!status && strlen(r->name) > MAX_NAME) {
+        return koksma__json_fail(node, "its name has more than %d letters", MAX_NAME);
+    }
     return status ? status : koksma__plan_check_reference(node, r);
 }
 

@@ -44,6 +44,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
    a reference's (plan_sets.c). */
 koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__texts *patterns,
                                       const char *counts, const koksma__wholes *n, int dim);
+koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block);
 koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block);
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference);
 

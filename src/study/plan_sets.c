@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether patterns can make the numbers of points that a plan asks of them: a study must not fail in its middle. */
+/* Whether patterns can make the numbers of points that a plan asks of them, and measures take their dimensions: a
+   study must not fail in its middle. */
 #include "core/status.h"
 #include "study/plan_parts.h"
 #include "study/variants.h"
@@ -43,6 +44,32 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksm
             }
         }
     }
+    return status;
+}
+
+/* Whether each measure serves the block's dim: that shows at one point. */
+koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma__json_node list;
+    koksma_points point;
+    koksma_status status = koksma__json_member(node, "measures", &list);
+    if (status || (status = koksma_points_init(&point, 1, block->dim))) {
+        return status;
+    }
+    for (int k = 0; k < block->dim; k++) {
+        point.xs[k] = 0.5;
+    }
+    for (size_t m = 0; !status && m < block->measures.n; m++) {
+        koksma_spec spec;
+        koksma_value value;
+        status = koksma_measure_spec(block->measures.at[m], &spec);
+        if (!status && koksma_evaluate(&spec, &point, &briefly, &value) == KOKSMA_DIM) {
+            const koksma__json_node item = koksma__json_item(&list, m);
+            status = koksma__json_fail_in(&item, KOKSMA_DIM);
+        }
+    }
+    koksma_points_fini(&point);
     return status;
 }
 

@@ -30,8 +30,12 @@ void koksma__pool_was_busy(koksma__pool *pool, double start_s);
 /* Ranks of this run; 1 without MPI. */
 int koksma__pool_size(void);
 
-/* Fails in a build without MPI that runs under mpirun. */
+/* Fails in a build without MPI that runs under mpirun. From here on the other ranks wait for the first, and end with
+ * it. */
 koksma_status koksma__pool_check(void);
+
+/* The first rank does what comes without the others, which may end before it. */
+void koksma__pool_release(void);
 
 /* The first rank's part, and the others': until the first says that all is done. */
 koksma_status koksma__pool_serve(koksma__pool *pool);

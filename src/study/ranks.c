@@ -62,8 +62,13 @@ int koksma_study_rank(void)
 
 koksma_status koksma__pool_check(void)
 {
-    koksma__ranks_get();
+    koksma__ranks_get()->released = false;
     return problem ? koksma__fail(KOKSMA_UNSUPPORTED, "%s", problem) : KOKSMA_OK;
+}
+
+void koksma__pool_release(void)
+{
+    koksma__ranks_get()->released = true;
 }
 
 void koksma__ranks_rest(double seconds)

@@ -198,6 +198,7 @@ static bool serve_one(server *s)
     case KOKSMA__TAG_ERROR:
         s->mpi->receive(from, KOKSMA__TAG_ERROR, text, sizeof text, NULL);
         koksma__ledger_stop(&s->ledger, (koksma_status)text[0], text + 1);
+        s->ended[from] = true;
         break;
     default:
         break;

@@ -17,11 +17,14 @@
 #include "core/hash.h"
 #include "core/status.h"
 #include "render/rows.h"
+#include "study/point_files.h"
 #include "study/study.h"
+
+enum { LONGEST_KEY = 8192 }; /* a path, a pattern, options */
 
 uint64_t koksma__job_seed(const char *format, ...)
 {
-    char key[1024];
+    char key[LONGEST_KEY];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(key, sizeof key, format, arguments);
@@ -170,11 +173,11 @@ static double standard_error(const koksma__replicates *s)
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size)
 {
-    char name[KOKSMA__REFERENCE_NAME];
+    char name[KOKSMA__REFERENCE_NAME], hash[KOKSMA__HASH_TEXT];
     koksma__reference_name(reference->reference, name);
-    const uint64_t key =
-        koksma__job_seed("%s|%s|%s|%s|%dx%d|%s", reference->scene->name, reference->scene->hash, name,
-                         reference->options, reference->width, reference->height, koksma_version());
+    koksma__hash_with_points(NULL, reference->scene->hash, name, hash);
+    const uint64_t key = koksma__job_seed("%s|%s|%s|%s|%dx%d|%s", reference->scene->name, hash, name,
+                                          reference->options, reference->width, reference->height, koksma_version());
     snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);
 }
 

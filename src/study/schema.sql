@@ -10,7 +10,7 @@ CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the tria
   id INTEGER PRIMARY KEY,                  -- of an image a multiple of 4; measures of the same point sets follow it
   kind TEXT NOT NULL,                      -- 'discrepancy' or 'image'
   scene TEXT NOT NULL,                     -- '' for discrepancies, as the next
-  scene_hash TEXT NOT NULL,                -- of the scene's text, hexadecimal
+  scene_hash TEXT NOT NULL,                -- of the scene's text, and of the points of a file: pattern, hexadecimal
   options TEXT NOT NULL,                   -- what differs from the defaults: pairing=aligned, warp=polar-disk
   pattern TEXT NOT NULL,                   -- canonical spec, e.g. poisson-disk:d=0.2
   n INTEGER NOT NULL,                      -- points, or samples a pixel

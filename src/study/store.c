@@ -108,10 +108,17 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
 
 /* ---- References and runs ------------------------------------------------------------------------------- */
 
-static void bind_reference(koksma__statement *s, int *column, const koksma__series *series)
+void koksma__store_bind_hash(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
+                             const char *spec)
+{
+    koksma__hash_with_points(&store->files, series->scene_hash, spec, store->hash);
+    koksma__bind_text(s, column, store->hash);
+}
+
+static void bind_reference(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series)
 {
     koksma__bind_text(s, column, series->scene);
-    koksma__bind_text(s, column, series->scene_hash);
+    koksma__store_bind_hash(store, s, column, series, series->what);
     koksma__bind_text(s, column, series->options);
     koksma__bind_whole(s, column, series->width);
     koksma__bind_whole(s, column, series->height);
@@ -123,7 +130,7 @@ koksma_status koksma__store_put_reference(koksma__store *store, const koksma__se
     koksma__statement *s = store->queries[KOKSMA__PUT_REFERENCE];
     int column = 1;
     koksma__store_enter(store);
-    bind_reference(s, &column, series);
+    bind_reference(store, s, &column, series);
     koksma__bind_number(s, &column, standard_error);
     return koksma__store_leave(store, koksma__store_write(store, KOKSMA__PUT_REFERENCE));
 }
@@ -134,7 +141,7 @@ koksma_status koksma__store_reference(koksma__store *store, const koksma__series
     koksma_status status = KOKSMA_OK;
     int column = 1;
     koksma__store_enter(store);
-    bind_reference(s, &column, series);
+    bind_reference(store, s, &column, series);
     *standard_error = koksma__next_row(store->database, s, &status) ? koksma__column_number(s, 0) : (double)NAN;
     koksma__statement_reset(s);
     return koksma__store_leave(store, status);

@@ -101,7 +101,9 @@ static koksma_status prepare(koksma__store *store, bool write, const char *plan_
     status = status ? status : open_query(store, KOKSMA__GET_TEXT);
     status = status ? status : upgrade(store);
     status = status ? status : check_text(store, "schema", SCHEMA_VERSION, write);
-    status = status ? status : check_text(store, "version", koksma_version(), write);
+    if (!status && write) { /* another version's results can be read, not added to */
+        status = check_text(store, "version", koksma_version(), write);
+    }
     if (!status && plan_name) {
         status = check_text(store, "plan", plan_name, write);
     }
@@ -151,6 +153,7 @@ koksma_status koksma__store_close(koksma__store *store)
     koksma__database_close(store->database);
     koksma__store_rows_fini(store);
     koksma__store_forget(store);
+    koksma__point_files_fini(&store->files);
     pthread_mutex_destroy(&store->lock);
     free(store);
     return status;

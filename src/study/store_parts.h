@@ -7,6 +7,7 @@
 #include <pthread.h>
 
 #include "study/database.h"
+#include "study/point_files.h"
 #include "study/store.h"
 
 /* The statements of store_open.c. */
@@ -75,6 +76,8 @@ struct koksma__store {
     pthread_mutex_t gather_lock; /* taken within the other; guards what follows */
     koksma__rows gathered;
     double written_s; /* when something was last written */
+    koksma__point_files files;
+    char hash[KOKSMA__HASH_TEXT]; /* the one that is bound */
 };
 
 /* ---- store.c: all of it but enter with the lock held ----------------------------------------------------------- */
@@ -82,6 +85,10 @@ struct koksma__store {
 /* Takes the lock and counts the time until it is left; leave hands the status on. */
 void koksma__store_enter(koksma__store *store);
 koksma_status koksma__store_leave(koksma__store *store, koksma_status status);
+
+/* Binds the series' hash, with that of the points' file where `spec`, its pattern or its reference, names one. */
+void koksma__store_bind_hash(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
+                             const char *spec);
 
 /* A transaction, unless there is one; its end, if there is one. */
 koksma_status koksma__store_begin(koksma__store *store);

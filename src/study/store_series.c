@@ -10,11 +10,11 @@
 static const long long MOST_SERIES = 1 << 26;
 
 /* All that the series of a group have in common. */
-static void bind_group(koksma__statement *s, int *column, const koksma__series *key)
+static void bind_group(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
 {
     koksma__bind_text(s, column, key->kind);
     koksma__bind_text(s, column, key->scene);
-    koksma__bind_text(s, column, key->scene_hash);
+    koksma__store_bind_hash(store, s, column, key, key->pattern);
     koksma__bind_text(s, column, key->options);
     koksma__bind_text(s, column, key->pattern);
     koksma__bind_whole(s, column, key->n);
@@ -23,9 +23,9 @@ static void bind_group(koksma__statement *s, int *column, const koksma__series *
     koksma__bind_whole(s, column, key->height);
 }
 
-static void bind_series(koksma__statement *s, int *column, const koksma__series *key)
+static void bind_series(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
 {
-    bind_group(s, column, key);
+    bind_group(store, s, column, key);
     koksma__bind_text(s, column, key->what);
 }
 
@@ -44,7 +44,7 @@ static koksma_status next_series(koksma__store *store, const koksma__series *ser
     koksma__statement *s = store->queries[KOKSMA__NEXT_SERIES];
     koksma_status status = KOKSMA_OK;
     int column = 1;
-    bind_group(s, &column, series);
+    bind_group(store, s, &column, series);
     const bool found = koksma__next_row(store->database, s, &status);
     const long long last = found ? koksma__column_whole(s, 0) : 0,
                     last_of_all = found ? koksma__column_whole(s, 1) : 0;
@@ -65,7 +65,7 @@ static koksma_status add_series(koksma__store *store, const koksma__series *seri
     if (status) {
         return status;
     }
-    bind_series(s, &column, series);
+    bind_series(store, s, &column, series);
     koksma__bind_whole(s, &column, *id);
     status = koksma__store_write(store, KOKSMA__ADD_SERIES);
     koksma__store_forget(store);
@@ -78,7 +78,7 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
     koksma_status status = KOKSMA_OK;
     int column = 1;
     koksma__store_enter(store);
-    bind_series(s, &column, series);
+    bind_series(store, s, &column, series);
     const bool found = koksma__next_row(store->database, s, &status);
     *id = found ? koksma__column_whole(s, 0) : 0;
     koksma__statement_reset(s);

@@ -190,6 +190,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
 static koksma_status open_folder(koksma_study *study, const char *folder)
 {
     char path[KOKSMA__PATH];
+    koksma__pool_release();
     study->folder = strdup(folder);
     if (!study->folder) {
         return koksma__fail_memory(strlen(folder));

@@ -19,7 +19,7 @@ typedef struct koksma__study_scene {
     int width, height;
 } koksma__study_scene;
 
-enum { KOKSMA__REFERENCE_NAME = 192, KOKSMA__PATH = 1200 };
+enum { KOKSMA__REFERENCE_NAME = KOKSMA_MAX_SPEC + 128, KOKSMA__PATH = 1200 };
 
 /* A reference image and all that it depends on. */
 typedef struct koksma__reference_image {
