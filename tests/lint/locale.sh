@@ -6,7 +6,8 @@ cd "$(dirname "$0")/../.." || exit 1
 git ls-files 'src/*.[ch]' | grep -vxF src/core/c_locale.c | xargs perl -0777 -ne '
   my $string = qr/"(?:[^"\\]|\\.)*"/s;
   my $float = qr/%[-+ #0\x27]*[\d*]*(?:\.[\d*]*)?[lL]?[aefgAEFG]/;
-  s{/\*.*?\*/|//[^\n]*|($string)}{defined $1 ? $1 : "\n" x ($& =~ tr/\n//)}gse; # no comments, same lines
+  my $character = qr/\x27(?:[^\x27\\]|\\.)+\x27/;
+  s{/\*.*?\*/|//[^\n]*|$character|($string)}{defined $1 ? $1 : "\n" x ($& =~ tr/\n//)}gse; # lines stay as they are
   while (/\b(?:strto(?:d|f|ld)|atof|v(?:f|s|sn|d|as)?printf|v?f?s?scanf|(?:f|s|sn|d|as)?printf)\s*(\((?:[^()"]++|$string|(?1))*\))/g) {
     my ($call, $arguments) = ($&, $1);
     my $line = 1 + (substr($_, 0, $-[0]) =~ tr/\n//);
