@@ -19,7 +19,7 @@
  * Every function that can fail returns a koksma_status, and leaves a line that names the thing and the reason
  * in koksma_error_text(). Results come through out-pointers, last. Nothing here prints, exits or keeps global
  * state; all functions may be called from several threads at once on different objects.
- * Equal arguments give equal bits, on any number of threads.
+ * Equal arguments give equal bits, on any number of threads and in any locale: numbers in texts have a point.
  */
 #ifndef KOKSMA_KOKSMA_H
 #define KOKSMA_KOKSMA_H

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/points_io.h"
 #include "core/status.h"
 
@@ -113,10 +114,10 @@ static bool take_preamble(reader *r, const char *s, koksma_status *status)
     const char *number = next_field(s + word);
     char *end;
     const bool letter = (*s | 32) >= 'a' && (*s | 32) <= 'z';
-    if (!letter || !number || !*number || (strtod(number, &end), *skip_blanks(end)) || end == number) {
+    if (!letter || !number || !*number || (koksma__strtod(number, &end), *skip_blanks(end)) || end == number) {
         return false;
     }
-    strtod(s, &end);
+    koksma__strtod(s, &end);
     if (end != s) { /* "nan 0.5" is a bad point */
         return false;
     }
@@ -155,7 +156,7 @@ static bool take_header(reader *r, const char *s)
     while (s && *s) {
         const char first = s[*s == '"'];
         char *end;
-        strtod(s, &end); /* "nan 0.5" is a bad point */
+        koksma__strtod(s, &end); /* "nan 0.5" is a bad point */
         if (!((first | 32) >= 'a' && (first | 32) <= 'z') && first != '_') {
             return false;
         }
@@ -188,7 +189,7 @@ static koksma_status read_row(reader *r, const char *s)
     int fields = 0;
     while (s && *s) {
         char *end;
-        const double x = strtod(s, &end);
+        const double x = koksma__strtod(s, &end);
         if (end == s || !(is_separator(*end) || !*end)) {
             return bad_number(r, s);
         }
@@ -292,8 +293,8 @@ static void write_rows(FILE *stream, const koksma_points *points, char separator
 {
     for (size_t i = 0; i < points->n; i++) {
         for (int k = 0; k < points->dim; k++) {
-            fprintf(stream, "%.17g%c", points->xs[i * (size_t)points->dim + (size_t)k],
-                    k + 1 < points->dim ? separator : '\n');
+            koksma__fprintf(stream, "%.17g%c", points->xs[i * (size_t)points->dim + (size_t)k],
+                            k + 1 < points->dim ? separator : '\n');
         }
     }
 }

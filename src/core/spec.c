@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/points_io.h"
 #include "core/random.h"
 #include "core/spec.h"
@@ -43,7 +44,7 @@ static koksma_status parse_value(const char *owner, const koksma_param *param, c
         return parse_choice(owner, param, text, value);
     }
     char *end;
-    *value = strtod(text, &end);
+    *value = koksma__strtod(text, &end);
     if (end == text || *end) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%s: not a number", owner, param->name, text);
     }
@@ -200,12 +201,12 @@ koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
 static void shortest(double value, char *text, size_t size)
 {
     if (value == floor(value) && fabs(value) < 1e15) {
-        snprintf(text, size, "%.0f", value);
+        koksma__snprintf(text, size, "%.0f", value);
         return;
     }
     for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, size, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) {
+        koksma__snprintf(text, size, "%.*g", digits, value);
+        if (koksma__strtod(text, NULL) == value) {
             return;
         }
     }

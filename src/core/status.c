@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "core/status.h"
+#include "core/c_locale.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -52,7 +53,7 @@ koksma_status koksma__fail(koksma_status status, const char *format, ...)
     char text[TEXT_SIZE]; /* arguments may point into error_text */
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     koksma__make_printable(text);
     memcpy(error_text, text, sizeof text);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "image/formats.h"
 
@@ -35,7 +36,7 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (sscanf(header, "%9lld %9lld %23s%n", &width, &height, scale_text, &used) != 3) {
         return koksma__fail(KOKSMA_MALFORMED, "line 1: a PFM header is PF or Pf, width, height and scale");
     }
-    const double scale = strtod(scale_text, &end);
+    const double scale = koksma__strtod(scale_text, &end);
     if (*end || !isfinite(scale) || scale == 0) {
         return koksma__fail(KOKSMA_MALFORMED, "line 3: the scale '%s' is not a number other than 0", scale_text);
     }

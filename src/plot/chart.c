@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "plot/canvas.h"
 
@@ -105,14 +106,14 @@ static void draw_axes(koksma__canvas *canvas, const koksma_chart *c, const axis 
     for (int i = 0; i < n; i++) {
         const double at = place(x, ticks[i]);
         koksma__canvas_line(canvas, at, y->from, at, y->to, 0.7, grid);
-        snprintf(text, sizeof text, "%g", ticks[i]);
+        koksma__snprintf(text, sizeof text, "%g", ticks[i]);
         koksma__canvas_text(canvas, at, y->from + 14, TEXT, 0.5, text, ink);
     }
     n = find_ticks(y, ticks);
     for (int i = 0; i < n; i++) {
         const double at = place(y, ticks[i]);
         koksma__canvas_line(canvas, x->from, at, x->to, at, 0.7, grid);
-        snprintf(text, sizeof text, "%g", ticks[i]);
+        koksma__snprintf(text, sizeof text, "%g", ticks[i]);
         koksma__canvas_text(canvas, x->from - 5, at + 4, TEXT, 1, text, ink);
     }
     koksma__canvas_box(canvas, x->from, y->to, x->to - x->from, y->from - y->to, 1, frame);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "plot/canvas.h"
 
@@ -126,7 +127,8 @@ static koksma_status draw_panel(koksma__canvas *canvas, const koksma_panel *pane
     }
     if (scale && panel->spectrum) {
         char text[128];
-        snprintf(text, sizeof text, "power 0 (black) to %g (white), frequencies to %d", white, panel->spectrum->half);
+        koksma__snprintf(text, sizeof text, "power 0 (black) to %g (white), frequencies to %d", white,
+                         panel->spectrum->half);
         koksma__canvas_text(canvas, left + size / 2, line, 11, 0.5, text, ink);
     }
     return status;

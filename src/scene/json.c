@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 
 struct koksma__json {
@@ -129,7 +130,7 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
     char reason[512];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(reason, sizeof reason, format, arguments);
+    koksma__vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
     const koksma__json *d = node->document;
     return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(d, node->path),

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "scene/mesh.h"
 
@@ -71,7 +72,7 @@ static int take_numbers(const char *text, int most)
     for (text = skip_blanks(text); *text && *text != '#' && n < most; text = skip_blanks(text), n++) {
         const size_t length = strspn(text, "0123456789+-.eE");
         char *stop;
-        const double value = strtod(text, &stop);
+        const double value = koksma__strtod(text, &stop);
         if (!length || stop != text + length || (*stop && *stop != ' ' && *stop != '\t') || !(fabs(value) < 1e38)) {
             return -1;
         }

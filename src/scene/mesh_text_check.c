@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "scene/mesh.h"
 
@@ -72,7 +73,7 @@ static koksma_status check_vertex(const lines *l)
     const char *text = l->line;
     for (int k = 0; k < 3; k++) {
         char *end;
-        strtod(text, &end);
+        koksma__strtod(text, &end);
         if (end == text || !strchr(" \t", *end)) {
             return wrong(l, "a vertex is three numbers");
         }

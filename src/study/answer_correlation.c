@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "study/answers.h"
 
@@ -246,8 +247,8 @@ static koksma_status add_scatter(koksma_study *study, void *context, const point
     }
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
     koksma__case_name(p->scene, p->variant, name, sizeof name);
-    snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
-             p->measure, koksma__spearman(found.x, found.y, found.n));
+    koksma__snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
+                     p->measure, koksma__spearman(found.x, found.y, found.n));
     const koksma__chart chart = {title, p->measure, "mean absolute error", true, true, n, series};
     koksma__html_chart(to->html, &chart);
     free(series);

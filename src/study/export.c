@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "study/store.h"
 #include "study/study.h"
@@ -65,7 +66,7 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
         putc(',', f);
         if (!isnan(result->values[k])) {
-            fprintf(f, "%.17g", result->values[k]);
+            koksma__fprintf(f, "%.17g", result->values[k]);
         }
     }
     putc('\n', f);
@@ -118,7 +119,8 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     }
     fprintf(f, ",\"trial\":%lld,\"seed\":\"%llu\"", result->trial, (unsigned long long)result->seed);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        fprintf(f, isnan(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k], result->values[k]);
+        koksma__fprintf(f, isnan(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k],
+                        result->values[k]);
     }
     fputs("}\n", f);
     return KOKSMA_OK;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/grid.h"
+#include "core/c_locale.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,7 +31,7 @@ static void add_csv_number(koksma__grid *g, double value)
 {
     char text[40] = "";
     if (!isnan(value)) {
-        snprintf(text, sizeof text, "%.17g", value);
+        koksma__snprintf(text, sizeof text, "%.17g", value);
     }
     const bool starts = g->csv.size == 0 || g->csv.text[g->csv.size - 1] == '\n';
     koksma__html_add(&g->csv, "%s%s", starts ? "" : ",", text);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/html.h"
+#include "core/c_locale.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -35,10 +36,10 @@ void koksma__html_add(koksma__html *html, const char *format, ...)
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
-    const int size = vsnprintf(NULL, 0, format, arguments);
+    const int size = koksma__vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
     if (size >= 0 && grow(html, (size_t)size)) {
-        vsnprintf(html->text + html->size, (size_t)size + 1, format, again);
+        koksma__vsnprintf(html->text + html->size, (size_t)size + 1, format, again);
         html->size += (size_t)size;
     }
     va_end(again);

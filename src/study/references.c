@@ -14,6 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/c_locale.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "render/rows.h"
@@ -27,7 +28,7 @@ uint64_t koksma__job_seed(const char *format, ...)
     char key[LONGEST_KEY];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(key, sizeof key, format, arguments);
+    koksma__vsnprintf(key, sizeof key, format, arguments);
     va_end(arguments);
     return koksma__hash(key, strlen(key));
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/atomic_file.h"
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "study/answers.h"
 #include "study/report.h"
@@ -113,7 +114,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     const double error = sqrt(cell.sd * cell.sd * (0.01 + 1 / n)) + half_digit;
     const double z = (row->published[0] - cell.mean.mean) / error;
     char text[48];
-    snprintf(text, sizeof text, "z = %+.1f", z);
+    koksma__snprintf(text, sizeof text, "z = %+.1f", z);
     if (isnan(z)) {
         koksma__html_add(h, "<td>new</td>");
     } else if (note_of(t, row->pattern, 0) && fabs(z) >= AGREEMENT_Z) {
@@ -183,7 +184,7 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     add_image_cell(h, &cell);
     const double ratio = cell.mean.mean / row->published[0];
     char text[48];
-    snprintf(text, sizeof text, "%+.0f %%", 100 * (ratio - 1));
+    koksma__snprintf(text, sizeof text, "%+.0f %%", 100 * (ratio - 1));
     add_mark(h, tally, fabs(ratio - 1) <= IMAGE_TOLERANCE, text, text);
     add_image_cell(h, &last);
     koksma__html_add(h, "</tr>\n");

@@ -8,6 +8,7 @@
 #include <koksma/plot.h>
 #include <koksma/warp.h>
 
+#include "core/c_locale.h"
 #include "core/status.h"
 #include "study/report.h"
 #include "study/variants.h"
@@ -105,11 +106,11 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
 static void describe_adaptive(const koksma__figure *f, double pixels, const koksma_adaptive_report *report,
                               char note[NOTE])
 {
-    const int length = snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more in the mean", f->n,
-                                (double)(report->samples - report->first) / pixels);
+    const int length = koksma__snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more in the mean",
+                                        f->n, (double)(report->samples - report->first) / pixels);
     if (report->splits) {
-        snprintf(note + length, (size_t)(NOTE - length), "; %.0f %% of %llu splits needless)",
-                 100 * (double)report->needless / (double)report->splits, (unsigned long long)report->splits);
+        koksma__snprintf(note + length, (size_t)(NOTE - length), "; %.0f %% of %llu splits needless)",
+                         100 * (double)report->needless / (double)report->splits, (unsigned long long)report->splits);
     } else {
         snprintf(note + length, (size_t)(NOTE - length), ")");
     }

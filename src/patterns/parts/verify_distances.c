@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "patterns/parts/packing.h"
@@ -113,8 +114,8 @@ static koksma_status add_distance(const koksma_points *points, bool torus, doubl
     }
     f->value = distance;
     f->holds = distance > 0;
-    snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
-             distance / koksma__packing_distance(points->n, points->dim, torus));
+    koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
+                     distance / koksma__packing_distance(points->n, points->dim, torus));
     return KOKSMA_OK;
 }
 

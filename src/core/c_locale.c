@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "core/c_locale.h"
+
+#include <locale.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+static locale_t c_locale;
+
+/* Kept for ever. libcs have this locale at hand (glibc and musl without allocating); were it refused all the same,
+   uselocale(0) below changes nothing. */
+static void make_c_locale(void)
+{
+    c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+}
+
+/* Gives the locale to go back to. */
+static locale_t enter(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_c_locale);
+    return uselocale(c_locale);
+}
+
+double koksma__strtod(const char *text, char **end)
+{
+    const locale_t before = enter();
+    const double value = strtod(text, end);
+    uselocale(before);
+    return value;
+}
+
+int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments)
+{
+    const locale_t before = enter();
+    const int length = vsnprintf(text, size, format, arguments);
+    uselocale(before);
+    return length;
+}
+
+int koksma__snprintf(char *text, size_t size, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = koksma__vsnprintf(text, size, format, arguments);
+    va_end(arguments);
+    return length;
+}
+
+int koksma__fprintf(FILE *stream, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const locale_t before = enter();
+    const int length = vfprintf(stream, format, arguments);
+    uselocale(before);
+    va_end(arguments);
+    return length;
+}

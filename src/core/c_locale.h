@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Numbers as text, the same whatever the host program's locale is: libc's own functions write 0,5 and stop reading
+   0.5 at the point once a program in Germany has called setlocale(LC_ALL, ""), as those with Qt or GTK do. Every
+   number with a decimal point goes by these (tests/lint/locale.sh); whole numbers and words may go by libc's. Only
+   for the length of a call, and only in its thread, is the locale another one, so that none of the host's code runs
+   under it and no thread of the library needs to be told. */
+#ifndef KOKSMA_CORE_C_LOCALE_H
+#define KOKSMA_CORE_C_LOCALE_H
+
+#include <koksma/koksma.h>
+
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "core/visibility.h"
+
+/* As libc's functions of these names in the "C" locale. */
+KOKSMA__LAB double koksma__strtod(const char *text, char **end);
+KOKSMA__LAB int koksma__fprintf(FILE *stream, const char *format, ...) KOKSMA_PRINTF(2, 3);
+KOKSMA__LAB int koksma__snprintf(char *text, size_t size, const char *format, ...) KOKSMA_PRINTF(3, 4);
+KOKSMA__LAB int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments) KOKSMA_PRINTF(3, 0);
+
+#endif
