@@ -8,7 +8,7 @@ import weakref
 from ctypes import byref
 from dataclasses import dataclass
 from operator import index
-from typing import List, Optional, Tuple, Union
+from typing import Any, Callable, List, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -123,8 +123,13 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 def adopt(points: s.Points) -> PointArray:
     """An array over memory that the library allocated, freed with the array."""
     array = np.ctypeslib.as_array(points.xs, shape=(points.n, points.dim))
-    weakref.finalize(array.base if array.base is not None else array, core().koksma_points_fini, byref(points))
+    free_with(array, core().koksma_points_fini, points)
     return array
+
+
+def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes.Structure) -> None:
+    """Calls fini(memory) when the array and its views are gone; never when Python ends, which may be before that."""
+    weakref.finalize(array.base if array.base is not None else array, fini, byref(memory)).atexit = False
 
 
 def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0, *, threads: int = 0,

@@ -2,7 +2,6 @@
 """The renderer of libkoksma-lab."""
 from __future__ import annotations
 
-import weakref
 from ctypes import byref, c_void_p
 from operator import index
 from typing import Dict, List, Optional, Tuple
@@ -12,6 +11,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, check, core, lab, spec, text
+from ._points import free_with
 
 
 def scenes() -> List[str]:
@@ -74,7 +74,7 @@ def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optiona
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
     """An array over an image's own memory, freed with the array."""
     array = np.ctypeslib.as_array(image.pixels, shape=(image.height, image.width, image.channels))
-    weakref.finalize(array.base if array.base is not None else array, lab().koksma_image_fini, byref(image))
+    free_with(array, lab().koksma_image_fini, image)
     return array
 
 

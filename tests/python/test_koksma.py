@@ -54,6 +54,17 @@ class Points(unittest.TestCase):
         np.testing.assert_array_equal(view, copy)
         self.assertGreater(len(view), 100)
 
+    def test_arrays_outlive_the_interpreter(self):
+        code = ("import atexit, koksma\n"
+                "class Last:\n"
+                "    def __init__(self, array): self.array, self.sum = array, array.sum()\n"
+                "    def __del__(self): print(self.array.sum() == self.sum)\n"
+                "atexit.register(lambda: print(all(x.array.sum() == x.sum for x in kept)))\n"
+                "kept = [Last(koksma.generate('poisson-disk-maximal:d=0.004')),\n"
+                "        Last(koksma.render('ball', spp=1, size=(640, 480)))]\n")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, 3 * "True\n", ""))
+
     def test_measure(self):
         points = koksma.generate("n-rooks", 32, seed=5)
         row = json.loads(program("measure", "pattern:n-rooks@32", "--seed", "5", "-m", "star", "--json"))
