@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import ctypes
 import os
-import signal
-import threading
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint64, c_void_p
 from functools import lru_cache
 from pathlib import Path
-from typing import Iterator, List, Optional
+from typing import Iterator, Optional
 
 from . import _structs as s
+from ._signals import Signals
 
 ABI = 0
 
@@ -148,24 +147,20 @@ def check(status: int) -> None:
 
 def call(function: object, *arguments: object, threads: int = 0, time_limit: Optional[float] = None,
          run_at: int) -> None:
-    """Calls a library function that takes a koksma_run as argument `run_at`. Ctrl-C stops it, as KeyboardInterrupt."""
+    """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler raises stops it,
+    and comes out: KeyboardInterrupt after Ctrl-C."""
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
-    interrupts: List[int] = []
-    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not interrupts), None)
-    # The library asks keep_going from this thread; Python runs a pending handler when it does.
-    ours = (threading.current_thread() is threading.main_thread()
-            and signal.getsignal(signal.SIGINT) is signal.default_int_handler)
-    if ours:
-        signal.signal(signal.SIGINT, lambda number, _frame: interrupts.append(number))
+    signals = Signals()
+    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not signals.raised), None)
     try:
+        signals.take()
         status = function(*arguments[:run_at], byref(run), *arguments[run_at:])
     finally:
-        if ours:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+        signals.give_back()
+    if signals.raised:  # perhaps at the very end, when the library did not ask any more
+        raise signals.raised.pop(0)
     check(status)
-    if interrupts:  # at the very end, when the library did not ask any more
-        raise KeyboardInterrupt
 
 
 def text(value: str) -> bytes:

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a signal's handler raises while the library runs stops the call and comes out of it; nothing else changes."""
+import os
+import signal
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import koksma
+from koksma import _library
+from koksma._signals import Signals
+
+ROWS = koksma.generate("random", 1500, 6)
+PLANE = koksma.generate("random", 64)
+
+
+class Timeout(Exception):
+    pass
+
+
+def long_call():
+    return koksma.measure(ROWS, "star", time_limit=20)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.before = {number: signal.getsignal(number) for number in signal.valid_signals()}
+        self.unraisable = []
+        self.hook, sys.unraisablehook = sys.unraisablehook, self.unraisable.append
+
+    def tearDown(self):
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        sys.unraisablehook = self.hook
+        for number, handler in self.before.items():
+            if signal.getsignal(number) is not handler:
+                signal.signal(number, handler)
+        self.assertEqual(self.unraisable, [])  # where ctypes tells what it drops
+
+    def on(self, number, handler):
+        signal.signal(number, handler)
+        return handler
+
+
+def raising(error):
+    def handler(_number, _frame):
+        raise error
+    return handler
+
+
+class Raised(Case):
+    def test_timeout(self):
+        handler = self.on(signal.SIGALRM, raising(Timeout("alarm")))
+        for call in (long_call, lambda: koksma.generate("best-candidate", 40000),
+                     lambda: koksma.render("balls", spp=4096, size=(640, 480))):
+            started = time.monotonic()
+            signal.setitimer(signal.ITIMER_REAL, 0.1)
+            with self.assertRaisesRegex(Timeout, "alarm"):
+                call()
+            self.assertLess(time.monotonic() - started, 20)
+            self.assertIs(signal.getsignal(signal.SIGALRM), handler)
+            self.assertIs(signal.getsignal(signal.SIGINT), self.before[signal.SIGINT])
+
+    def test_control_c_of_ones_own(self):
+        handler = self.on(signal.SIGINT, raising(Timeout("mine")))
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaisesRegex(Timeout, "mine"):
+            long_call()
+        timer.join()
+        self.assertIs(signal.getsignal(signal.SIGINT), handler)
+
+    def test_any_signal(self):
+        for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGCHLD, signal.SIGRTMAX):
+            self.on(number, raising(Timeout("any")))
+            timer = threading.Timer(0.05, os.kill, (os.getpid(), number))
+            timer.start()
+            with self.assertRaises(Timeout):
+                long_call()
+            timer.join()
+
+    def test_a_call_that_never_asks(self):
+        self.on(signal.SIGUSR1, raising(Timeout("early")))
+        with self.assertRaisesRegex(Timeout, "early"):
+            _library.call(lambda _run: signal.raise_signal(signal.SIGUSR1) or 0, run_at=0)
+
+
+class NotRaised(Case):
+    def test_the_call_goes_on(self):
+        seen, expected = [], koksma.generate("best-candidate", 1500, seed=4)
+        self.on(signal.SIGALRM, lambda number, _frame: seen.append(number))
+        signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+        np.testing.assert_array_equal(koksma.generate("best-candidate", 1500, seed=4), expected)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        self.assertEqual(set(seen), {signal.SIGALRM})
+
+    def test_a_handler_may_call_the_library(self):
+        values = []
+
+        def handler(_number, _frame):
+            values.append(koksma.measure(PLANE, "star").value)
+            if len(values) == 3:
+                raise Timeout
+
+        self.on(signal.SIGALRM, handler)
+        signal.setitimer(signal.ITIMER_REAL, 0.05, 0.05)
+        with self.assertRaises(Timeout):
+            long_call()
+        self.assertEqual(values, 3 * [koksma.measure(PLANE, "star").value])
+        self.assertIs(signal.getsignal(signal.SIGALRM), handler)
+
+    def test_a_handler_may_put_another_in_its_place(self):
+        previous = []
+
+        def once(_number, _frame):  # "again, and it ends at once"
+            previous.append(signal.signal(signal.SIGALRM, signal.SIG_DFL))
+            raise Timeout
+
+        self.on(signal.SIGALRM, once)
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with self.assertRaises(Timeout):
+            long_call()
+        self.assertIs(signal.getsignal(signal.SIGALRM), signal.SIG_DFL)
+        signal.signal(signal.SIGALRM, previous[0])  # what it was given during the call serves on
+        with self.assertRaises(Timeout):
+            signal.raise_signal(signal.SIGALRM)
+
+    def test_errors_come_out_as_ever(self):
+        handler = self.on(signal.SIGUSR1, raising(Timeout))
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.measure([[0.5, 1.5]])
+        self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
+
+    def test_in_another_thread(self):
+        handler, results = self.on(signal.SIGUSR1, raising(Timeout("outside"))), []
+        thread = threading.Thread(target=lambda: results.append(koksma.measure(ROWS, "star", time_limit=0.3).exact))
+        thread.start()
+        with self.assertRaisesRegex(Timeout, "outside"):
+            os.kill(os.getpid(), signal.SIGUSR1)
+            thread.join()
+        thread.join()
+        self.assertEqual(results, [False])
+        self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
+
+
+class PuttingBack(Case):
+    def test_may_be_interrupted(self):
+        """By a handler that is back in its place. The others are then called through Signals, which keeps nothing."""
+        class Interrupted(dict):
+            def items(self):
+                for item in super().items():
+                    yield item
+                    signal.raise_signal(item[0])
+
+        first, last = signal.SIGHUP, signal.SIGTERM
+        for number in (first, last):
+            self.on(number, raising(Timeout(number.name)))
+        signals = Signals()
+        signals.take()
+        signals._theirs = Interrupted(signals._theirs)
+        with self.assertRaisesRegex(Timeout, "SIGHUP"):
+            signals.give_back()
+        self.assertIs(signal.getsignal(last), signals)
+        with self.assertRaisesRegex(Timeout, "SIGTERM"):
+            signal.raise_signal(last)
+        self.assertEqual(signals.raised, [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
