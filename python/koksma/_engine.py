@@ -8,7 +8,8 @@ from typing import Any, Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._points import MAX_COORDINATES, PointArray, generate, is_sequence
+from . import _structs as s
+from ._points import PointArray, generate, is_sequence
 
 try:
     from scipy.stats.qmc import QMCEngine as _Base
@@ -74,7 +75,7 @@ class Engine(_Base):
             return generate(self.pattern, n, self.d, self._seed, threads=threads)
         if self._known is None or len(self._known) < first + n:
             # Twice what is needed, so that many small draws cost no more than one large one.
-            room = min(2 * (first + n), max(first + n, MAX_COORDINATES // self.d))
+            room = min(2 * (first + n), max(first + n, s.MAX_COORDINATES // self.d))
             self._known = generate(self.pattern, room, self.d, self._seed, threads=threads)
         return self._known[first:first + n].copy()
 

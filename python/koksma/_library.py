@@ -6,8 +6,9 @@ import ctypes
 import os
 from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint64, c_void_p
 from functools import lru_cache
+from operator import index
 from pathlib import Path
-from typing import Iterator, Optional
+from typing import Iterator, Optional, SupportsIndex
 
 from . import _structs as s
 from ._signals import Signals
@@ -145,12 +146,13 @@ def check(status: int) -> None:
     raise error
 
 
-def call(function: object, *arguments: object, threads: int = 0, time_limit: Optional[float] = None,
+def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
          run_at: int) -> None:
     """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler raises stops it,
     and comes out: KeyboardInterrupt after Ctrl-C."""
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
+    threads = whole("threads", threads, 0, s.MAX_INT)
     signals = Signals()
     run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not signals.raised), None)
     try:
@@ -161,6 +163,14 @@ def call(function: object, *arguments: object, threads: int = 0, time_limit: Opt
     if signals.raised:  # perhaps at the very end, when the library did not ask any more
         raise signals.raised.pop(0)
     check(status)
+
+
+def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
+    """A whole number within its range, so that it is itself in C: ctypes takes any, modulo 2^32 or 2^64."""
+    number = index(value)
+    if not low <= number <= high:
+        raise ArgumentError(f"{name} {number}: it takes {low} to {high}")
+    return number
 
 
 def text(value: str) -> bytes:

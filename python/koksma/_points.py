@@ -7,17 +7,15 @@ import os
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
-from operator import index
-from typing import Any, Callable, List, Optional, Tuple, Union
+from typing import Any, Callable, List, Optional, SupportsIndex, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, spec, text
+from ._library import ArgumentError, call, check, core, spec, text, whole
 
 PointArray = npt.NDArray[np.float64]
-MAX_COORDINATES = 1 << (28 if ctypes.sizeof(ctypes.c_size_t) > 4 else 24)  # KOKSMA_MAX_COORDINATES
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 
@@ -132,8 +130,8 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
     weakref.finalize(array.base if array.base is not None else array, fini, byref(memory)).atexit = False
 
 
-def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0, *, threads: int = 0,
-             out: Optional[PointArray] = None) -> PointArray:
+def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, seed: SupportsIndex = 0, *,
+             threads: SupportsIndex = 0, out: Optional[PointArray] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
@@ -142,19 +140,20 @@ def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0,
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
-    parsed, dim, seed = spec("pattern", pattern), index(dim), index(seed)
-    n = n if n is None else index(n)
-    if not 0 <= seed < 1 << 64:
-        raise ArgumentError(f"seed {seed}: it takes 0 to 2^64 - 1")
+    parsed, seed, dim = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED), whole("dim", dim, 1, s.MAX_DIM)
+    n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if n is None and out is None:
         points = s.Points()
         known = dim if not parsed.pattern.contents.takes_path else 0
-        call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
+        try:
+            call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
+        except BaseException:  # a signal's handler's, perhaps, when the points were there
+            core().koksma_points_fini(byref(points))
+            raise
         return adopt(points)
     if out is None:
-        if not (0 < n <= MAX_COORDINATES and 0 < dim <= 4096 and n * dim <= MAX_COORDINATES):
-            raise ArgumentError(f"{n} points in {dim} dimensions: n and dim are at least 1, n times dim at most "
-                                f"{MAX_COORDINATES}")
+        if n * dim > s.MAX_COORDINATES:
+            raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
     elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.c_contiguous
               and out.flags.writeable and out.size and (n is None or out.shape == (n, dim))):
@@ -164,8 +163,8 @@ def generate(pattern: str, n: Optional[int] = None, dim: int = 2, seed: int = 0,
     return out
 
 
-def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None, threads: int = 0,
-            time_limit: Optional[float] = None) -> Value:
+def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None,
+            threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Value:
     """How uneven points in [0,1]^dim are; smaller is more even.
 
     measure: a spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all.
@@ -190,7 +189,7 @@ def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str]
     return Value(value.value, value.square, value.lower, value.upper, value.standard_error, value.exact, witness)
 
 
-def verify(points: npt.ArrayLike, *, threads: int = 0) -> List[Finding]:
+def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding]:
     """Which properties these points really have: nets, strata, distances, repeated points and more."""
     array = as_points(points)
     findings, c_points = s.Findings(), view(array)

@@ -2,15 +2,15 @@
 """The renderer of libkoksma-lab."""
 from __future__ import annotations
 
+import os
 from ctypes import byref, c_void_p
-from operator import index
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, SupportsIndex, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, lab, spec, text
+from ._library import ArgumentError, call, check, core, lab, spec, text, whole
 from ._points import free_with
 
 
@@ -38,10 +38,11 @@ def _found(kind: str, name: str) -> int:
     return found
 
 
-def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optional[Tuple[int, int]] = None,
-           seed: int = 0, pairing: str = "shuffled", scope: str = "pixel", lights: str = "all",
-           integrator: Optional[str] = None, filter: Optional[str] = None, threads: int = 0) -> npt.NDArray[np.float32]:
-    """Renders a scene that ships, or a JSON file (a text with a '/' or that ends in ".json").
+def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp: SupportsIndex = 16, *,
+           size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, seed: SupportsIndex = 0,
+           pairing: str = "shuffled", scope: str = "pixel", lights: str = "all", integrator: Optional[str] = None,
+           filter: Optional[str] = None, threads: SupportsIndex = 0) -> npt.NDArray[np.float32]:
+    """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
 
     size: (width, height); the scene's own when left out. The other arguments are those of `koksma render`, and give
     the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row 0 is on top.
@@ -49,10 +50,10 @@ def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optiona
     handle, options, image = c_void_p(), s.RenderOptions(), s.Image()
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
                                "lights": _choice("light_selection", lights)}
-    parsed, spp, seed = spec("pattern", pattern), index(spp), index(seed)
-    if not (0 <= seed < 1 << 64 and 0 < spp < 1 << 31):
-        raise ArgumentError(f"seed {seed}, spp {spp}: seeds are 0 to 2^64 - 1, spp is at least 1")
-    check(lab().koksma_scene_open(text(scene), byref(handle)))
+    parsed = spec("pattern", pattern)
+    spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
+    name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
+    check(lab().koksma_scene_open(text(name), byref(handle)))
     try:
         lab().koksma_render_options_init(byref(options), handle)
         options.pattern, options.spp, options.seed = parsed, spp, seed
@@ -60,12 +61,16 @@ def render(scene: str, pattern: str = "n-rooks", spp: int = 16, *, size: Optiona
             setattr(options, name, value)
         if size is not None:
             width, height = size
-            options.width, options.height = index(width), index(height)
+            options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
+            options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
         if integrator is not None:
             options.integrator = _found("integrator", integrator)
         if filter is not None:
             options.filter = _found("filter", filter)
         call(lab().koksma_render, handle, byref(options), byref(image), threads=threads, run_at=2)
+    except BaseException:  # a signal's handler's, perhaps, when the image was there
+        lab().koksma_image_fini(byref(image))
+        raise
     finally:
         lab().koksma_scene_close(handle)
     return adopt_image(image)
@@ -78,10 +83,10 @@ def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
     return array
 
 
-def read_image(path: str) -> npt.NDArray[np.float32]:
+def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     """An EXR, PNG or PFM file as linear light, of shape (height, width, channels)."""
     image = s.Image()
-    check(lab().koksma_image_read(text(path), byref(image)))
+    check(lab().koksma_image_read(text(os.fspath(path)), byref(image)))
     return adopt_image(image)
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Iterable
+from typing import Iterable, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core
+from ._library import ArgumentError, call, check, core, whole
 from ._points import as_points, view
 
 
@@ -48,8 +48,8 @@ def _result(raw: s.Spectrum) -> Spectrum:
                     quality.relative_nyquist, quality.oscillation, raw.sets)
 
 
-def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: int = 64, *, exact: bool = False,
-             threads: int = 0) -> Spectrum:
+def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsIndex = 64, *,
+             exact: bool = False, threads: SupportsIndex = 0) -> Spectrum:
     """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) array, or the mean over several.
 
     exact: sums over all points at each frequency, instead of an FFT within 1e-10 of n.
@@ -57,7 +57,7 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: int = 64, *,
     if isinstance(sets, np.ndarray) and sets.ndim == 2:
         sets = [sets]
     raw = s.Spectrum()
-    check(core().koksma_spectrum_init(byref(raw), half))
+    check(core().koksma_spectrum_init(byref(raw), whole("half", half, 1, s.MAX_HALF)))
     try:
         for points in sets:
             c_points = view(array := as_points(points))

@@ -2,9 +2,12 @@
 """The structs of the public headers, member for member. tests/python/test_structs.py compares them with the C
 compiler's."""
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
-                    c_uint64, c_void_p)
+                    c_uint64, c_void_p, sizeof)
 
 MAX_PARAMS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 512, 16, 8
+MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
+MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
+MAX_INT, MAX_SEED = (1 << 31) - 1, (1 << 64) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
 
@@ -80,6 +83,15 @@ class RenderOptions(Structure):
                 ("seed", c_uint64), ("pairing", c_int), ("scope", c_int), ("lights", c_int), ("integrator", c_void_p),
                 ("depth", c_int), ("filter", c_void_p), ("splat", c_bool)]
 
+
+#: Header, C name and value of the limits above.
+CONSTANTS = [
+    ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
+    ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
+    ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP),
+    ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
+    ("koksma.h", "UINT64_MAX", MAX_SEED),
+]
 
 #: Header, C name and class of every struct above.
 LAYOUTS = [

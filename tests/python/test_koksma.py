@@ -7,6 +7,7 @@ import gc
 import inspect
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -15,11 +16,12 @@ import threading
 import time
 import typing
 import unittest
+from unittest import mock
 
 import numpy as np
 
 import koksma
-from koksma import _library, _points, _structs
+from koksma import _library, _points, _render, _structs
 
 PROGRAM = os.environ["KOKSMA"]
 
@@ -193,6 +195,35 @@ class OddArrays(unittest.TestCase):
         np.testing.assert_array_equal(koksma.generate("random", np.int64(4), seed=np.uint64(1 << 63)),
                                       koksma.generate("random", 4, seed=1 << 63))
 
+    def test_numbers_that_c_would_cut(self):
+        points, wrap = koksma.generate("random", 64), 1 << 32
+        for call, line in (
+                (lambda: koksma.generate("random", wrap + 2), "n 4294967298: it takes 1 to"),
+                (lambda: koksma.generate("random", 0), "n 0: it takes 1 to"),
+                (lambda: koksma.generate("random", 4, wrap + 2), "dim 4294967298: it takes 1 to 4096"),
+                (lambda: koksma.generate("poisson-disk-maximal:d=0.1", dim=wrap + 2), "dim 4294967298: it takes 1 to 4096"),
+                (lambda: koksma.generate("random", 1 << 20, 4096), "1048576 points in 4096 dimensions"),
+                (lambda: koksma.generate("random", 4, seed=1 << 64), "seed 18446744073709551616: it takes 0 to"),
+                (lambda: koksma.generate("random", 4, threads=wrap + 1), "threads 4294967297: it takes 0 to"),
+                (lambda: koksma.generate("random", 4, threads=-1), "threads -1: it takes 0 to"),
+                (lambda: koksma.measure(points, threads=-wrap), "threads -4294967296: it takes 0 to"),
+                (lambda: koksma.verify(points, threads=wrap), "threads 4294967296: it takes 0 to"),
+                (lambda: koksma.spectrum(points, wrap + 16), "half 4294967312: it takes 1 to 4096"),
+                (lambda: koksma.spectrum(points, -1), "half -1: it takes 1 to 4096"),
+                (lambda: koksma.spectrum(points, 16, threads=wrap), "threads 4294967296: it takes 0 to"),
+                (lambda: koksma.render("ball", size=(wrap + 8, 8)), "width 4294967304: it takes 1 to 65536"),
+                (lambda: koksma.render("ball", size=(8, -8)), "height -8: it takes 1 to 65536"),
+                (lambda: koksma.render("ball", spp=wrap + 1), "spp 4294967297: it takes 1 to 1048576"),
+                (lambda: koksma.render("ball", seed=-1), "seed -1: it takes 0 to 18446744073709551615"),
+                (lambda: koksma.render("ball", spp=1, size=(8, 8), threads=wrap), "threads 4294967296: it takes 0 to")):
+            with self.subTest(line), self.assertRaisesRegex(koksma.ArgumentError, "^" + line):
+                call()
+        for call in (lambda: koksma.spectrum(points, 16.0), lambda: koksma.generate("random", 4, threads=2.0),
+                     lambda: koksma.render("ball", spp=1.0)):
+            with self.assertRaises(TypeError):
+                call()
+        self.assertEqual(koksma.spectrum(points, np.uint8(4), threads=np.int8(1)).power.shape, (9, 9))
+
     def test_inputs_are_not_written_to(self):
         points = koksma.generate("random", 100)
         points.flags.writeable = False
@@ -230,6 +261,27 @@ class Speed(unittest.TestCase):
             if c > 0.8 * python:
                 break
         self.assertGreater(c, 0.8 * python)
+
+
+class Memory(unittest.TestCase):
+    def test_what_a_late_signal_leaves_is_freed(self):
+        def late(*arguments, **options):
+            _library.call(*arguments, **options)
+            raise KeyboardInterrupt
+
+        for library, fini, member, function in (
+                (_library.core(), "koksma_points_fini", "xs", lambda: koksma.generate("poisson-disk-maximal:d=0.1")),
+                (_library.lab(), "koksma_image_fini", "pixels", lambda: koksma.render("ball", spp=1, size=(8, 8)))):
+            freed, really = [], getattr(library, fini)
+
+            def noting(reference):
+                freed.append(bool(getattr(reference._obj, member)))
+                really(reference)
+
+            with mock.patch.object(_points, "call", late), mock.patch.object(_render, "call", late), \
+                    mock.patch.object(library, fini, noting), self.assertRaises(KeyboardInterrupt):
+                function()
+            self.assertEqual(freed, [True])
 
 
 class Texts(unittest.TestCase):
@@ -286,6 +338,14 @@ class Rendering(unittest.TestCase):
             image = koksma.render("ball", "multi-jittered", 4, size=(40, 30), seed=9)
             self.assertEqual(image.shape[:2], (30, 40))
             np.testing.assert_array_equal(image, koksma.read_image(path))
+            np.testing.assert_array_equal(image, koksma.read_image(pathlib.Path(path)))
+
+    def test_a_path_is_a_file(self):
+        scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes", "ball.json")
+        expected = koksma.render("ball", spp=1, size=(8, 6))
+        np.testing.assert_array_equal(koksma.render(pathlib.Path(scene), spp=1, size=(8, 6)), expected)
+        with self.assertRaisesRegex(koksma.MissingError, "ball: can't be read"):
+            koksma.render(pathlib.Path("ball"))
 
     def test_errors(self):
         with self.assertRaisesRegex(koksma.ArgumentError, "no-such"):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The structs of python/koksma/_structs.py are those of the headers: sizes and places of all members."""
+"""The structs of python/koksma/_structs.py are those of the headers: sizes and places of all members, and limits."""
 import ctypes
 import os
 import subprocess
@@ -22,8 +22,11 @@ class Structs(unittest.TestCase):
             for field, _ in cls._fields_:
                 ours.append(f"{name}.{field} {getattr(cls, field).offset}")
                 lines.append(f'printf("{name}.{field} %zu\\n", offsetof({name}, {field}));')
-        includes = "".join(f"#include <koksma/{h}>\n" for h in sorted({h for h, _, _ in _structs.LAYOUTS}))
-        source = f"#include <stdio.h>\n#include <stddef.h>\n{includes}int main(void) {{ {' '.join(lines)} return 0; }}\n"
+        for _header, name, value in _structs.CONSTANTS:
+            ours.append(f"{name} {value}")
+            lines.append(f'printf("{name} %llu\\n", (unsigned long long){name});')
+        includes = "".join(f"#include <koksma/{h}>\n" for h in sorted({h for h, _, _ in _structs.LAYOUTS + _structs.CONSTANTS}))
+        source = f"#include <limits.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <stdio.h>\n{includes}int main(void) {{ {' '.join(lines)} return 0; }}\n"
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "layouts")
             subprocess.run(["cc", "-x", "c", "-", "-I", INCLUDE, "-o", program], input=source, text=True, check=True)
