@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import copy
-from typing import Any, Optional
+from typing import Any, Dict, Optional, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
+from ._library import ArgumentError, OutOfMemoryError, whole
 from ._points import PointArray, generate, is_sequence
+
+_FAR = (1 << 63) - 1
 
 try:
     from scipy.stats.qmc import QMCEngine as _Base
@@ -46,23 +49,37 @@ class Engine(_Base):
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
-    generate(p, n, d, s)), a numpy Generator or RandomState, or None. optimization: as in scipy.
+    generate(p, n, d, s)), a numpy Generator or RandomState, or None; rng is another name of it. optimization: as in
+    scipy.
 
     Of a sequence (a pattern whose first k of n points are the set of k points), random(n) goes on where the last call
     ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
     points came before.
     """
 
-    def __init__(self, pattern: str, d: int = 2, *, optimization: Optional[str] = None, seed: Any = None) -> None:
+    def __init__(self, pattern: str, d: int = 2, *, optimization: Optional[str] = None, seed: Any = None,
+                 rng: Any = None) -> None:
+        if seed is not None and rng is not None:
+            raise TypeError("seed and rng are two names of one argument: it takes one of them")
+        seed = rng if seed is None else seed
         super().__init__(d=d, optimization=optimization, seed=seed)
+        self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
         self._sequence = is_sequence(pattern)
         self._known: Optional[PointArray] = None
+        self._refused: Optional[int] = None  # the fewest points that the pattern was seen not to serve
         if isinstance(seed, (int, np.integer)) and 0 <= seed < 1 << 64:
             self._seed = int(seed)
         else:
             draw = getattr(self.rng, "integers", None) or self.rng.randint  # a Generator, or a RandomState
             self._seed = int(draw(0, np.iinfo(np.int64).max, dtype=np.int64))
+
+    def random(self, n: SupportsIndex = 1, *, workers: SupportsIndex = 1) -> PointArray:
+        """The next n points, or another set of n. workers: threads to use, -1 for all."""
+        workers = whole("workers", workers, -1, s.MAX_INT)
+        if workers == 0:
+            raise ArgumentError("workers 0: it takes a number of threads, or -1 for all")
+        return super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
 
     def _random(self, n: int = 1, *, workers: int = 1) -> PointArray:
         threads = 0 if workers == -1 else workers
@@ -74,10 +91,22 @@ class Engine(_Base):
         if first == 0 and self._known is None:
             return generate(self.pattern, n, self.d, self._seed, threads=threads)
         if self._known is None or len(self._known) < first + n:
-            # Twice what is needed, so that many small draws cost no more than one large one.
-            room = min(2 * (first + n), max(first + n, s.MAX_COORDINATES // self.d))
-            self._known = generate(self.pattern, room, self.d, self._seed, threads=threads)
+            self._known = self._generated(first + n, threads)
         return self._known[first:first + n].copy()
+
+    def _generated(self, needed: int, threads: int) -> PointArray:
+        """Twice what is needed, so that many small draws cost no more than one large one; but where the sequence ends
+        before, half of what is left at least, so that the draws on the way to its end don't either."""
+        room = min(2 * needed, max(needed, s.MAX_COORDINATES // self.d))
+        while True:
+            if self._refused is not None:
+                room = max(needed, min(room, (needed + self._refused) // 2))
+            try:
+                return generate(self.pattern, room, self.d, self._seed, threads=threads)
+            except (ArgumentError, OutOfMemoryError):
+                if room == needed:
+                    raise
+                self._refused = room
 
     def _seed_at(self, position: int) -> int:
         """The seed of the set that is drawn after `position` points: the engine's own at first."""
@@ -93,7 +122,7 @@ class Engine(_Base):
         self.num_generated = 0
         return self
 
-    def fast_forward(self, n: int) -> "Engine":
+    def fast_forward(self, n: SupportsIndex) -> "Engine":
         """As if n points had been drawn."""
-        self.num_generated += n
+        self.num_generated += whole("fast_forward", n, 0, _FAR)
         return self

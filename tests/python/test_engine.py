@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The engine keeps what scipy tests of its own engines, for every pattern that serves any n; and without scipy it has
 the same interface."""
+import os
 import subprocess
 import sys
+import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
 import koksma
-from koksma import Engine
+from koksma import Engine, _engine
 
 SEQUENCES = ["random", "sobol", "sobol:scramble=owen", "halton", "r-sequence"]
 SETS = ["n-rooks", "latin-hypercube"]
@@ -127,6 +130,59 @@ class Engines(unittest.TestCase):
             with self.assertRaises((ValueError, TypeError)):
                 Engine("halton", 2).random(bad)
 
+    def test_small_types_of_numbers(self):  # with NumPy 2, uint8 + 3 is a uint8
+        for spec in ("sobol", "n-rooks"):
+            engine = Engine(spec, 2, seed=1)
+            shapes = [engine.random(np.uint8(n)).shape for n in (3, 200, 200)]
+            self.assertEqual(shapes, [(3, 2), (200, 2), (200, 2)])
+            self.assertEqual(engine.fast_forward(np.uint8(200)).fast_forward(np.uint8(100)).num_generated, 703)
+            self.assertIs(type(engine.num_generated), int)
+
+    def test_numbers_out_of_range(self):
+        for spec in ("sobol", "n-rooks"):
+            engine = Engine(spec, 2, seed=1)
+            engine.random(8)
+            for call, line in ((lambda: engine.fast_forward(-5), "fast_forward -5: it takes 0 to"),
+                               (lambda: engine.random(-3), "n -3: it takes 0 to"),
+                               (lambda: engine.random(3, workers=0), "workers 0: it takes a number of threads"),
+                               (lambda: engine.random(3, workers=-2), "workers -2: it takes -1 to"),
+                               (lambda: engine.random(0, workers=(1 << 32) + 1), "workers 4294967297: it takes -1 to")):
+                with self.subTest(line), self.assertRaisesRegex(koksma.ArgumentError, "^" + line):
+                    call()
+            for call in (engine.fast_forward, engine.random):
+                with self.assertRaises(TypeError):
+                    call(1.5)
+            self.assertEqual(engine.num_generated, 8)
+            self.assertEqual(engine.random(3, workers=-1).shape, (3, 2))
+        with self.assertRaises(koksma.ArgumentError):
+            Engine("random", 0).random(-3)
+
+    def test_sequences_that_end(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "hundred.txt")
+            points = koksma.generate("random", 100, seed=5)
+            koksma.write(path, points)
+            engine = Engine("file:" + path)
+            np.testing.assert_array_equal(np.concatenate([engine.random(40), engine.random(60)]), points)
+            with self.assertRaisesRegex(koksma.ArgumentError, "101"):
+                engine.random()
+            self.assertEqual(engine.num_generated, 100)
+            np.testing.assert_array_equal(Engine("file:" + path).fast_forward(60).random(40), points[60:])
+            engine = Engine("file:" + path)
+            with mock.patch.object(_engine, "generate", side_effect=koksma.generate) as served:
+                np.testing.assert_array_equal(np.concatenate([engine.random() for _ in range(100)]), points)
+            self.assertLess(served.call_count, 30)
+        engine = Engine("void-and-cluster", seed=1)
+        np.testing.assert_array_equal(np.concatenate([engine.random(1500), engine.random(1500)]),
+                                      koksma.generate("void-and-cluster", 3000, seed=1))
+
+    def test_rng_is_seed(self):
+        np.testing.assert_array_equal(Engine("random", rng=3).random(8), Engine("random", seed=3).random(8))
+        np.testing.assert_array_equal(Engine("random", rng=np.random.default_rng(3)).random(8),
+                                      Engine("random", seed=np.random.default_rng(3)).random(8))
+        with self.assertRaises(TypeError):
+            Engine("random", seed=3, rng=3)
+
     def test_balance(self):
         for m in range(1, 9):  # as scipy's Sobol.random_base2: each half, quarter, .. has its share
             sample = Engine("sobol:scramble=owen", 4, seed=m).random(1 << m)
@@ -169,6 +225,21 @@ class Engines(unittest.TestCase):
             np.testing.assert_array_equal(np.sort((sample * 8).astype(int), axis=0), np.arange(8)[:, None] * [1, 1])
         scaled = qmc.scale(sample, [-1, 2], [1, 5])
         self.assertTrue(((scaled >= [-1, 2]) & (scaled <= [1, 5])).all())
+
+    def test_another_of_its_kind(self):  # as scipy makes them
+        engine = Engine("halton", 3, seed=1)
+        other = type(engine)(seed=2, **engine._init_quad)
+        np.testing.assert_array_equal(other.random(8), koksma.generate("halton", 8, 3, 2))
+
+    def test_quadrature_of_scipys(self):
+        try:
+            from scipy.integrate import qmc_quad
+        except ImportError:
+            self.skipTest("scipy is not installed, or older than 1.11")
+        for spec in ("sobol:scramble=owen", "n-rooks", "random"):
+            result = qmc_quad(lambda x: x[0] * x[1], [0, 0], [1, 1], n_points=1024, qrng=Engine(spec, 2, seed=3))
+            self.assertGreater(result.standard_error, 0)  # the estimates are independent
+            self.assertLess(abs(result.integral - 0.25), 6 * result.standard_error)
 
     def test_is_scipys(self):
         try:

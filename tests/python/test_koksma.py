@@ -62,8 +62,8 @@ class Points(unittest.TestCase):
                 "    def __init__(self, array): self.array, self.sum = array, array.sum()\n"
                 "    def __del__(self): print(self.array.sum() == self.sum)\n"
                 "atexit.register(lambda: print(all(x.array.sum() == x.sum for x in kept)))\n"
-                "kept = [Last(koksma.generate('poisson-disk-maximal:d=0.004')),\n"
-                "        Last(koksma.render('ball', spp=1, size=(640, 480)))]\n")
+                "kept = [Last(koksma.generate('poisson-disk-maximal:d=0.006')),\n"
+                "        Last(koksma.render('ball', spp=1, size=(320, 240)))]\n")
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, 3 * "True\n", ""))
 
