@@ -54,7 +54,7 @@ _CLASSES = (None, ArgumentError, ArgumentError, ArgumentError, ArgumentError, Ar
 def _places(name: str) -> Iterator[str]:
     folder = os.environ.get("KOKSMA_LIBRARY_DIR")
     if folder:
-        yield str(Path(folder) / name)
+        yield str(Path(folder).absolute() / name)  # with a slash, so that no other folder is searched
         return
     for parent in Path(__file__).resolve().parents:  # of an installed package: PREFIX/lib/python3/dist-packages/koksma
         if parent.name.startswith("lib"):
@@ -175,9 +175,13 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
 
 def text(value: str) -> bytes:
     """A name or path as the library takes it."""
-    raw = os.fsencode(value)
+    return without_zero("a name or path", os.fsencode(value))
+
+
+def without_zero(what: str, raw: bytes) -> bytes:
+    """A text that C, where a zero ends it, sees whole."""
     if b"\0" in raw:
-        raise ArgumentError("a name or path can't hold a zero character")
+        raise ArgumentError(f"{what} can't hold a zero character")
     return raw
 
 

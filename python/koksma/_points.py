@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, spec, text, whole
+from ._library import ArgumentError, call, check, core, spec, text, whole, without_zero
 
 PointArray = npt.NDArray[np.float64]
 SEQUENCE = 1 << 1  # KOKSMA_CLAIM_SEQUENCE
@@ -103,7 +103,7 @@ def view(array: PointArray) -> s.Points:
 
 
 def as_points(points: npt.ArrayLike) -> PointArray:
-    """A C-contiguous (n, dim) array of doubles; without a copy when it is one already.
+    """A C-contiguous, aligned (n, dim) array of doubles; without a copy when it is one already.
 
     What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
     """
@@ -113,6 +113,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
         raise ArgumentError("points have no masked coordinates")
     array = np.ascontiguousarray(given, dtype=np.float64)
+    array = array if array.flags.aligned else array.copy()
     if array.ndim != 2 or 0 in array.shape:
         raise ArgumentError(f"points are an array of shape (n, dim), not {array.shape}")
     return array
@@ -136,7 +137,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
     n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
-    out: a C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one.
+    out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one.
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
@@ -155,9 +156,9 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
         if n * dim > s.MAX_COORDINATES:
             raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
-    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.c_contiguous
-              and out.flags.writeable and out.size and (n is None or out.shape == (n, dim))):
-        raise ArgumentError("out is a writable C-contiguous array of doubles, of shape (n, dim)")
+    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.carray
+              and out.size and (n is None or out.shape == (n, dim))):
+        raise ArgumentError("out is a writable, aligned, C-contiguous array of doubles, of shape (n, dim)")
     points = view(out)
     call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
     return out
@@ -212,8 +213,8 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
     """Writes points by the ending of the path: .csv, .npy, anything else text. Whole or not at all."""
     array = as_points(points)
     c_points = view(array)
-    check(core().koksma_points_write(text(os.fspath(path)), byref(c_points),
-                                     None if comment is None else comment.encode()))
+    raw = None if comment is None else without_zero("a comment", comment.encode())
+    check(core().koksma_points_write(text(os.fspath(path)), byref(c_points), raw))
 
 
 def is_sequence(pattern: str) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Iterable, SupportsIndex
+from typing import Iterable, Sequence, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -48,18 +48,24 @@ def _result(raw: s.Spectrum) -> Spectrum:
                     quality.relative_nyquist, quality.oscillation, raw.sets)
 
 
+def _each(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]") -> "Iterable[npt.ArrayLike]":
+    """The sets one by one. What has rows of numbers is one set; an iterator is not looked into beforehand."""
+    rows = np.asanyarray(sets) if hasattr(sets, "__array__") else sets
+    if isinstance(rows, np.ndarray):
+        return [rows] if rows.ndim == 2 else rows
+    return [rows] if isinstance(rows, Sequence) and rows and np.ndim(rows[0]) == 1 else rows
+
+
 def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsIndex = 64, *,
              exact: bool = False, threads: SupportsIndex = 0) -> Spectrum:
-    """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) array, or the mean over several.
+    """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) set, or the mean over several.
 
     exact: sums over all points at each frequency, instead of an FFT within 1e-10 of n.
     """
-    if isinstance(sets, np.ndarray) and sets.ndim == 2:
-        sets = [sets]
     raw = s.Spectrum()
     check(core().koksma_spectrum_init(byref(raw), whole("half", half, 1, s.MAX_HALF)))
     try:
-        for points in sets:
+        for points in _each(sets):
             c_points = view(array := as_points(points))
             call(core().koksma_spectrum_add, byref(raw), byref(c_points), 0 if exact else 1, threads=threads, run_at=3)
             del array

@@ -30,6 +30,14 @@ def program(*arguments):
     return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
 
 
+def unaligned(array):
+    """The same numbers one byte off."""
+    room = bytearray(array.nbytes + 1)
+    result = np.frombuffer(room, dtype=array.dtype, offset=1, count=array.size).reshape(array.shape)
+    result[:] = array
+    return result
+
+
 class Points(unittest.TestCase):
     def test_same_bits_as_the_program(self):
         for spec, n, dim, seed in [("n-rooks", 16, 2, 7), ("sobol", 64, 5, 0), ("poisson-disk:d=0.1", 20, 2, 3)]:
@@ -44,7 +52,10 @@ class Points(unittest.TestCase):
         out = np.zeros((16, 2))
         self.assertIs(koksma.generate("jittered", seed=3, out=out), out)
         np.testing.assert_array_equal(out, koksma.generate("jittered", 16, seed=3))
-        for bad in (out[:, ::-1], np.zeros((16, 2), np.float32), np.zeros(16), np.zeros((0, 2))):
+        frozen = np.zeros((16, 2))
+        frozen.flags.writeable = False
+        for bad in (out[:, ::-1], np.zeros((16, 2), np.float32), np.zeros(16), np.zeros((0, 2)), unaligned(out), frozen,
+                    np.zeros((16, 2), ">f8")):
             with self.assertRaises(koksma.ArgumentError):
                 koksma.generate("random", out=bad)
 
@@ -111,6 +122,12 @@ class Points(unittest.TestCase):
             for name in ("p.txt", "p.csv", "p.npy"):
                 koksma.write(os.path.join(folder, name), points, "ours")
                 np.testing.assert_array_equal(koksma.read(os.path.join(folder, name)), points)
+            path = pathlib.Path(folder, "comment.txt")
+            with self.assertRaisesRegex(ValueError, "a comment can't hold a zero character"):
+                koksma.write(path, points, "cut\0off")
+            self.assertFalse(path.exists())
+            koksma.write(path, points, "Sobol’\n2")
+            self.assertIn("# Sobol’\n# 2\n", path.read_text(encoding="utf-8"))
 
 
 def found_subject(found, name):
@@ -168,7 +185,9 @@ class OddArrays(unittest.TestCase):
         wide[::2, 1::3] = exact
         for same in (exact.astype(np.float32), exact.astype(np.float16), exact.astype(">f8"), exact.astype(object),
                      exact.astype(np.longdouble), np.asfortranarray(exact), exact[::-1][::-1], wide[::2, 1::3],
-                     exact.tolist(), tuple(map(tuple, exact)), np.ma.array(exact)):
+                     exact.tolist(), tuple(map(tuple, exact)), np.ma.array(exact), np.asmatrix(exact), unaligned(exact)):
+            array = _points.as_points(same)
+            self.assertTrue(type(array) is np.ndarray and array.flags.carray)
             self.assertEqual(float(koksma.measure(same, "star")), expected)
         self.assertEqual(float(koksma.measure(np.array([[0, 1], [1, 0]]), "star")), 1)
         frozen = np.broadcast_to(exact[0], (4, 2))
@@ -284,6 +303,16 @@ class Memory(unittest.TestCase):
             self.assertEqual(freed, [True])
 
 
+class Library(unittest.TestCase):
+    def test_the_folder_where_one_is(self):
+        package = os.path.dirname(os.path.dirname(os.path.abspath(koksma.__file__)))
+        environment = {**os.environ, "KOKSMA_LIBRARY_DIR": ".", "PYTHONPATH": package}
+        environment.pop("LD_LIBRARY_PATH", None)
+        run = subprocess.run([sys.executable, "-c", "import koksma; print(koksma.version())"], env=environment,
+                             cwd=os.environ["KOKSMA_LIBRARY_DIR"], capture_output=True, text=True)
+        self.assertEqual((run.stdout, run.stderr), (koksma.version() + "\n", ""))
+
+
 class Texts(unittest.TestCase):
     def test_every_public_name_has_hints_and_words(self):
         for name in koksma.__all__:
@@ -323,6 +352,15 @@ class Spectra(unittest.TestCase):
         self.assertEqual(s.sets, 50)
         self.assertLess(abs(s.ring_power.mean() - 1), 0.1)
         self.assertFalse(np.isnan(s.standard_error).any())
+        x, y = koksma.generate("random", 32, seed=1), koksma.generate("random", 16, seed=2)
+        one, mean = koksma.spectrum(x, 8).power, koksma.spectrum([x, y], 8).power
+        for same in (x.tolist(), tuple(map(tuple, x)), list(x), [x], (x.tolist(),), x[None], np.asmatrix(x), iter([x])):
+            np.testing.assert_array_equal(koksma.spectrum(same, 8).power, one)
+        for same in ((x, y), [x.tolist(), y.tolist()], (points for points in (x, y))):
+            np.testing.assert_array_equal(koksma.spectrum(same, 8).power, mean)
+        for bad in (x[0], x[0].tolist(), [[0.1, 0.2], [0.3]], [[[]]], np.ma.array(x, mask=x > 0.5)):
+            with self.subTest(bad=bad), self.assertRaises(ValueError):
+                koksma.spectrum(bad, 8)
         with self.assertRaises(koksma.ArgumentError):
             koksma.spectrum([], 16)
         with self.assertRaises(koksma.ArgumentError):
