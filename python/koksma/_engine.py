@@ -20,7 +20,7 @@ except ImportError:
     class _Base:  # type: ignore[no-redef]
         """What the engine needs of scipy's class, where scipy is not installed."""
 
-        def __init__(self, d: int, *, optimization: None = None, seed: Any = None) -> None:
+        def __init__(self, d: Any, *, optimization: None = None, seed: Any = None) -> None:
             if not np.issubdtype(type(d), np.integer) or d < 0:
                 raise ValueError("d must be a non-negative integer value")
             if optimization is not None:
@@ -57,12 +57,13 @@ class Engine(_Base):
     points came before.
     """
 
-    def __init__(self, pattern: str, d: int = 2, *, optimization: Optional[str] = None, seed: Any = None,
+    def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,
                  rng: Any = None) -> None:
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: it takes one of them")
         seed = rng if seed is None else seed
         super().__init__(d=d, optimization=optimization, seed=seed)
+        self.d = int(d)
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
         self._sequence = is_sequence(pattern)

@@ -132,7 +132,7 @@ class Engines(unittest.TestCase):
 
     def test_small_types_of_numbers(self):  # with NumPy 2, uint8 + 3 is a uint8
         for spec in ("sobol", "n-rooks"):
-            engine = Engine(spec, 2, seed=1)
+            engine = Engine(spec, np.uint8(2), seed=1)
             shapes = [engine.random(np.uint8(n)).shape for n in (3, 200, 200)]
             self.assertEqual(shapes, [(3, 2), (200, 2), (200, 2)])
             self.assertEqual(engine.fast_forward(np.uint8(200)).fast_forward(np.uint8(100)).num_generated, 703)
