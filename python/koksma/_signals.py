@@ -42,10 +42,13 @@ class Signals:
                 _signal.signal(number, self)
 
     def give_back(self) -> None:
-        """Puts back what take has replaced, also when that was interrupted."""
+        """Puts back what take has replaced, also when that was interrupted. A handler that is back may raise here."""
         try:
             for number, handler in self._theirs.items():
                 if _signal.getsignal(number) is self:  # a handler may have put another in its place
                     _signal.signal(number, handler)
+        except BaseException:
+            self.give_back()  # the rest
+            raise
         finally:
             self._keeps = False  # whoever still has this object as a handler has the one that it replaced

@@ -148,25 +148,27 @@ class NotRaised(Case):
 
 class PuttingBack(Case):
     def test_may_be_interrupted(self):
-        """By a handler that is back in its place. The others are then called through Signals, which keeps nothing."""
+        """By handlers that are back in their places; all are put back all the same."""
         class Interrupted(dict):
             def items(self):
-                for item in super().items():
-                    yield item
-                    signal.raise_signal(item[0])
+                for number, handler in super().items():
+                    yield number, handler
+                    if handler in waiting:
+                        waiting.remove(handler)
+                        signal.raise_signal(number)
 
-        first, last = signal.SIGHUP, signal.SIGTERM
-        for number in (first, last):
-            self.on(number, raising(Timeout(number.name)))
-        signals = Signals()
+        numbers = (signal.SIGHUP, signal.SIGALRM, signal.SIGTERM)
+        handlers = [self.on(number, raising(Timeout(number.name))) for number in numbers]
+        waiting, signals = handlers[:2], Signals()
         signals.take()
+        self.assertEqual({signal.getsignal(number) for number in numbers}, {signals})
         signals._theirs = Interrupted(signals._theirs)
-        with self.assertRaisesRegex(Timeout, "SIGHUP"):
+        with self.assertRaises(Timeout):
             signals.give_back()
-        self.assertIs(signal.getsignal(last), signals)
-        with self.assertRaisesRegex(Timeout, "SIGTERM"):
-            signal.raise_signal(last)
-        self.assertEqual(signals.raised, [])
+        self.assertEqual([signal.getsignal(number) for number in numbers], handlers)
+        self.assertEqual((waiting, signals.raised), ([], []))
+        with self.assertRaisesRegex(Timeout, "SIGTERM"):  # by what somebody has taken for the handler
+            signals(signal.SIGTERM, None)
 
 
 if __name__ == "__main__":
