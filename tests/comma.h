@@ -35,11 +35,8 @@ static inline const char *make_comma_locale(void)
              test_folder);
     (void)!system(command);
     setenv("LOCPATH", test_folder, 1);
-    const char *made = setlocale(LC_ALL, "comma");
+    const bool made = setlocale(LC_ALL, "comma") && half_is("0,5"); /* musl takes any name */
     setlocale(LC_ALL, "C");
-    if (!made) {
-        unsetenv("LOCPATH");
-    }
     return made ? "comma" : NULL;
 }
 
@@ -106,8 +103,7 @@ static inline char *test_made_in(test_maker *make, const char *locale, const cha
 static inline void test_same_with_comma(const char *locale, test_maker *make)
 {
     if (!locale) {
-        print_message(
-            "[  REASON  ] no locale has a decimal comma, and localedef, which could make one, is missing\n");
+        print_message("[  REASON  ] no locale here has a decimal comma, and localedef can make none\n");
         skip();
     }
     size_t size, commas;
