@@ -98,8 +98,7 @@ static void add_answer(answer *a, const char *call, const char *text)
 
 /* ---- Operands: the lines of a synopsis, "VERB FILE" or "FILE" ----------------------------------------- */
 
-/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. Lines that go on with another are no usages.
- */
+/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. Other lines go on with one. */
 static const char *usage_at(const cli_command *command, size_t i)
 {
     char begin[64];
