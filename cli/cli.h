@@ -11,9 +11,11 @@
 enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2 };
 
 typedef struct cli_option {
-    char letter;          /* 0: none */
-    const char *name;     /* tables end at a NULL name */
-    const char *argument; /* NULL: a flag. One that ends in "..." may be given again: lines of one text */
+    char letter;      /* 0: none */
+    const char *name; /* tables end at a NULL name */
+    const char
+        *argument; /* NULL: a flag. Its choices, "csv|json|npy", or a noun; "MEASURE,.." is a list. What ends in
+                      "..." may be given again: lines of one text. Completions know the nouns by their names */
     const char *help;
 } cli_option;
 
@@ -49,7 +51,7 @@ const cli_command *cli_command_at(size_t i);
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
-        {0, "progress", "WHEN", "auto, always or never (default: auto, when stderr is a terminal)"},                 \
+        {0, "progress", "auto|always|never", "show how far it is (default: auto, when stderr is a terminal)"},       \
     {                                                                                                                \
         'q', "quiet", NULL, "no talk on stderr but errors"                                                           \
     }

@@ -1,40 +1,144 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Scripts for shells, from the tables that parse the command line. What an argument is, is told by the word that the
-   table has for it; names of patterns, measures and scenes are asked of the program while the user types. */
+   table has for it: its choices, or a noun that is in `nouns` below; other nouns are the user's own numbers. Names of
+   patterns, measures and scenes are asked of the program while the user types. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
+#include <koksma/study.h>
+#include <koksma/verify.h>
+
 #include "cli.h"
 
-/* Shell code that prints the words for an argument, one a line; NULL: files. text is the table's word for it. */
-static const char *words_of(const char *text, char *room, size_t size)
+enum { ANSWER_SIZE = 2048 };
+
+/* What a shell offers for an argument. */
+typedef struct answer {
+    char words[ANSWER_SIZE]; /* names, and calls of the script's function that prints a table's */
+    bool list, files;        /* several with commas between; files, when no word fits */
+} answer;
+
+static const char *command_name_at(size_t i)
 {
-    static const struct {
-        const char *word, *table;
-    } tables[] = {{"PATTERN", "patterns"}, {"MEASURE", "measures"}, {"SCENE", "scenes"},
-                  {"NAMES", "measures"},   {"I", "integrators"},    {"F", "filters"}};
-    const size_t first = strcspn(text, " "); /* of a synopsis the first word counts */
-    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        const size_t length = strlen(tables[i].word);
-        const char *at = strstr(text, tables[i].word);
-        if (at && at < text + first && (at == text || !isalpha((unsigned char)at[-1])) &&
-            !isalpha((unsigned char)at[length])) {
-            snprintf(room, size, "koksma list %s 2>/dev/null | sed 1d | cut -d' ' -f1", tables[i].table);
-            return room;
-        }
-    }
-    /* "[a|b]" and "a|b" are the words themselves. */
-    if (memchr(text, '|', first) && islower((unsigned char)text[text[0] == '['])) {
-        size_t used = (size_t)snprintf(room, size, "printf '%%s\\n' ");
-        for (size_t i = 0; i < first && used + 1 < size; i++) {
-            room[used++] = text[i] == '|' || text[i] == '[' || text[i] == ']' ? ' ' : text[i];
-        }
-        room[used] = '\0';
-        return room;
-    }
-    return NULL;
+    const cli_command *command = cli_command_at(i);
+    return command ? command->name : NULL;
 }
+
+static const struct {
+    const char *noun, *table; /* a table of `koksma list` */
+    const char *(*name_at)(size_t i);
+    bool files;
+} nouns[] = {
+    {"PATTERN", "patterns", NULL, false},
+    {"MEASURE", "measures", NULL, false},
+    {"SCENE", "scenes", NULL, true},
+    {"INTEGRATOR", "integrators", NULL, false},
+    {"FILTER", "filters", NULL, false},
+    {"METHOD", "adaptive", NULL, false},
+    {"WARP", "warps", NULL, false},
+    {"PROPERTY", NULL, koksma_property_name_at, false},
+    {"COMMAND", NULL, command_name_at, false},
+    {"PAPER", NULL, koksma_plan_name_at, true},
+    {"PLAN", NULL, koksma_plan_name_at, true},
+    {"FILE", NULL, NULL, true},
+    {"DIR", NULL, NULL, true},
+    {"OUT", NULL, NULL, true},
+    {"PATH", NULL, NULL, true},
+    {"PLACES", NULL, NULL, true},
+    {"IMAGE", NULL, NULL, true},
+    {"REFERENCE", NULL, NULL, true},
+};
+
+static void add_word(answer *a, const char *word, size_t length)
+{
+    const size_t used = strlen(a->words);
+    snprintf(a->words + used, sizeof a->words - used, "%s%.*s", used ? " " : "", (int)length, word);
+}
+
+static void add_noun(answer *a, const char *call, const char *text, size_t length)
+{
+    for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
+        if (strlen(nouns[i].noun) != length || strncmp(nouns[i].noun, text, length) != 0) {
+            continue;
+        }
+        a->files = a->files || nouns[i].files;
+        if (nouns[i].table) {
+            char text_of_call[64];
+            snprintf(text_of_call, sizeof text_of_call, "%s %s)", call, nouns[i].table);
+            add_word(a, text_of_call, strlen(text_of_call));
+        }
+        for (size_t k = 0; nouns[i].name_at && nouns[i].name_at(k); k++) {
+            add_word(a, nouns[i].name_at(k), strlen(nouns[i].name_at(k)));
+        }
+    }
+}
+
+static const char lower[] = "abcdefghijklmnopqrstuvwxyz0123456789-", upper[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/* Adds what text, up to its first blank, stands for: alternatives with | between, each a word or with nouns in it.
+   call: of the script's function that prints a table's names. */
+static void add_answer(answer *a, const char *call, const char *text)
+{
+    const char *end = text + strcspn(text, " \n");
+    for (const char *at = text + strspn(text, "["), *next; at < end; at = next + strspn(next, "|]")) {
+        next = at + strcspn(at, "| \n");
+        const char *comma = strstr(at, ",..");
+        const size_t word = strspn(at, lower);
+        a->list = a->list || (comma && comma < next);
+        if (word > 0 && islower((unsigned char)*at) && strspn(at + word, "]") == (size_t)(next - at) - word) {
+            add_word(a, at, word);
+            continue;
+        }
+        for (const char *s = at; s < next; s += strspn(s, upper) ? strspn(s, upper) : 1) {
+            add_noun(a, call, s, strspn(s, upper));
+        }
+    }
+}
+
+/* ---- Operands: the lines of a synopsis, "VERB FILE" or "FILE" ----------------------------------------- */
+
+/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. Other lines go on with one. */
+static const char *usage_at(const cli_command *command, size_t i)
+{
+    char begin[64];
+    snprintf(begin, sizeof begin, "koksma %s ", command->name);
+    const char *line = command->synopsis;
+    while (line && i-- > 0) {
+        line = strstr(line, begin);
+        line = line ? line + strlen(begin) : NULL;
+    }
+    return line;
+}
+
+/* Whether a usage begins with words to choose from, after which other operands come; these. */
+static bool has_verbs(const char *usage, answer *verbs)
+{
+    *verbs = (answer){.list = false};
+    add_answer(verbs, "", usage);
+    return islower((unsigned char)usage[strspn(usage, "[")]) && *verbs->words;
+}
+
+/* What comes after its verbs: the next operand, "" for none. */
+static const char *after_verbs(const char *usage)
+{
+    const char *next = usage + strcspn(usage, " \n");
+    next += strspn(next, " ");
+    return !strncmp(next, "[-", 2) ? "" : next + strspn(next, "'");
+}
+
+/* The operands of a command before any verb. */
+static answer first_operands(const cli_command *command, const char *call)
+{
+    answer all = {.list = false};
+    const char *usage;
+    for (size_t i = 0; (usage = usage_at(command, i)); i++) {
+        add_answer(&all, call, usage);
+    }
+    return all;
+}
+
+/* ---- The scripts --------------------------------------------------------------------------------------- */
 
 /* For a shell's single quotes. */
 static void put_quoted(const char *text)
@@ -55,10 +159,42 @@ static void put_options(const cli_command *command)
     fputs("--help", stdout);
 }
 
-/* A `case` of both bash and zsh: sets `words` by the option before the cursor, else by the operands. */
+/* Assignments of both bash and zsh. */
+static void put_answer(const answer *a)
+{
+    printf("%s%swords=\"%s\";;\n", a->list ? "list=yes; " : "", a->files ? "files=yes; " : "", a->words);
+}
+
+static void put_operand_cases(const cli_command *command, const char *call)
+{
+    printf("    *) case $earlier in\n");
+    const char *usage;
+    answer verbs;
+    for (size_t i = 0; (usage = usage_at(command, i)); i++) {
+        if (!has_verbs(usage, &verbs)) {
+            continue;
+        }
+        printf("      ");
+        for (char *word = verbs.words, *blank; word; word = blank ? blank + 1 : NULL) {
+            blank = strchr(word, ' ');
+            printf("%s*' %.*s '*", word == verbs.words ? "" : "|", blank ? (int)(blank - word) : (int)strlen(word),
+                   word);
+        }
+        printf(") ");
+        answer next = {.list = false};
+        add_answer(&next, call, after_verbs(usage));
+        put_answer(&next);
+    }
+    const answer first = first_operands(command, call);
+    printf("      *) ");
+    put_answer(&first);
+    printf("      esac;;\n    esac;;\n");
+}
+
+/* A `case` of both bash and zsh: sets words, list and files by the option before the cursor, else by the operands. */
 static void put_cases(void)
 {
-    char room[512];
+    static const char call[] = "$(_koksma_names";
     const cli_command *command;
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         printf("  %s)\n    options='", command->name);
@@ -66,13 +202,14 @@ static void put_cases(void)
         printf("'\n    case $before in\n");
         for (const cli_option *o = command->options; o->name; o++) {
             if (o->argument) {
-                const char *words = words_of(o->argument, room, sizeof room);
+                answer a = {.list = false};
+                add_answer(&a, call, o->argument);
                 printf(o->letter ? "    -%c|--%s) " : "    %c--%s) ", o->letter ? o->letter : ' ', o->name);
-                printf("kind=argument; words=$(%s);;\n", words ? words : ":");
+                printf("kind=argument; ");
+                put_answer(&a);
             }
         }
-        const char *words = words_of(command->synopsis, room, sizeof room);
-        printf("    *) words=$(%s);;\n    esac;;\n", words ? words : ":");
+        put_operand_cases(command, call);
     }
 }
 
@@ -84,62 +221,115 @@ static void put_commands(void)
     }
 }
 
+static const char names_function[] = "_koksma_names() { koksma list \"$1\" 2>/dev/null | sed 1d | cut -d' ' -f1; }\n";
+
 static void put_bash(void)
 {
-    printf("# bash completion for koksma, made by `koksma completion bash`.\n"
-           "_koksma() {\n  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
-           "  local options='' words='' kind=operand\n  COMPREPLY=()\n"
-           "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '");
+    printf("# bash completion for koksma, made by `koksma completion bash`.\n%s"
+           "_koksma() {\n  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} done=''\n"
+           "  local options='' words='' kind=operand list='' files='' earlier=\" ${COMP_WORDS[*]:2:COMP_CWORD-2} \"\n"
+           "  COMPREPLY=()\n"
+           "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '",
+           names_function);
     put_commands();
-    printf("' -- \"$current\"))\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n");
+    /* bash splits words at an equals sign, too. */
+    printf("' -- \"$current\"))\n    return\n  fi\n"
+           "  if [ \"$current\" = = ]; then current=''; "
+           "elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
+           "  case ${COMP_WORDS[1]} in\n");
     put_cases();
     printf("  esac\n"
-           "  if [ $kind = operand ] && [ \"${current#-}\" != \"$current\" ]; then words=$options; fi\n"
-           "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n}\n"
+           "  if [ $kind = operand ] && [ \"${current#-}\" != \"$current\" ]; then words=$options list=''; fi\n"
+           "  if [ -n \"$list\" ]; then done=${current%%\"${current##*,}\"}; fi\n"
+           "  COMPREPLY=($(compgen -P \"$done\" -W \"$words\" -- \"${current#\"$done\"}\"))\n"
+           "  if [ -z \"$files\" ]; then compopt +o default; fi\n}\n"
            "complete -o default -F _koksma koksma\n");
 }
 
 static void put_zsh(void)
 {
-    printf("#compdef koksma\n# zsh completion for koksma, made by `koksma completion zsh`.\n"
+    printf("#compdef koksma\n# zsh completion for koksma, made by `koksma completion zsh`.\n%s"
            "local current=${words[CURRENT]} before=${words[CURRENT-1]} command=${words[2]}\n"
-           "local options='' kind=operand\n"
-           "if (( CURRENT == 2 )); then\n  compadd -- ");
+           "local options='' kind=operand list='' files='' earlier=\" ${words[3,CURRENT-1]} \"\n"
+           "if (( CURRENT == 2 )); then\n  compadd -- ",
+           names_function);
     put_commands();
-    printf("\n  return\nfi\n() {\n  local words=''\n  case $command in\n");
+    printf("\n  return\nfi\n"
+           "if [[ $current = --*=* ]]; then before=${current%%%%=*}; current=${current#*=}; compset -P '*='; fi\n"
+           "() {\n  local words=''\n  case $command in\n");
     put_cases();
     printf("  esac\n"
-           "  if [[ $kind = operand && $current = -* ]]; then words=$options; fi\n"
-           "  if [[ -n $words ]]; then compadd -- ${=words}; else _files; fi\n}\n");
+           "  if [[ $kind = operand && $current = -* ]]; then words=$options list=''; fi\n"
+           "  if [[ -n $list ]]; then compset -P '*,'; fi\n"
+           "  if [[ -n $words ]] && compadd -- ${=words}; then return; fi\n"
+           "  if [[ -n $files ]]; then _files; fi\n}\n");
+}
+
+/* The rest of a `complete` line: what is offered, and whether files are. */
+static void put_fish_answer(const answer *a)
+{
+    printf("%s", a->files ? "" : " -f");
+    if (*a->words) {
+        printf(a->list ? " -a \"(__koksma_list %s)\"\n" : " -a \"%s\"\n", a->words);
+    } else {
+        printf("\n");
+    }
+}
+
+static void put_fish_operands(const cli_command *command, const char *call)
+{
+    const char *usage;
+    answer verbs, all = {.list = false};
+    for (size_t i = 0; (usage = usage_at(command, i)); i++) {
+        if (has_verbs(usage, &verbs)) {
+            answer next = {.list = false};
+            add_answer(&all, "", usage);
+            add_answer(&next, call, after_verbs(usage));
+            printf("complete -c koksma -n '__koksma_in %s %s'", command->name, verbs.words);
+            put_fish_answer(&next);
+        }
+    }
+    const answer first = first_operands(command, call);
+    printf("complete -c koksma -n '__koksma_in %s", command->name);
+    printf(*all.words ? "; and not __koksma_in %s %s'" : "'", command->name, all.words);
+    put_fish_answer(&first);
 }
 
 static void put_fish(void)
 {
-    char room[512];
+    static const char call[] = "(__koksma_names";
     const cli_command *command;
-    printf("# fish completion for koksma, made by `koksma completion fish`.\n");
+    printf("# fish completion for koksma, made by `koksma completion fish`.\n"
+           "function __koksma_names\n    koksma list $argv[1] 2>/dev/null | sed 1d | cut -d' ' -f1\nend\n"
+           "# The words after the last comma of a list.\n"
+           "function __koksma_list\n    set -l done (string match -r '.*,' -- (commandline -ct))\n"
+           "    printf '%%s\\n' \"$done\"$argv\nend\n"
+           "# The command is the first word, and one of the others was typed after it, if there are any.\n"
+           "function __koksma_in\n    set -l typed (commandline -opc)\n"
+           "    test \"$typed[2]\" = $argv[1]; or return\n    test (count $argv) -eq 1; and return\n"
+           "    set -e typed[1..2]\n    for word in $argv[2..-1]\n        contains -- $word $typed; and return\n"
+           "    end\n    return 1\nend\n");
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         printf("complete -c koksma -n __fish_use_subcommand -f -a %s -d '", command->name);
         put_quoted(command->summary);
         printf("'\n");
         for (const cli_option *o = command->options; o->name; o++) {
-            printf("complete -c koksma -n '__fish_seen_subcommand_from %s'", command->name);
+            printf("complete -c koksma -n '__koksma_in %s'", command->name);
             if (o->letter) {
                 printf(" -s %c", o->letter);
             }
             printf(" -l %s%s -d '", o->name, o->argument ? " -r" : "");
             put_quoted(o->help);
             printf("'");
-            const char *words = o->argument ? words_of(o->argument, room, sizeof room) : NULL;
-            if (words) {
-                printf(" -f -a \"(%s)\"", words);
+            answer a = {.list = false};
+            if (o->argument) {
+                add_answer(&a, call, o->argument);
+                put_fish_answer(&a);
+            } else {
+                printf("\n");
             }
-            printf("\n");
         }
-        const char *words = words_of(command->synopsis, room, sizeof room);
-        if (words) {
-            printf("complete -c koksma -n '__fish_seen_subcommand_from %s' -a \"(%s)\"\n", command->name, words);
-        }
+        put_fish_operands(command, call);
     }
 }
 

@@ -265,13 +265,12 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "NAMES",
-     "measures, separated by commas, or all (default: star,l2-star,extreme; of --warp its domain's)"},
+    {'m', "measures", "MEASURE,..|all", "what is measured (default: star,l2-star,extreme; of --warp its domain's)"},
     {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
     {'t', "trials", "T", "T sets with seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
-    {0, "prefixes", "LIST",
-     "the first k points for each k of LIST (as in 16,64,256), or powers; and the log-log slope beside theory's"},
-    {0, "warp", "W,..", "measure the points mapped by W: concentric-disk, polar-disk, triangle, hemisphere, .."},
+    {0, "prefixes", "K,..|powers",
+     "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
+    {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
     {0, "time-limit", "SECONDS", "for each value: a measure that is cut short gives bounds"},
@@ -283,7 +282,7 @@ static const cli_option options[] = {
 const cli_command cli_command_measure = {
     .name = "measure",
     .summary = "measure how irregular points are",
-    .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m NAME,NAME...|all] [--json]",
+    .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m MEASURE,..|all] [--json]",
     .details =
         "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures the points of a pattern without a file.\n"
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"

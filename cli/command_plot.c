@@ -144,7 +144,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
-    {'c', "curve", "KIND", "points (default), power, radial, anisotropy, pairs or convergence"},
+    {'c', "curve", "points|power|radial|anisotropy|pairs|convergence", "what is drawn (default: points)"},
     {0, "size", "S", "side or width of a picture in points or pixels (default: 320, charts 480)"},
     {0, "columns", "C", "points: draw C columns of cells"},
     {0, "rows", "R", "points: draw R rows of cells"},
@@ -153,7 +153,7 @@ static const cli_option options[] = {
     {0, "witness", "MEASURE", "points: draw the region where this measure's supremum is reached, with its value"},
     {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence: of this measure (default: l2-star)"},
-    {0, "sizes", "LIST", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},
+    {0, "sizes", "N,..", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},
     CLI_CURVE_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

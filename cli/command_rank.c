@@ -169,8 +169,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'n', "spp", "N,N,...", "samples a pixel, one ranking for each (default: 4,16,64)"},
-    {'p', "patterns", "LIST", "patterns with commas between, or thesis or later (default: thesis)"},
+    {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
+    {'p', "patterns", "PATTERN,..|thesis|later", "what is ranked (default: thesis)"},
     {0, "size", "WxH", "pixels (default: the scene's, halved until a ranking fits into the time)"},
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     CLI_ROW_OPTIONS,
@@ -181,7 +181,7 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "which pattern leaves the least error in a scene",
-    .synopsis = "SCENE [--spp N,N,...] [--patterns LIST] [--size WxH] [--time-limit S] [--json]",
+    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--time-limit S] [--json]",
     .details =
         "Renders the scene again and again with every pattern until the ranking is clear or the time is up: each\n"
         "pattern's mean absolute error with its 95 % interval; patterns that can't be told apart share a place.\n"

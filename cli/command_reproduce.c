@@ -121,7 +121,7 @@ static const cli_option option_table[] = {
     {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
-    {0, "table", "ID", "table to print at the end, or none (default: the plan's first)"},
+    {0, "table", "ID|none", "table to print at the end (default: the plan's first)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

@@ -322,7 +322,7 @@ static const cli_option options[] = {
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
     {0, "reference", "FILE", "images: what they are compared with"},
-    {0, "format", "F", "export: csv, json or npy (default: by the file's ending, else csv)"},
+    {0, "format", "csv|json|npy", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

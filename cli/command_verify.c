@@ -115,7 +115,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'e', "expect", "NAMES", "exit with 1 unless these properties, separated by commas, all hold"},
+    {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
     {'s', "seed", "S", "seed for SPEC sources (default: 0)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -125,7 +125,7 @@ static const cli_option options[] = {
 const cli_command cli_command_verify = {
     .name = "verify",
     .summary = "find out which properties points really have",
-    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e NAME,NAME...] [--json]",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--json]",
     .details =
         "net-base-2, -3, -5: the worst t of the (t,m,s)-nets that prefixes are, for all pairs of coordinates; "
         "stratified\n"

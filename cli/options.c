@@ -18,9 +18,10 @@ static void print_help(const cli_command *command)
     printf("koksma %s: %s\n\nusage: koksma %s%s%s\n\n", command->name, command->summary, command->name,
            *command->synopsis ? " " : "", command->synopsis);
     for (const cli_option *o = command->options; o->name; o++) {
-        char left[64];
-        snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);
-        printf(o->letter ? "  -%c, %-22s %s\n" : "  %c   %-22s %s\n", o->letter ? o->letter : ' ', left, o->help);
+        char left[96];
+        const int used = snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);
+        printf(o->letter ? "  -%c, %-22s" : "  %c   %-22s", o->letter ? o->letter : ' ', left);
+        printf(used > 22 ? "\n%28s %s\n" : "%.0s %s\n", "", o->help);
     }
     printf("      %-22s %s\n", "--help", "this text");
     if (command->details) {

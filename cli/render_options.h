@@ -8,13 +8,13 @@
 #include "cli.h"
 
 #define CLI_SAMPLING_OPTIONS                                                                                         \
-    {0, "pairing", "P", "of a pixel's uses: shuffled, aligned or native (default: shuffled)"},                       \
-        {0, "scope", "S", "of a pattern: pixel or image (default: pixel)"},                                          \
-        {0, "lights", "L",                                                                                           \
-         "shadow rays go to all, or to one light: one (by estimate), power or uniform (default: all)"},              \
-        {0, "integrator", "I", "see 'koksma list integrators' (default: distribution)"},                             \
+    {0, "pairing", "shuffled|aligned|native", "of a pixel's uses (default: shuffled)"},                              \
+        {0, "scope", "pixel|image", "of a pattern (default: pixel)"},                                                \
+        {0, "lights", "all|one|power|uniform",                                                                       \
+         "shadow rays go to all, or to one light: by estimate (one), power or uniformly (default: all)"},            \
+        {0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution)"},                    \
         {0, "depth", "D", "bounces at most (default: the integrator's)"},                                            \
-        {0, "filter", "F", "of pixels: see 'koksma list filters' (default: box)"},                                   \
+        {0, "filter", "FILTER", "of pixels: see 'koksma list filters' (default: box)"},                              \
     {                                                                                                                \
         0, "splat", NULL, "spread samples over all pixels in the filter's reach, instead of drawing from it"         \
     }

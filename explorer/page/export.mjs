@@ -39,22 +39,23 @@ export function save(name, type, content) {
 const quote = word => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 const command = (...words) => ["koksma", ...words].map(quote).join(" ");
 
-// file: the name under which the points of a set with moved points are saved.
-export function commands({ set, file, measures, witness, strata, layout, decay, sizes }) {
+// file: the name under which the points of a set with moved points are saved. layout: the strata that are drawn, or null.
+export function commands({ set, file, measures, witness, axes, layout, decay, sizes }) {
   const edited = set.edits.size > 0, source = edited ? file : `pattern:${sourceOf(set)}`;
-  const seed = edited || set.seed === "0" ? [] : ["--seed", set.seed], lines = [];
+  const patternSeed = set.seed === "0" ? [] : ["--seed", set.seed], seed = edited ? [] : patternSeed, lines = [];
   if (!edited) lines.push(command("generate", set.spec, "-n", set.n, ...(set.dim === 2 ? [] : ["-d", set.dim]), ...seed, "-o", file));
   if (measures.length) lines.push(command("measure", source, ...seed, "-m", measures.join(",")));
-  if (set.dim === 2) {
-    const drawn = strata.kind === "rooks" ? ["--rooks"] : layout ? ["--grid", `${layout.columns}x${layout.rows}`] : [];
+  if (set.dim === 2 && axes[0] === 0 && axes[1] === 1) { // the program's are no other coordinates
+    const drawn = layout?.rooks ? ["--rooks"] : layout ? ["--grid", `${layout.columns}x${layout.rows}`] : [];
     lines.push(command("plot", source, ...seed, ...drawn, ...(witness ? ["--witness", witness] : []), "-o", file.replace(".csv", ".svg")));
     lines.push(command("curve", "rings", source, ...seed));
   }
-  if (edited || decay.of === "prefixes") {
-    if (sizes.length) lines.push(command("measure", source, ...seed, "-m", decay.spec, "--prefixes", sizes.join(",")));
+  if (sizes.length && decay.of === "prefixes") {
+    lines.push(command("measure", source, ...seed, "-m", decay.spec, "--prefixes", sizes.join(",")));
   } else if (sizes.length) {
-    const { spec, dim } = set;
-    lines.push(command("measure", ...sizes.map(n => `pattern:${sourceOf({ spec, n, dim })}`), ...seed, "-m", decay.spec));
+    // Fresh sets of the pattern, wherever the points of this one were moved.
+    const { spec, dim } = set, fresh = sizes.map(n => `pattern:${sourceOf({ spec, n, dim })}`);
+    lines.push(command("measure", ...fresh, ...patternSeed, "-m", decay.spec));
   }
   return lines;
 }

@@ -7,7 +7,7 @@ import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
 import { SetView } from "./set_view.mjs";
 import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
-import { fromHash, limits, newSet, sourceOf, toHash } from "./state.mjs";
+import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mjs";
 import { exponent, strataOf } from "./strata.mjs";
 
 const ranks = { points: 0, spectrum: 12, quality: 25, decay: 30 };
@@ -45,7 +45,7 @@ function drawSets() {
     });
     view.sentence.textContent = view.points && state.witness ? measures.sentence(state.witness, name, view.points.n) : "";
     view.showPoint();
-    view.lines.textContent = commandLines(name);
+    if (!view.waiting) view.showCommands(commandLines(name), view.points && set.edits.size ? fileOf(name) : "");
   }
 }
 
@@ -56,11 +56,10 @@ function drawSpectra() {
 function commandLines(name) {
   const set = state[name], view = views[name];
   if (!view.points) return "";
-  const layout = strataOf(state.strata, set.n, limits);
   const asked = measures.values(name).map(value => value.measure);
   return commands({
     set, file: fileOf(name), measures: asked, witness: measures.witness(state.witness, name) ? measures.spec(state.witness) : "",
-    strata: state.strata, layout: layout && !layout.rooks ? layout : null,
+    axes: axesOf(set), layout: strataOf(state.strata, set.n, limits),
     decay: { spec: measures.spec(state.decay.measure), of: state.decay.of }, sizes: decay.sizes(name),
   }).join("\n");
 }
@@ -89,7 +88,10 @@ function showAxes() {
 
 function keepHash() {
   clearTimeout(hashTimer);
-  hashTimer = setTimeout(() => history.replaceState(null, "", "#" + toHash(state)), 150);
+  hashTimer = setTimeout(() => {
+    history.replaceState(null, "", "#" + toHash(state));
+    for (const name of shownNames()) views[name].showLost(!movesFit(state[name]));
+  }, 150);
 }
 
 // ---- What is asked for
@@ -132,12 +134,12 @@ function measureOne(name, measure) {
 function refresh(name) {
   const { spec, n, dim, seed } = state[name], view = views[name];
   jobs.drop(`${name}/`);
-  view.node.setAttribute("aria-busy", "true");
+  view.wait(true);
   jobs.ask(`${name}/points`, ranks.points, { kind: "generate", spec, n, dim, seed: BigInt(seed) }, answer => {
-    view.node.removeAttribute("aria-busy");
     view.fail(answer.error || "");
     view.points = answer.points || null;
     view.original = answer.points ? answer.points.xs.slice() : null;
+    view.wait(false);
     measures.forget(name);
     if (answer.error) {
       measures.clear(name);
@@ -157,6 +159,7 @@ function refresh(name) {
 }
 
 function moved(name, i, place) {
+  if (!views[name].current) return; // the picture shows a set that is about to go
   const set = state[name], { points } = views[name], at = i * points.dim;
   axesOf(set).slice(0, Math.min(points.dim, 2)).forEach((axis, k) => { points.xs[at + axis] = place[k]; });
   set.edits.set(i, [...points.xs.subarray(at, at + points.dim)]);
@@ -188,7 +191,6 @@ function openSet(name) {
     copy: text => navigator.clipboard.writeText(text).then(() => tell("Copied."), () => tell("The browser does not let this page copy; the commands can be selected.")),
     removed: name === "b" ? () => setOther(null) : null,
   });
-  view.points = null;
   view.remeasure = () => {
     if (!view.points || !state[name]) return;
     measureAll(name);

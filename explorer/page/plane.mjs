@@ -14,7 +14,7 @@ const placeOf = (points, axes, i) =>
 
 function drawStrata(points, axes, strata) {
   const layout = points.dim > 1 && strataOf(strata, points.n, limits);
-  if (!layout || layout.columns * (layout.rooks ? 1 : layout.rows) > limits.n) return [[], ""];
+  if (!layout) return [[], ""];
   const { columns, rows, rooks } = layout;
   const cells = countPoints(layout, points, axes), { each, text } = judgeStrata(layout, cells, points.n);
   const areas = { empty: "", crowded: "" };

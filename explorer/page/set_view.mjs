@@ -30,6 +30,7 @@ export class SetView {
     this.params = element("div", { class: "params" });
     this.problem = element("p", { class: "problem", role: "alert" });
     this.sentence = element("p", { class: "note sentence" });
+    Object.assign(this, { points: null, waiting: false });
     this.about = element("details", { class: "about" });
     this.makePointFields(id);
     this.makeExports(id);
@@ -59,18 +60,43 @@ export class SetView {
         }
       };
     }
+    this.lost = element("p", { class: "note lost", role: "status" });
     this.point = element("div", { class: "point", role: "group", "aria-label": `Set ${this.label}: the chosen point` },
-      field("Point", this.index.id, this.index), field("x", this.x.id, this.x), field("y", this.y.id, this.y), this.undo);
+      field("Point", this.index.id, this.index), field("x", this.x.id, this.x), field("y", this.y.id, this.y), this.undo, this.lost);
   }
 
   makeExports(id) {
     this.lines = element("pre", { id: id("commands"), tabindex: 0, "aria-label": `Set ${this.label}: the program's commands` });
-    this.exports = element("div", { class: "exports" },
-      element("div", { class: "buttons" },
-        button("Save SVG", `Set ${this.label}: save the picture`, () => this.events.saveSvg()),
-        button("Save CSV", `Set ${this.label}: save the points`, () => this.events.saveCsv()),
-        button("Copy commands", `Set ${this.label}: copy the program's commands`, () => this.events.copy(this.lines.textContent))),
-      element("h3", {}, "The same from the program"), this.lines);
+    this.takeaways = [
+      button("Save SVG", `Set ${this.label}: save the picture`, () => this.events.saveSvg()),
+      button("Save CSV", `Set ${this.label}: save the points`, () => this.events.saveCsv()),
+      button("Copy commands", `Set ${this.label}: copy the program's commands`, () => this.events.copy(this.lines.textContent))];
+    this.linesTitle = element("h3", {});
+    this.exports = element("div", { class: "exports" }, element("div", { class: "buttons" }, ...this.takeaways), this.linesTitle, this.lines);
+  }
+
+  // The points of the set that the controls show; null: there are none, or not yet, and those of the picture are another's.
+  get current() {
+    return this.waiting ? null : this.points;
+  }
+
+  // New points are on their way, or here.
+  wait(waiting) {
+    this.waiting = waiting;
+    this.node.setAttribute("aria-busy", waiting);
+    for (const node of this.takeaways) node.disabled = !this.current;
+  }
+
+  // What the program has to be told; file: what has to be saved before, or "".
+  showCommands(text, file) {
+    this.linesTitle.textContent = `The same from the program${file ? `, where the points are saved as ${file}` : ""}`;
+    this.lines.textContent = text;
+  }
+
+  // Whether the address has no room for the moved points.
+  showLost(lost) {
+    this.lost.textContent = lost ? "So many moved points are too long for the address of this page: it has the set without its moves. " +
+      "Save CSV keeps them." : "";
   }
 
   get member() {
@@ -142,6 +168,6 @@ export class SetView {
       input.value = gone ? "" : points.xs[selected * points.dim + axes[k]];
       input.disabled = gone;
     }
-    this.undo.disabled = !this.set?.edits.size;
+    this.undo.disabled = !this.set?.edits.size || !this.current;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page shows, and its text after the # of the address, so that a view can be kept and shared.
 
-export const limits = { n: 16384, dim: 8, spectrum_n: 16384, rooks_n: 512, answer_s: 20, hash_edits: 200 };
+export const limits = { n: 16384, dim: 8, spectrum_n: 16384, rooks_n: 512, answer_s: 20, moves_text: 15000 };
 
 export const strataKinds = ["none", "grid", "rooks", "elementary"];
 
@@ -33,11 +33,14 @@ export function parseSeed(text) {
 const editsText = edits => [...edits].map(([i, xs]) => `${i}:${xs.join(",")}`).join(";");
 
 function parseEdits(text, set) {
-  for (const item of text.split(";").slice(0, limits.hash_edits)) {
+  for (const item of text.split(";")) {
     const match = /^(\d+):([\d.,e-]+)$/.exec(item), xs = match ? match[2].split(",").map(Number) : [];
     if (match && +match[1] < set.n && xs.length === set.dim && xs.every(x => x >= 0 && x <= 1)) set.edits.set(+match[1], xs);
   }
 }
+
+// Of two sets they are an address of 32 kB at most, which browsers show and copy whole; a move in the plane is some 20 letters.
+export const movesFit = set => editsText(set.edits).length <= limits.moves_text;
 
 export function toHash(state) {
   const query = new URLSearchParams();
@@ -46,7 +49,7 @@ export function toHash(state) {
     if (!set) continue;
     query.set(name, sourceOf(set));
     query.set(`${name}.seed`, set.seed);
-    if (set.edits.size > 0 && set.edits.size <= limits.hash_edits) query.set(`${name}.moved`, editsText(set.edits));
+    if (set.edits.size > 0 && movesFit(set)) query.set(`${name}.moved`, editsText(set.edits));
   }
   const s = state.strata;
   query.set("strata", { grid: `grid:${s.columns}x${s.rows}`, elementary: `elementary:${s.base},${s.split}` }[s.kind] || s.kind);
@@ -55,7 +58,7 @@ export function toHash(state) {
   query.set("decay", `${state.decay.measure}:${state.decay.of}`);
   const changed = Object.values(state.measures);
   if (changed.length) query.set("measures", changed.join("|"));
-  return String(query).replace(/%(3A|40|2C|3B|3D|7C)/g, decodeURIComponent);
+  return String(query).replace(/%(3A|3B|40|2C|3D|7C)/g, decodeURIComponent);
 }
 
 // The state of a hash; what it lacks or has wrong is as in a new one.

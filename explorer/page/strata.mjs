@@ -23,11 +23,12 @@ export function exponent(n, base) {
   return m;
 }
 
-// { columns, rows } of cells, or null; { rooks } for n columns and n rows apart from each other.
+// { columns, rows } of cells, or null for none, or too many to draw; { rooks } for n columns and n rows apart from each other.
 export function strataOf(strata, n, limits) {
   if (strata.kind === "grid") {
     const columns = strata.columns || (strata.rows ? Math.max(1, Math.round(n / strata.rows)) : n / divisor(n));
-    return { columns, rows: strata.rows || Math.max(1, Math.round(n / columns)) };
+    const rows = strata.rows || Math.max(1, Math.round(n / columns));
+    return columns * rows <= limits.n ? { columns, rows } : null;
   }
   if (strata.kind === "rooks") return n <= limits.rooks_n ? { columns: n, rows: n, rooks: true } : null;
   if (strata.kind === "elementary") {

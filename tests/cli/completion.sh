@@ -10,25 +10,115 @@ PATH="$work:$PATH"
 failed=0
 complain() { echo "completion.sh: $1"; failed=1; }
 
-bash_completes() { # expected word, then the words typed
-  wanted=$1; shift
-  bash -c 'source <(koksma completion bash); COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _koksma; printf "%s\n" "${COMPREPLY[@]}"' \
-    bash "$@" | grep -qxe "$wanted" || complain "bash: '$*' does not give $wanted"
-}
-bash_completes generate koksma ge
-bash_completes n-rooks koksma generate n-
-bash_completes --seed koksma generate --se
-bash_completes jittered koksma render ball -p jit
-bash_completes ball koksma render b
-bash_completes l2-star koksma measure points.txt --measures l2-
-bash_completes scenes koksma list sc
-for shell in zsh fish; do
-  koksma completion $shell >"$work/script" || complain "no script for $shell"
-  if command -v $shell >/dev/null; then $shell -n "$work/script" || complain "$shell can't read its script"; fi
+# ---- What each shell offers: its script runs beside stand-ins for the shell's own functions ----
+# A case is a line, ^ where the cursor stands, and the words that are offered; FILES: files when none of them fits.
+cat >"$work/bash.driver" <<'END'
+source "$1"
+compopt() { no_files=1; }
+while IFS= read -r line; do
+  typed=${line%^} no_files=''
+  COMP_WORDS=(koksma ${typed//=/ = })
+  case $typed in *' '|*=) COMP_WORDS+=('') ;; esac
+  COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+  _koksma
+  echo "$line" "${COMPREPLY[@]##*,}" ${no_files:-FILES}
+done | sed 's/ 1$//'
+END
+cat >"$work/zsh.driver" <<'END'
+compset() { PREFIX=${PREFIX##$~2}; }
+compadd() { [[ $1 = -- ]] && shift; print -rn -- " ${(M)@:#$PREFIX*}"; return 1; }
+_files() { print -n ' FILES'; }
+script=$1
+koksma_completes() { source $script; }
+while IFS= read -r line; do
+  words=(koksma ${=line%^}); [[ $line = *' ^' ]] && words+=('')
+  CURRENT=$#words PREFIX=$words[-1]
+  print -rn -- "$line"; koksma_completes; print
 done
-if command -v fish >/dev/null; then
-  fish --no-config -c "source $work/script; complete -C 'koksma generate n-ro'" | grep -q '^n-rooks' || complain "fish: n-rooks"
-fi
+END
+cat >"$work/fish.driver" <<'END'
+source $argv[1]
+while read -l line
+  set -l words (complete -C "koksma $(string replace '^' '' -- $line)" | cut -f1 | string replace -r '^(--[a-z]*=|.*,)' '' | string replace a-file FILES)
+  echo "$line $words"
+end
+END
+mkdir "$work/empty"
+touch "$work/empty/a-file"
+all() { koksma list "$1" | sed 1d | cut -d' ' -f1 | tr '\n' ' '; }
+properties=$(koksma verify random@16 | sed 1d | awk '{ print $4 }' | sort -u | tr '\n' ' ')
+grep -v '^$' >"$work/cases" <<END
+generate ^ $(all patterns)
+generate n-r^ n-rooks
+generate x --progress ^ auto always never
+generate x -n ^
+generate x -o ^ FILES
+measure ^ FILES
+measure x -m ^ all $(all measures)
+measure x --measures star,l2-st^ l2-star
+measure x --warp ^ $(all warps)
+measure x --prefixes ^ powers
+curve ^ power rings quality pairs
+curve power ^ FILES
+curve power x --half ^
+verify ^ FILES
+verify x -e ^ $properties
+verify x --expect latin,prog^ progressive
+plot x -c ^ points power radial anisotropy pairs convergence
+plot x --witness ^ $(all measures)
+plot x -o ^ FILES
+render ^ $(all scenes) FILES
+render ball -p jit^ jittered
+render ball --pairing ^ shuffled aligned native
+render ball --scope ^ pixel image
+render ball --lights ^ all one power uniform
+render ball --integrator ^ $(all integrators)
+render ball --filter ^ $(all filters)
+render ball --adaptive ^ $(all adaptive)
+render ball --strata ^ FILES
+render ball --depth ^
+scene ^ check
+scene check ^ $(all scenes) FILES
+compare ^ FILES
+compare a b --max-mean ^
+rank ^ $(all scenes) FILES
+rank ball --patterns ^ thesis later $(all patterns)
+rank ball --patterns later,n-r^ n-rooks
+rank ball --spp ^
+study ^ run new estimate export report images
+study run ^ shirley1991 mitchell1992 open-questions FILES
+study estimate ^ shirley1991 mitchell1992 open-questions FILES
+study export ^ FILES
+study export x --format ^ csv json npy
+study export x --format=js^ json
+study images ^ FILES
+study images x --reference ^ FILES
+reproduce ^ shirley1991 mitchell1992 open-questions FILES
+reproduce shirley1991 --table ^ none
+reproduce shirley1991 -o ^ FILES
+list ^ patterns measures scenes integrators filters uses adaptive warps parameters
+list patterns ^
+completion ^ bash zsh fish
+manual scen^ scene
+version ^
+END
+sort_words() { awk '{ at = index($0, "^"); n = split(substr($0, at + 1), w, " "); printf "%s", substr($0, 1, at)
+  while (n > 0) { m = 1; for (i = 2; i <= n; i++) if (w[i] < w[m]) m = i; printf " %s", w[m]; w[m] = w[n--] }; print "" }'; }
+sort_words <"$work/cases" >"$work/wanted"
+sed 's/^\([^^]*^\).*/\1/' "$work/cases" >"$work/lines"
+for shell in bash zsh fish; do
+  koksma completion $shell >"$work/script" || complain "no script for $shell"
+  command -v $shell >/dev/null || continue
+  $shell -n "$work/script" || complain "$shell can't read its script"
+  case $shell in bash) plain=--norc ;; zsh) plain=-f ;; fish) plain=--no-config ;; esac
+  (cd "$work/empty" && $shell $plain "$work/$shell.driver" "$work/script" <"$work/lines") 2>&1 | sort_words >"$work/$shell.offers"
+  diff "$work/wanted" "$work/$shell.offers" >"$work/difference" || complain "$shell offers other words (>) than wanted (<): $(cat "$work/difference")"
+done
+# The words of choices are the program's own.
+for option in pairing scope lights; do
+  said=$(koksma render ball --$option x -o x.pfm 2>&1 | sed 's/.* one of //; s/,//g')
+  grep -qxF "render ball --$option ^ $said" "$work/cases" || complain "--$option takes $said"
+done
 for command in "" $(koksma --help | sed -n 's/^  \([a-z]*\)  *[a-z].*/\1/p'); do
   koksma manual $command >"$work/page" || complain "no page for '$command'"
   if command -v man >/dev/null; then

@@ -3,94 +3,11 @@
 // Exit code 77: skipped.
 "use strict";
 const fs = require("fs");
-const os = require("os");
 const path = require("path");
-const { execFileSync, execSync } = require("child_process");
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
-let playwright;
-try { playwright = require(require.resolve("playwright-core", { paths: [process.env.KOKSMA_NODE || ".", "."] })); } catch { playwright = null; }
-if (!chromium || !playwright) {
-  console.log("skipped: " + (chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
-  process.exit(77);
-}
-const [program, html, screenshots] = process.argv.slice(2).map(p => fs.realpathSync(p));
-const address = "file://" + html;
-const folder = fs.mkdtempSync(path.join(os.tmpdir(), "koksma-explorer-"));
-fs.mkdirSync(path.join(folder, "bin"));
-fs.symlinkSync(program, path.join(folder, "bin/koksma"));
-const problems = [];
-let checks = 0;
-const check = (good, text) => { checks++; if (!good) problems.push(text); };
-const run = (...words) => execFileSync(program, words.map(String), { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], cwd: folder });
-const refusal = (...words) => { try { run(...words); return ""; } catch (error) { return error.stderr.trim(); } };
-const table = text => text.trim().split("\n").slice(1).map(line => line.split(/ {2,}/));
-
-// Text against what is behind it, as WCAG 2.1 counts it; names of pictures and controls; ids.
-const accessibility = () => {
-  const found = [], parse = c => (c.match(/[\d.]+/g) || []).map(Number);
-  const light = ([r, g, b]) => [r, g, b].map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
-    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
-  const behind = e => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
-  for (const e of document.querySelectorAll("body *")) {
-    if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) || !e.checkVisibility() || e.disabled) continue;
-    const style = getComputedStyle(e), ink = light(parse(e instanceof SVGElement ? style.fill : style.color)), paper = light(behind(e));
-    const ratio = (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
-    if (ratio < 4.5) found.push(`${e.tagName} "${e.textContent.slice(0, 20)}": contrast ${ratio.toFixed(2)}`);
-  }
-  for (const e of document.querySelectorAll("canvas, img, body > svg, :not(svg, g) > svg")) if (e.checkVisibility() && !e.getAttribute("aria-label") && !e.alt) found.push(`${e.outerHTML.slice(0, 60)}: no name`);
-  for (const e of document.querySelectorAll("input, select, button, textarea")) if (!e.labels?.length && !e.textContent.trim()) found.push(`${e.outerHTML.slice(0, 60)}: no label`);
-  const ids = [...document.querySelectorAll("[id]")].map(e => e.id);
-  ids.filter((id, i) => ids.indexOf(id) !== i).forEach(id => found.push(`id ${id} twice`));
-  for (const e of document.querySelectorAll("[aria-labelledby], [aria-describedby]")) {
-    for (const id of `${e.getAttribute("aria-labelledby") || ""} ${e.getAttribute("aria-describedby") || ""}`.trim().split(" ")) if (!document.getElementById(id)) found.push(`no id ${id}`);
-  }
-  if (document.documentElement.scrollWidth > innerWidth) found.push(`the page is ${document.documentElement.scrollWidth} wide, the window ${innerWidth}`);
-  if (!document.documentElement.lang || !document.title || document.querySelectorAll("h1").length !== 1) found.push("language, title or h1");
-  return [...new Set(found)];
-};
-
-async function open(browser, { hash = "", colorScheme = "light", width = 1280, before, limit_s } = {}) {
-  const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, acceptDownloads: true });
-  const page = await context.newPage();
-  page.on("console", m => check(!["error", "warning"].includes(m.type()), "console: " + m.text()));
-  page.on("pageerror", e => check(false, "error: " + e.stack));
-  page.on("request", r => check(/^(file|data|blob):/.test(r.url()), "network: " + r.url()));
-  if (before) await page.addInitScript(before);
-  await page.goto(address + hash);
-  if (limit_s) {
-    await page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting"));
-    await page.evaluate(seconds => koksmaExplorer.limit(seconds), limit_s);
-  }
-  await idle(page);
-  return page;
-}
-const idle = page => page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy(), null, { timeout: 240000 });
-const set = async (page, selector, value) => {
-  await page.locator(selector).fill(String(value));
-  await page.locator(selector).press("Tab");
-  await idle(page);
-};
-const choose = async (page, selector, value) => { await page.locator(selector).selectOption(value); await idle(page); };
-const values = (page, which) => page.evaluate(column => Object.fromEntries([...document.querySelectorAll("#measures tr")].map(row => {
-  const cell = row.cells[column];
-  return [row.dataset.measure, cell.querySelector(".why") ? { why: cell.textContent } : cell.textContent];
-})), which === "b" ? 2 : 1);
-const saved = async (page, which, button) => {
-  const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`.set-${which} button`, { hasText: button }).click()]);
-  await file.saveAs(path.join(folder, file.suggestedFilename()));
-  return path.join(folder, file.suggestedFilename());
-};
-const commandLines = async (page, which) => (await page.locator(`#${which}-commands`).textContent()).split("\n");
-const shell = line => execSync(line, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, PATH: `${folder}/bin:${process.env.PATH}` } });
-
-// All values of a set of the page, beside the program's for source.
-async function compare(page, which, source, ...args) {
-  const ours = await values(page, which), theirs = table(run("measure", source, "-m", "all", ...args));
-  for (const row of theirs) check(ours[row[3].split(":")[0]] === row[4], `${source} ${row[3]}: page ${JSON.stringify(ours[row[3]])}, program ${row[4]}`);
-  const served = theirs.map(row => row[3]);
-  for (const [name, value] of Object.entries(ours)) if (!served.includes(name)) check(value.why, `${source} ${name}: the program doesn't serve it, the page says ${value}`);
-  return ours;
-}
+const {
+  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, open, playwright, refusal, report, run,
+  saved, screenshots, set, shell, table, values,
+} = require("./harness.cjs");
 
 async function controls(page) {
   check((await page.locator("#a-pattern").inputValue()) === "n-rooks", "the pattern at the start");
@@ -118,12 +35,14 @@ async function controls(page) {
   const words = refusal("generate", "jittered", "-n", 17), said = await page.locator(".set-a .problem").textContent();
   check(said && words.endsWith(said), `17 jittered points: "${said}", the program "${words}"`);
   check(!Object.values(await values(page, "a")).some(v => v), "values of no points");
+  check(await page.locator(".set-a .buttons button:disabled").count() === 3, "no points can be saved");
   // What the page refuses leaves the set as it is.
   await page.locator("#a-n").fill("20000");
   await page.locator("#a-n").press("Tab");
   check((await page.evaluate(() => koksmaExplorer.hash())).includes("a=jittered@17"), "20,000 points are taken");
   await set(page, "#a-n", 16);
   check(!(await page.locator(".set-a .problem").textContent()), "the problem stays");
+  check(await page.locator(".set-a .buttons button:enabled").count() === 3, "16 points can't be saved");
   // Three dimensions.
   await choose(page, "#a-pattern", "halton");
   await set(page, "#a-dim", 3);
@@ -275,6 +194,54 @@ async function comparing(page) {
   check(!(await page.evaluate(() => koksmaExplorer.hash())).includes("&b="), "set B is not removed");
 }
 
+async function commandsOfStates(browser) {
+  const moves = "&a.moved=0:0,1;3:0.25,0.5", one = "#a=multi-jittered@30&a.seed=3", two = `#a=sobol@64&a.seed=5${moves}&b=jittered@25&b.seed=4`;
+  for (const [hash, ...wanted] of [
+    [`${one}${moves}`, "measure plot curve sets"], [`${one}${moves}&decay=l2-star:prefixes`, "measure plot curve --prefixes"],
+    [`${one}&decay=diaphony:sets&witness=extreme`, "generate measure plot curve sets"],
+    [`${one}&decay=star:prefixes&axes=1,0`, "generate measure --prefixes"],
+    [`${two}&decay=diaphony:sets&strata=rooks`, "measure plot curve sets", "generate measure plot curve sets"],
+    [`${two}&decay=diaphony:prefixes&strata=elementary:2,3`, "measure plot curve --prefixes", "generate measure plot curve --prefixes"],
+    ["#a=halton@20@3&a.moved=1:0.5,0.25,1&witness=none", "measure sets"],
+    ["#a=random@600&strata=rooks&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],
+    ["#a=random@16&strata=grid:9000x2&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],
+  ]) {
+    const page = await open(browser, { hash, limit_s: 5 });
+    for (const [i, which] of ["a", "b"].slice(0, wanted.length).entries()) {
+      const kinds = await commandsAgree(page, which, hash);
+      check(kinds === wanted[i], `${hash}: set ${which} has the commands ${kinds}`);
+      const drawn = await page.locator(`.set-${which} .strata-text`).textContent(), lines = await page.locator(`#${which}-commands`).textContent();
+      check(!kinds.includes("plot") || Boolean(drawn) === /--(grid|rooks)/.test(lines), `${hash}: strata "${drawn}" and ${lines}`);
+    }
+    await page.context().close();
+  }
+}
+
+// Many moved points are in the address, or the page says that they aren't.
+async function manyMoves(browser) {
+  for (const [n, fit] of [[300, true], [900, false]]) {
+    const moves = Array.from({ length: n }, (_, i) => `${i}:${+(i / n).toFixed(6)},0.123457`).join(";");
+    const page = await open(browser, { hash: `#a=random@900&a.moved=${moves}`, limit_s: 1 });
+    await page.waitForTimeout(300);
+    const hash = await page.evaluate(() => location.hash), said = await page.locator(".set-a .lost").textContent();
+    check(hash.includes(`moved=${moves}`) === fit && said.includes("too long") !== fit, `${n} moved points: "${said}" ${hash.slice(0, 80)}`);
+    const row = table(run("measure", await saved(page, "a", "Save CSV"), "-m", "l2-star"))[0];
+    check((await values(page, "a"))["l2-star"] === row[4], `${n} moved points: l2-star is ${row[4]}`);
+    await page.context().close();
+  }
+  // A move while another set is on its way is none of that set.
+  const page = await open(browser);
+  await page.evaluate(() => {
+    const n = document.getElementById("a-n"), plane = document.querySelector(".set-a svg.plane");
+    n.value = 9;
+    n.dispatchEvent(new Event("change"));
+    for (const key of ["n", "p", "ArrowRight"]) plane.dispatchEvent(new KeyboardEvent("keydown", { key }));
+  });
+  await idle(page);
+  await compare(page, "a", "pattern:n-rooks@9");
+  await page.context().close();
+}
+
 async function guards(browser) {
   // Addresses with nonsense open a page that works.
   for (const hash of ["#a=nonsense@16", "#a=sobol@99999999&strata=elementary:9,99&axes=7,7&witness=none&measures=x:y|disk:r=9", "#%%%", "#a=sobol@16@3&b=sobol@16@2&decay=edge:prefixes"]) {
@@ -335,14 +302,13 @@ async function looks(browser) {
     await moving(page);
     await comparing(page);
     await page.context().close();
+    await commandsOfStates(browser);
+    await manyMoves(browser);
     await guards(browser);
     await looks(browser);
   } catch (error) {
     check(false, error.stack);
   }
   await browser.close();
-  fs.rmSync(folder, { recursive: true });
-  problems.forEach(text => console.log(text));
-  console.log(`page: ${checks} checks, ${problems.length} problems`);
-  process.exit(problems.length ? 1 : 0);
+  report();
 })();
