@@ -106,6 +106,105 @@ static void triangle_is_affine(void **state)
     koksma_points_fini(&q);
 }
 
+/* The share of the domain where x cos + y sin <= c. */
+static double mass_below(koksma__domain_kind kind, double angle, double c)
+{
+    const double a = cos(angle), b = sin(angle);
+    return koksma__domains[kind].area_below_through(a, b, (double[2]){a * c, b * c});
+}
+
+/* Lines of 720 directions through each point: a lower bound of the supremum. The points on a line count with it, and
+   without. */
+static double worst_of_many_lines(koksma__domain_kind kind, size_t n, const double *xs)
+{
+    double worst = 0;
+    for (int turn = 0; turn < 720; turn++) {
+        const double angle = 2 * M_PI * turn / 720, a = cos(angle), b = sin(angle);
+        for (size_t p = 0; p < n; p++) {
+            const double c = a * xs[2 * p] + b * xs[2 * p + 1], mass = mass_below(kind, angle, c);
+            double closed = 0, open = 0;
+            for (size_t i = 0; i < n; i++) {
+                const double here = a * xs[2 * i] + b * xs[2 * i + 1];
+                closed += here <= c + 1e-12;
+                open += here < c - 1e-12;
+            }
+            worst = fmax(worst, fmax(closed / (double)n - mass, mass - open / (double)n));
+        }
+    }
+    return worst;
+}
+
+/* Points that repeat in the domain's centre, corners and sides (kinds 1 and 4 of sets.h), alone and among others. */
+static void edges_beat_every_line(void **state)
+{
+    (void)state;
+    static const char *const warps[] = {"concentric-disk", "polar-disk", "triangle", "triangle-heitz"};
+    static const size_t sizes[] = {1, 2, 5, 9};
+    for (int round = 0; round < 4 * 4 * SETS_KINDS * 4; round++) {
+        const koksma_warp *warp = koksma_warp_find(warps[round % 4]);
+        const size_t n = sizes[round / 4 % 4];
+        koksma_points p = sets_points(n, 2, round / 16 % SETS_KINDS, (uint64_t)round);
+        for (size_t i = 2; i < n && round / 96 == 3; i++) { /* most of them are the first */
+            p.xs[2 * i] = p.xs[0];
+            p.xs[2 * i + 1] = p.xs[1];
+        }
+        double mapped[18];
+        for (size_t i = 0; i < n; i++) {
+            warp->map(p.xs + 2 * i, mapped + 2 * i);
+        }
+        const koksma_value edge = measure_warped(warp->name, "edge", &p);
+        const double worst = worst_of_many_lines((koksma__domain_kind)warp->domain, n, mapped);
+        assert_true(edge.exact && edge.value > 0 && edge.value <= 1);
+        if (!(edge.value >= worst - 1e-10)) {
+            sets_print(&p);
+            fail_msg("%s: edge is %.17g, a line gives %.17g", warp->name, edge.value, worst);
+        }
+        assert_near(fabs((double)edge.witness.count / (double)n - edge.witness.volume), edge.value, 1e-14);
+        koksma_points_fini(&p);
+    }
+}
+
+/* Known exactly: k of n points in a corner of the triangle are a half-plane of no area; a point in the disk's centre
+   has half of it on each side. */
+static void edges_at_corners_and_centres(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *warp;
+        double at[2];
+        size_t at_it, n;
+        double value; /* at least */
+    } cases[] = {
+        {"concentric-disk", {0.5, 0.5}, 1, 1, 0.5},
+        {"polar-disk", {0, 0.3}, 1, 1, 0.5},
+        {"polar-disk", {0, 0.3}, 4, 4, 0.5},
+        {"triangle", {0, 0}, 1, 1, 1},
+        {"triangle", {1, 1}, 2, 2, 1},
+        {"triangle", {1, 0}, 3, 3, 1},
+        {"triangle", {0, 0}, 5, 6, 5. / 6},
+        {"triangle", {1, 1}, 5, 6, 5. / 6},
+        {"triangle-heitz", {0, 0}, 5, 6, 5. / 6},
+        {"triangle-heitz", {1, 0}, 5, 6, 5. / 6},
+        {"triangle-heitz", {0, 1}, 5, 6, 5. / 6},
+        {"triangle", {1, 0}, 3, 5, 3. / 5},
+        {"concentric-disk", {1, 0.5}, 3, 5, 3. / 5},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        double xs[12];
+        for (size_t i = 0; i < cases[c].n; i++) {
+            const bool at_it = i < cases[c].at_it;
+            xs[2 * i] = at_it ? cases[c].at[0] : i % 2 ? 0.5 : 0.1;
+            xs[2 * i + 1] = at_it ? cases[c].at[1] : i % 2 ? 0.3 : 0.9;
+        }
+        const koksma_points p = {cases[c].n, 2, xs};
+        const double value = measure_warped(cases[c].warp, "edge", &p).value;
+        assert_true(value >= cases[c].value - 1e-14);
+        if (cases[c].at_it == cases[c].n) {
+            assert_near(value, cases[c].value, 1e-14);
+        }
+    }
+}
+
 static void others_say_what_is_taken(void **state)
 {
     (void)state;
@@ -127,6 +226,8 @@ int main(void)
         cmocka_unit_test(potentials_are_means_over_the_square),
         cmocka_unit_test(edges_agree_with_random_lines),
         cmocka_unit_test(triangle_is_affine),
+        cmocka_unit_test(edges_beat_every_line),
+        cmocka_unit_test(edges_at_corners_and_centres),
         cmocka_unit_test(others_say_what_is_taken),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

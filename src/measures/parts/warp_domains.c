@@ -35,10 +35,11 @@ static double below_in_disk(double a, double b, const double p[2])
     return (acos(-h) + h * sqrt((1 - h) * (1 + h))) / M_PI;
 }
 
-/* Across the radius; for the centre every chord is. */
+/* Across the radius. The centre bisects every chord, with the same area on each side: one stands for all. */
 static void chords_of_disk(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
-    chords[0] = (koksma__chord){{0, p[1]}, {p[0], 0}};
+    const bool central = p[0] == 0 && p[1] == 0;
+    chords[0] = central ? (koksma__chord){{1, 0}, {0, 0}} : (koksma__chord){{0, p[1]}, {p[0], 0}};
 }
 
 /* The mean distance of p from a uniform point of the disk: (4/9 pi) ((rho^2 + 7) E - 4 (1 - rho^2) K), with the
@@ -103,13 +104,19 @@ static double below_in_triangle(double a, double b, const double p[2])
 }
 
 /* With barycentric shares b and c at the far corners of two edges from a corner, p is the middle of the points at 2b
-   and 2c along these edges. */
+   and 2c along these edges. In a corner that chord has no length, and lines that only touch the triangle cut nothing
+   off: those along the two edges. Maps round: a share below 0 is 0. */
 static void chords_of_triangle(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
 {
-    const double share[3] = {1 - p[0] - p[1], p[0], p[1]};
+    const double share[3] = {fmax(1 - p[0] - p[1], 0), fmax(p[0], 0), fmax(p[1], 0)};
     for (int c = 0; c < 3; c++) {
         const double s = share[(c + 1) % 3], t = share[(c + 2) % 3];
         const double *here = corners[c], *e1 = corners[(c + 1) % 3], *e2 = corners[(c + 2) % 3];
+        if (s == 0 && t == 0) {
+            chords[0] = (koksma__chord){{e1[0], here[0]}, {e1[1], here[1]}};
+            chords[1] = (koksma__chord){{e2[0], here[0]}, {e2[1], here[1]}};
+            return;
+        }
         if (s <= 0.5 && t <= 0.5) {
             chords[c].across[0] = t * (e2[0] - here[0]) - s * (e1[0] - here[0]);
             chords[c].up[0] = t * (e2[1] - here[1]) - s * (e1[1] - here[1]);
