@@ -94,7 +94,8 @@ static void put_overview(void)
         ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
         "missing or\nmalformed; 4 the system failed; 130 interrupted, what was done is kept.\n"
         ".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
-        "avx512; by itself the\nfastest that the machine has. Results are equal bit for bit.\n");
+        "avx512; by itself the\nfastest that the machine has, and one that it lacks is refused. Results are equal "
+        "bit for bit.\n");
 }
 
 static int run(const cli_arguments *arguments)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
@@ -32,8 +33,23 @@ static void print_help(FILE *stream)
           stream);
 }
 
+/* Of the environment: an instruction set that is not there would be answered by another's speed. */
+static bool kernels_are_there(void)
+{
+    const char *wish = getenv("KOKSMA_KERNELS");
+    if (!wish || !*wish || !strcmp(wish, koksma_instruction_set())) {
+        return true;
+    }
+    fprintf(stderr, "koksma: KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it\n",
+            wish);
+    return false;
+}
+
 int main(int argc, char **argv)
 {
+    if (!kernels_are_there()) {
+        return CLI_USAGE;
+    }
     if (argc < 2) {
         print_help(stderr);
         return CLI_USAGE;

@@ -61,6 +61,11 @@ KOKSMA_API int koksma_status_exit_code(koksma_status status);
    reason. Valid until this thread's next failing call. */
 KOKSMA_API const char *koksma_error_text(void);
 
+/* The instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref", the reference
+   twins. It is the first of these that the machine has; or the one that KOKSMA_KERNELS names in the environment of
+   the first call that computes, unless it names none that the machine has. Results don't depend on it. */
+KOKSMA_API const char *koksma_instruction_set(void);
+
 /* The library's version, equal to KOKSMA_VERSION of the header it was built with. */
 KOKSMA_API const char *koksma_version(void);
 
@@ -94,7 +99,7 @@ KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *poi
 
 /* Writes by the ending of the path: .csv, .npy, anything else text; "-" is text on standard output. Files are
    written whole or not at all. comment (may be NULL) becomes `# ` lines of text files. Numbers are %.17g: they
-   read back to the same bits. Errors: IO. */
+   read back to the same bits. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, IO. */
 KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment);
 
 /* ---- Parameters and specs ----------------------------------------------------------------------------- */
@@ -145,7 +150,7 @@ KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec
 KOKSMA_API koksma_status koksma_measure_spec(const char *text, koksma_spec *spec);
 
 /* The canonical text of a spec: parameters in table order, those at their default left out. This is the key under
-   which results are stored. text has room for KOKSMA_MAX_SPEC characters. */
+   which results are stored; empty for a spec of neither. text has room for KOKSMA_MAX_SPEC characters. */
 KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 
 /* ---- Patterns ----------------------------------------------------------------------------------------- */
@@ -222,7 +227,10 @@ typedef enum koksma_witness_kind {
     KOKSMA_WITNESS_DISK        /* centre lo[0], lo[1], radius hi[0] */
 } koksma_witness_kind;
 
-/* The region where a supremum is reached, so that anyone can check it by counting. */
+/* The region where a supremum is reached, so that anyone can check it by counting: in doubles, boxes by comparing
+   coordinates, half-planes by lo[0] x + lo[1] y, disks by a a + b b against hi[0] hi[0], where a = dx - round(dx) and
+   likewise b are the way from the centre on the torus. Bounds are rounded so that points on the boundary fall on the
+   side that count has them on; volume is that of the region before. */
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;
@@ -261,7 +269,8 @@ KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);
 KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
 
 /* Evaluates a measure. Points must lie in the closed unit cube; n >= 1. run may be NULL.
-   Errors: ARGUMENT (a coordinate outside [0,1]), N (too many for the method), DIM, MEMORY, INTERRUPTED. */
+   Errors: ARGUMENT (no spec of a measure, a parameter that it does not take, no points, a coordinate outside [0,1]),
+   N (too many for the method), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                                          koksma_value *out);
 

@@ -43,6 +43,11 @@ static void choose(void)
     }
 }
 
+const char *koksma_instruction_set(void)
+{
+    return koksma__kernels()->isa;
+}
+
 const koksma__kernel_table *koksma__kernels(void)
 {
     pthread_once(&once, choose);
