@@ -38,31 +38,12 @@ static koksma_status write_image(const char *path, const koksma_spectrum *s)
     return status;
 }
 
-/* The grid as numbers: rows from ky = -half to half, of kx = -half to half. */
-static koksma_status write_numbers(const char *path, const koksma_spectrum *s)
-{
-    const int side = 2 * s->half + 1;
-    koksma_points grid;
-    koksma_status status = koksma_points_init(&grid, (size_t)side, side);
-    for (int row = 0; row < side && !status; row++) {
-        for (int column = 0; column < side; column++) {
-            grid.xs[(size_t)row * (size_t)side + (size_t)column] =
-                koksma_spectrum_power(s, column - s->half, row - s->half);
-        }
-    }
-    if (!status) {
-        status = koksma_points_write(path, &grid, "power, rows of ky from below, columns of kx");
-        koksma_points_fini(&grid);
-    }
-    return status;
-}
-
 static int put_power(const curve_job *j, const char *source, const koksma_spectrum *s)
 {
     if (j->output) {
         const char *dot = strrchr(j->output, '.');
         const bool image = dot && (!strcmp(dot, ".exr") || !strcmp(dot, ".png") || !strcmp(dot, ".pfm"));
-        const koksma_status status = (image ? write_image : write_numbers)(j->output, s);
+        const koksma_status status = (image ? write_image : koksma_spectrum_write)(j->output, s);
         return status ? cli_fail(j->curves.arguments, status) : CLI_YES;
     }
     for (int ky = 0; ky <= s->half; ky++) {

@@ -39,12 +39,17 @@ enum { KOKSMA_SPECTRUM_MAX_HALF = 4096 };
 KOKSMA_API koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half);
 KOKSMA_API void koksma_spectrum_fini(koksma_spectrum *spectrum);
 
-/* Adds a set of 2D points. Errors: DIM, MEMORY, INTERRUPTED. */
+/* Adds a set of 2D points. Errors: ARGUMENT (no points, a coordinate outside [0,1], a spectrum without init), DIM,
+   MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                              koksma_spectrum_method method, const koksma_run *run);
 
 /* The mean power at a frequency; NaN outside |k| <= half. */
 KOKSMA_API double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky);
+
+/* Writes the power as koksma_points_write does points: rows of ky = -half .. half, in each kx = -half .. half.
+   Errors: ARGUMENT (a spectrum without init), MEMORY, IO. */
+KOKSMA_API koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum);
 
 /* The frequencies with frequency - 1/2 <= |k| < frequency + 1/2. */
 typedef struct koksma_ring {
@@ -72,7 +77,7 @@ KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_
 
 /* Pair correlation on the unit torus: values[b] = the density of pairs at distances b .. b+1 (times r_max/bins) over
    that of random points, n(n-1)/2 pairs in the ring's share of the area. r_max <= 1/2. Cell lists: O(n (1 + n
-   r_max^2)). Errors: DIM, ARGUMENT, MEMORY. */
+   r_max^2)). Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]), MEMORY. */
 KOKSMA_API koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins,
                                                  double *values);
 

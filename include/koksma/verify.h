@@ -46,13 +46,13 @@ typedef struct koksma_findings {
 KOKSMA_API const char *koksma_property_name_at(size_t i);
 
 /* Looks for all of them; the findings are freed by koksma_findings_fini. Projections are of the first 32 coordinates.
-   What would take too long for so many points or dimensions is left out. run may be NULL. Errors: ARGUMENT (a
-   coordinate outside [0,1]), MEMORY, INTERRUPTED. */
+   What would take too long for so many points or dimensions is left out. run may be NULL. Errors: ARGUMENT (no
+   points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
-/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: MEMORY,
- * INTERRUPTED. */
+/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: ARGUMENT (no
+   points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                                   double *distance);
 

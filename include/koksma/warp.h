@@ -38,7 +38,8 @@ KOKSMA_API const koksma_warp *koksma_warp_find(const char *name);
      l2-disk       disk: disks of fixed radius that meet it, their centres uniform within 1 + r. On the hemispheres
                    with law=area: spherical caps of any size, their area uniform up to the whole sphere (r is idle)
      disk-sampled  disk: the same disks sampled, by any law, not on a torus
-   Errors: DIM, UNSUPPORTED (another measure, or law), MEMORY, INTERRUPTED. */
+   Errors: ARGUMENT (no warp, no spec of a measure, a parameter that it does not take, no points, a coordinate outside
+   [0,1]), DIM, N (too many for the method), UNSUPPORTED (another measure, or law), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure,
                                               const koksma_points *points, const koksma_run *run, koksma_value *out);
 

@@ -16,6 +16,22 @@ koksma_status koksma__points_fit(size_t n, int dim)
                                     n, most, dim);
 }
 
+koksma_status koksma__points_check(const koksma_points *points)
+{
+    if (!points->xs || points->n == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "no points: a set has at least 1 point");
+    }
+    const koksma_status status = koksma__points_fit(points->n, points->dim);
+    const size_t n = status ? 0 : points->n * (size_t)points->dim;
+    for (size_t i = 0; i < n; i++) {
+        if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
+                                i / (size_t)points->dim, points->xs[i]);
+        }
+    }
+    return status;
+}
+
 koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
 {
     *points = (koksma_points){0};

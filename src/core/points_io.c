@@ -41,6 +41,12 @@ static bool ends_with(const char *text, const char *end)
 
 koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment)
 {
+    const koksma_status status = koksma__points_check(points);
+    return status ? status : koksma__numbers_write(path, points, comment);
+}
+
+koksma_status koksma__numbers_write(const char *path, const koksma_points *points, const char *comment)
+{
     koksma__atomic_file file;
     const koksma_status status = koksma__atomic_open(path, &file);
     if (status) {

@@ -6,12 +6,20 @@
 
 #include <koksma/koksma.h>
 
+#include "core/visibility.h"
+
 /* An error unless dim is a number of dimensions and n points of so many fit into one set. Errors: ARGUMENT, DIM. */
 koksma_status koksma__points_fit(size_t n, int dim);
 
-/* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. */
+/* An error unless there are points, they fit, and each coordinate is in [0,1] (NaN is not): what every public
+   function that takes points and has no other rule asks first. Errors: ARGUMENT, DIM. */
+KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
+
+/* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. Writers take
+   any numbers; koksma__numbers_write is koksma_points_write without its check. */
 koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
+koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment);
 void koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment);
 void koksma__points_write_csv(FILE *stream, const koksma_points *points);
 void koksma__points_write_npy(FILE *stream, const koksma_points *points);

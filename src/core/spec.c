@@ -221,9 +221,10 @@ void koksma__params_text(const koksma_param *params, const double *values, char 
         }
         char number[40];
         shortest(values[i], number, sizeof number);
+        const bool chosen = params[i].choices && values[i] >= params[i].min && values[i] <= params[i].max;
         const size_t used = strlen(text);
         snprintf(text + used, size - used, "%c%s=%s", separator, params[i].name,
-                 params[i].choices ? params[i].choices[(int)values[i]] : number);
+                 chosen ? params[i].choices[(int)values[i]] : number);
         separator = ',';
     }
 }
@@ -231,6 +232,10 @@ void koksma__params_text(const koksma_param *params, const double *values, char 
 void koksma_spec_text(const koksma_spec *spec, char *text)
 {
     const bool is_pattern = spec->pattern != NULL;
+    if (!is_pattern && !spec->measure) {
+        *text = '\0';
+        return;
+    }
     snprintf(text, KOKSMA_MAX_SPEC, "%s", is_pattern ? spec->pattern->name : spec->measure->name);
     if (is_pattern && spec->pattern->takes_path) {
         const size_t used = strlen(text);
@@ -342,33 +347,25 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     return status;
 }
 
-static koksma_status check_points(const koksma_points *points)
+koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points)
 {
-    const size_t n = points->n * (size_t)points->dim;
-    for (size_t i = 0; i < n; i++) {
-        if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
-                                i / (size_t)points->dim, points->xs[i]);
-        }
+    const koksma_measure *m = spec->measure;
+    if (!m || !points->xs || points->n == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes the spec of a measure and at least 1 point", caller);
     }
-    return KOKSMA_OK;
+    koksma_status status = check_dim(m->name, points->dim, m->min_dim, m->max_dim);
+    status = status ? status : check_params(m->name, m->params, spec->params);
+    return status ? status : koksma__points_check(points);
 }
 
 koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                               koksma_value *out)
 {
-    const koksma_measure *m = spec->measure;
-    if (!m || !points->xs || points->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "koksma_evaluate: it takes the spec of a measure and at least 1 point");
-    }
     *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
-    koksma_status status = check_dim(m->name, points->dim, m->min_dim, m->max_dim);
-    status = status ? status : check_params(m->name, m->params, spec->params);
-    status = status ? status : koksma__points_fit(points->n, points->dim);
-    status = status ? status : check_points(points);
+    koksma_status status = koksma__evaluate_check("koksma_evaluate", spec, points);
     const koksma_args args = arguments_of(spec, run);
     if (!status) {
-        status = m->eval(points, &args, out);
+        status = spec->measure->eval(points, &args, out);
     }
     if (!status && out->exact) {
         out->lower = out->upper = out->value;

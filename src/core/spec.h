@@ -11,6 +11,10 @@
 KOKSMA__LAB koksma_status koksma__params_parse(const char *owner, const koksma_param *params, const char *text,
                                                double *values);
 
+/* What koksma_evaluate asks of its arguments: a measure's spec with parameters that it takes, and points of the unit
+   cube in as many dimensions as it has a form for. caller is what errors call the function. Errors: ARGUMENT, DIM. */
+koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points);
+
 /* Appends ":key=value,…" for the parameters that are not at their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 

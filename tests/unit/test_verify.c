@@ -215,6 +215,16 @@ static void an_order_that_is_not_progressive(void **state)
     koksma_points_fini(&p);
 }
 
+static void zero_and_minus_zero_are_one_place(void **state)
+{
+    (void)state;
+    double xs[] = {0, 0.5, 0.25, 0.75, -0.0, 0.5, 1, 0.5};
+    koksma_points p = {4, 2, xs};
+    const koksma_finding f = one(&p, "repeated", "-");
+    assert_false(f.holds);
+    assert_true(f.value == 1);
+}
+
 static void points_outside_are_refused(void **state)
 {
     (void)state;
@@ -242,6 +252,7 @@ int main(void)
         cmocka_unit_test(the_origin),
         cmocka_unit_test(a_coordinate_that_rounds_to_one),
         cmocka_unit_test(an_order_that_is_not_progressive),
+        cmocka_unit_test(zero_and_minus_zero_are_one_place),
         cmocka_unit_test(points_outside_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

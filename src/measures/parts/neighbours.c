@@ -7,6 +7,7 @@
 
 #include <koksma/spectrum.h>
 
+#include "core/points_io.h"
 #include "core/status.h"
 
 typedef struct grid {
@@ -141,6 +142,10 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     if (!(r_max > 0 && r_max <= 0.5) || bins == 0) {
         return koksma__fail(KOKSMA_ARGUMENT, "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins",
                             r_max);
+    }
+    const koksma_status checked = koksma__points_check(points);
+    if (checked) {
+        return checked;
     }
     histogram h = {(double)bins / r_max, bins, values};
     memset(values, 0, bins * sizeof *values);

@@ -71,6 +71,11 @@ static void find_means(int half, const double *power, double *means, double *cou
     }
 }
 
+static koksma_status check_open(const koksma_spectrum *spectrum)
+{
+    return spectrum->power ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
+}
+
 koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                   koksma_spectrum_method method, const koksma_run *run)
 {
@@ -78,7 +83,8 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
     }
-    koksma_status status = koksma__points_fit(points->n, points->dim);
+    koksma_status status = check_open(spectrum);
+    status = status ? status : koksma__points_check(points);
     if (status) {
         return status;
     }
@@ -108,6 +114,29 @@ double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
 {
     const int half = spectrum->half, x = ky < 0 ? -kx : kx, y = abs(ky);
     return abs(kx) > half || y > half ? (double)NAN : power_at(half, spectrum->power, x, y);
+}
+
+koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum)
+{
+    const int half = spectrum->half;
+    const size_t side = side_of(half);
+    const koksma_status status = check_open(spectrum);
+    if (status) {
+        return status;
+    }
+    double *grid = malloc(side * side * sizeof *grid);
+    if (!grid) {
+        return koksma__fail_memory(side * side * sizeof *grid);
+    }
+    for (int ky = -half; ky <= half; ky++) {
+        for (int kx = -half; kx <= half; kx++) {
+            grid[(size_t)(half + ky) * side + (size_t)(half + kx)] = koksma_spectrum_power(spectrum, kx, ky);
+        }
+    }
+    const koksma_points rows = {side, (int)side, grid};
+    const koksma_status written = koksma__numbers_write(path, &rows, "power, rows of ky from below, columns of kx");
+    free(grid);
+    return written;
 }
 
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)

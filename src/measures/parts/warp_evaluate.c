@@ -11,6 +11,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "core/spec.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/parts/disk_laws.h"
@@ -144,6 +145,14 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
 koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure, const koksma_points *points,
                                    const koksma_run *run, koksma_value *out)
 {
+    *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
+    if (!warp) {
+        return koksma__fail(KOKSMA_ARGUMENT, "koksma_warp_evaluate: it takes a warp");
+    }
+    const koksma_status checked = koksma__evaluate_check("koksma_warp_evaluate", measure, points);
+    if (checked) {
+        return checked;
+    }
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name, points->dim);
     }
@@ -154,7 +163,6 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     for (size_t i = 0; i < points->n; i++) {
         warp->map(points->xs + 2 * i, mapped + i * (size_t)warp->dim);
     }
-    *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
     const koksma_status status = evaluate(warp, measure, points->n, mapped, run, out);
     if (!status && out->exact) {
         out->lower = out->upper = out->value;

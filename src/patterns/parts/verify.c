@@ -199,15 +199,9 @@ static koksma_status verify_progress(const koksma_points *points, const koksma_r
 koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
     *findings = (koksma_findings){0};
-    koksma_status status = koksma__points_fit(points->n, points->dim);
+    koksma_status status = koksma__points_check(points);
     if (status) {
         return status;
-    }
-    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
-        if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
-                                i / (size_t)points->dim, points->xs[i]);
-        }
     }
     uint32_t *counts = malloc((points->n + 1) * sizeof *counts);
     status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);

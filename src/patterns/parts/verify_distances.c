@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/c_locale.h"
 #include "core/parallel.h"
+#include "core/points_io.h"
 #include "core/status.h"
 #include "patterns/parts/packing.h"
 #include "patterns/parts/torus_grid.h"
@@ -20,15 +20,22 @@ typedef struct point {
     int dim;
 } point;
 
-static int compare(const void *a, const void *b)
+/* As numbers: 0 and -0 are one. */
+static int compare_places(const point *p, const point *q)
 {
-    const point *p = a, *q = b;
     for (int k = 0; k < p->dim; k++) {
         if (p->xs[k] != q->xs[k]) {
             return p->xs[k] < q->xs[k] ? -1 : 1;
         }
     }
-    return p->xs < q->xs ? -1 : p->xs > q->xs;
+    return 0;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const point *p = a, *q = b;
+    const int order = compare_places(p, q);
+    return order ? order : p->xs < q->xs ? -1 : p->xs > q->xs;
 }
 
 static double square_of(const point *p, const point *q, bool torus)
@@ -136,6 +143,10 @@ static point *sort_points(const koksma_points *points)
 koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                        double *distance)
 {
+    koksma_status status = koksma__points_check(points);
+    if (status) {
+        return status;
+    }
     if (points->n == 1) {
         *distance = INFINITY;
         return KOKSMA_OK;
@@ -147,7 +158,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
     if (!sorted) {
         return KOKSMA_MEMORY;
     }
-    const koksma_status status = sweep(sorted, points->n, torus, run, distance);
+    status = sweep(sorted, points->n, torus, run, distance);
     free(sorted);
     return status;
 }
@@ -161,7 +172,7 @@ koksma_status koksma__verify_distances(const koksma_points *points, const koksma
     }
     size_t repeated = 0;
     for (size_t i = 1; i < n; i++) {
-        repeated += !memcmp(sorted[i].xs, sorted[i - 1].xs, (size_t)points->dim * sizeof(double));
+        repeated += compare_places(&sorted[i], &sorted[i - 1]) == 0;
     }
     free(sorted);
     koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_REPEATED);
