@@ -156,6 +156,21 @@ static void errors_are_said(void **state)
     assert_non_null(strstr(koksma_error_text(), "n = 16 or 25 would do"));
     assert_ok(koksma_pattern_spec("poisson-disk:d=0.9", &options.pattern));
     assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_IMPOSSIBLE);
+    for (int what = 0; what < 3; what++) { /* no pattern; a measure; a measure for one use */
+        koksma_render_options odd = options;
+        memset(&odd.pattern, 0, sizeof odd.pattern);
+        assert_ok(what ? koksma_measure_spec("star", &odd.pattern) : KOKSMA_OK);
+        if (what == 2) {
+            odd.patterns[1] = odd.pattern;
+            assert_ok(koksma_pattern_spec("n-rooks", &odd.pattern));
+        }
+        for (int kind = 0; kind < 3; kind++) {
+            odd.scope = kind == 1 ? KOKSMA_SCOPE_IMAGE : KOKSMA_SCOPE_PIXEL;
+            odd.pairing = kind == 2 ? KOKSMA_PAIRING_NATIVE : KOKSMA_PAIRING_SHUFFLED;
+            assert_int_equal(koksma_render(scene, &odd, NULL, &image), KOKSMA_ARGUMENT);
+            assert_non_null(strstr(koksma_error_text(), what < 2 ? "not the spec of a pattern" : "'lens'"));
+        }
+    }
     assert_ok(koksma_pattern_spec("n-rooks", &options.pattern));
     options.width = 0;
     assert_int_equal(koksma_render(scene, &options, NULL, &image), KOKSMA_ARGUMENT);
