@@ -12,22 +12,26 @@ extern "C" {
 
 typedef enum koksma_plot_format { KOKSMA_PLOT_SVG, KOKSMA_PLOT_PDF, KOKSMA_PLOT_PNG } koksma_plot_format;
 
-/* How a scatter plot of 2D points looks. All zero is a plain plot. */
+/* Sizes of pictures are 0, for the one that is named, or KOKSMA_PLOT_MIN_SIZE to KOKSMA_PLOT_MAX_SIZE. */
+enum { KOKSMA_PLOT_MIN_SIZE = 16, KOKSMA_PLOT_MAX_SIZE = 32767, KOKSMA_PLOT_MAX_CELLS = 65536 };
+
+/* How a scatter plot of 2D points looks. All zero, and NULL, is a plain plot. */
 typedef struct koksma_scatter_options {
     double size;                   /* side of the picture in points (SVG, PDF) or pixels (PNG); 0: 320 */
-    size_t columns, rows;          /* guide lines of a grid of cells; 0: none */
+    size_t columns, rows;          /* guide lines of a grid of cells, up to KOKSMA_PLOT_MAX_CELLS; 0: none */
     const koksma_witness *witness; /* a box, line or disk to draw in; NULL: none */
     const char *caption;           /* a line below the picture; NULL: none */
 } koksma_scatter_options;
 
-/* The format that a path's ending names. Errors: ARGUMENT. */
 /* What draws in this build: "cairo 1.16.0"; NULL: nothing does, and plots are UNSUPPORTED. */
 KOKSMA_API const char *koksma_plot_library(void);
 
+/* The format that a path's ending names. Errors: ARGUMENT. */
 KOKSMA_API koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format);
 
 /* Draws coordinates 0 and 1 of points in the unit square, y up, into memory that the caller frees. The bytes are the
-   same on every run. Errors: DIM (fewer than 2), MEMORY, SYSTEM. */
+   same on every run. Errors: ARGUMENT (a size, format or number of cells that can't be, no points, a coordinate
+   outside [0,1]), DIM (fewer than 2), UNSUPPORTED (a build that has no plots), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                              koksma_plot_format format, unsigned char **bytes, size_t *size);
 
@@ -55,8 +59,8 @@ typedef struct koksma_curve {
 } koksma_curve;
 
 typedef struct koksma_chart {
-    const char *x_label, *y_label;
-    bool log_x, log_y; /* points that aren't positive are left out */
+    const char *x_label, *y_label; /* NULL: none */
+    bool log_x, log_y;             /* points that aren't positive are left out */
     const koksma_curve *curves;
     size_t n_curves;
     bool has_level; /* a horizontal guide at level: what random points give */
@@ -64,7 +68,7 @@ typedef struct koksma_chart {
     double size; /* width in points or pixels; 0: 480 */
 } koksma_chart;
 
-/* Errors: ARGUMENT (nothing that can be drawn), MEMORY, SYSTEM. */
+/* Errors: ARGUMENT (nothing that can be drawn, a size or format that can't be), UNSUPPORTED, MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format,
                                            unsigned char **bytes, size_t *n_bytes);
 
@@ -77,7 +81,7 @@ typedef struct koksma_stratum {
 } koksma_stratum;
 
 /* Draws strata, y down, in their values' greys with their samples. size is the side; 0: 320. caption: NULL for none.
-   Errors: MEMORY, SYSTEM. */
+   Errors: ARGUMENT (a size or format that can't be), UNSUPPORTED, MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double size, const char *caption,
                                             koksma_plot_format format, unsigned char **bytes, size_t *n_bytes);
 

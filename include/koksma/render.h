@@ -11,8 +11,10 @@
  *         koksma_render(scene, &options, NULL, &image);
  *     }
  *
- * Each pixel spends its samples on named uses: `pixel` (the place in the pixel), and `light` of each luminaire.
- * Each use gets a 2D set of points of its own, drawn afresh for every pixel.
+ * Each pixel spends its samples on named uses: the place in the pixel, and what the scene has a need of: the lens,
+ * the time, a place on each luminaire, which luminaire, lobe or end of a path (koksma_use_at lists all). Each use
+ * gets a set of points of its own in the one or two dimensions that it has, drawn afresh for every pixel unless
+ * `scope` or `pairing` says otherwise.
  */
 #ifndef KOKSMA_RENDER_H
 #define KOKSMA_RENDER_H
@@ -119,7 +121,7 @@ KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
 typedef struct koksma_render_options {
     koksma_spec pattern;                 /* of every use that has none of its own */
-    koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where .pattern is not NULL */
+    koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where it is not all zero */
     int spp;                             /* samples a pixel: the n of the pattern */
     int width, height;
     uint64_t seed;

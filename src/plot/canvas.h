@@ -11,6 +11,9 @@ typedef struct koksma__colour {
     double r, g, b, a;
 } koksma__colour;
 
+/* The size that is asked for, or the fallback for 0. Errors: ARGUMENT, also for a format that is none. */
+koksma_status koksma__canvas_size(koksma_plot_format format, double asked, double fallback, double *size);
+
 /* Units are points from the upper left corner. Errors: MEMORY, UNSUPPORTED (a build without cairo). */
 koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out);
 

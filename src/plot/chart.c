@@ -117,8 +117,12 @@ static void draw_axes(koksma__canvas *canvas, const koksma_chart *c, const axis 
         koksma__canvas_text(canvas, x->from - 5, at + 4, TEXT, 1, text, ink);
     }
     koksma__canvas_box(canvas, x->from, y->to, x->to - x->from, y->from - y->to, 1, frame);
-    koksma__canvas_text(canvas, (x->from + x->to) / 2, y->from + 32, TEXT + 1, 0.5, c->x_label, ink);
-    koksma__canvas_text(canvas, x->from, y->to - 9, TEXT + 1, 0, c->y_label, ink);
+    if (c->x_label) {
+        koksma__canvas_text(canvas, (x->from + x->to) / 2, y->from + 32, TEXT + 1, 0.5, c->x_label, ink);
+    }
+    if (c->y_label) {
+        koksma__canvas_text(canvas, x->from, y->to - 9, TEXT + 1, 0, c->y_label, ink);
+    }
 }
 
 static void draw_curve(koksma__canvas *canvas, const koksma_curve *k, const axis *x, const axis *y)
@@ -173,12 +177,18 @@ static void draw_legend(koksma__canvas *canvas, const koksma_chart *c, double le
 koksma_status koksma_plot_chart(const koksma_chart *c, koksma_plot_format format, unsigned char **bytes,
                                 size_t *n_bytes)
 {
-    const double width = c->size > 0 ? c->size : 480, height = fmax(0.62 * width, TOP + BOTTOM + 40);
+    double width;
+    const koksma_status sized = koksma__canvas_size(format, c->size, 480, &width);
+    if (sized) {
+        return sized;
+    }
+    const double height = fmax(0.62 * width, TOP + BOTTOM + 40);
     axis x = {HUGE_VAL, -HUGE_VAL, c->log_x, LEFT, fmax(width - RIGHT, LEFT + 40)};
     axis y = {HUGE_VAL, -HUGE_VAL, c->log_y, height - BOTTOM, TOP};
     find_ranges(c, &x, &y);
     if (!settle(&x, c->log_x ? 0.04 : 0.01) || !settle(&y, 0.05)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn", c->y_label);
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn",
+                            c->y_label ? c->y_label : "chart");
     }
     const size_t lines = legend_lines(c);
     koksma__canvas *canvas;

@@ -8,13 +8,14 @@
 
 #include "core/atomic_file.h"
 #include "core/c_locale.h"
+#include "core/points_io.h"
 #include "core/status.h"
 #include "plot/canvas.h"
 
 static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, guide = {0.75, 0.78, 0.85, 1},
                             mark = {0.85, 0.25, 0.1, 0.9}, wash = {0.95, 0.5, 0.3, 0.25};
 
-enum { MARGIN = 6, LINE = 20, MAX_WIDTH = 32767 };
+enum { MARGIN = 6, LINE = 20 };
 
 typedef struct plot {
     koksma__canvas *canvas;
@@ -134,20 +135,56 @@ static koksma_status draw_panel(koksma__canvas *canvas, const koksma_panel *pane
     return status;
 }
 
+static koksma_status check_panel(const koksma_panel *panel)
+{
+    const koksma_scatter_options *o = &panel->scatter;
+    if (!panel->points) {
+        return panel->spectrum && panel->spectrum->power
+                   ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_ARGUMENT, "a panel has neither points nor a spectrum");
+    }
+    if (panel->points->dim < 2) {
+        return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
+    }
+    if (o->columns > KOKSMA_PLOT_MAX_CELLS || o->rows > KOKSMA_PLOT_MAX_CELLS) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a grid of %zu columns and %zu rows: each is up to %d", o->columns,
+                            o->rows, KOKSMA_PLOT_MAX_CELLS);
+    }
+    return koksma__points_check(panel->points);
+}
+
+koksma_status koksma__canvas_size(koksma_plot_format format, double asked, double fallback, double *size)
+{
+    if (format != KOKSMA_PLOT_SVG && format != KOKSMA_PLOT_PDF && format != KOKSMA_PLOT_PNG) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%d is no format of a plot", (int)format);
+    }
+    *size = asked == 0 ? fallback : asked;
+    return *size >= KOKSMA_PLOT_MIN_SIZE && *size <= KOKSMA_PLOT_MAX_SIZE
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "a picture of size %g: it takes %d to %d", asked, KOKSMA_PLOT_MIN_SIZE,
+                              KOKSMA_PLOT_MAX_SIZE);
+}
+
 koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size, koksma_plot_format format,
                                  unsigned char **bytes, size_t *n_bytes)
 {
-    const double side = size > 0 ? size : 320;
     bool captions = false, scales = false;
+    double side;
+    const koksma_status sized = koksma__canvas_size(format, size, 320, &side);
+    if (sized) {
+        return sized;
+    }
     for (size_t i = 0; i < n; i++) {
-        if (panels[i].points && panels[i].points->dim < 2) {
-            return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
+        const koksma_status checked = check_panel(&panels[i]);
+        if (checked) {
+            return checked;
         }
         captions = captions || panels[i].caption;
         scales = scales || !panels[i].points;
     }
-    if (n == 0 || side * (double)n > MAX_WIDTH) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side, MAX_WIDTH);
+    if (n == 0 || side * (double)n > KOKSMA_PLOT_MAX_SIZE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side,
+                            KOKSMA_PLOT_MAX_SIZE);
     }
     koksma__canvas *canvas;
     const koksma_status opened =
@@ -169,6 +206,8 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
 koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                   koksma_plot_format format, unsigned char **bytes, size_t *size)
 {
+    static const koksma_scatter_options plain = {0};
+    options = options ? options : &plain;
     const koksma_panel panel = {.points = points, .scatter = *options, .caption = options->caption};
     return koksma_plot_panels(&panel, 1, options->size, format, bytes, size);
 }

@@ -10,7 +10,12 @@ enum { MARGIN = 6, CAPTION = 18 };
 koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double size, const char *caption,
                                  koksma_plot_format format, unsigned char **bytes, size_t *n_bytes)
 {
-    const double whole = size > 0 ? size : 320, side = whole - 2 * MARGIN;
+    double whole;
+    const koksma_status sized = koksma__canvas_size(format, size, 320, &whole);
+    if (sized) {
+        return sized;
+    }
+    const double side = whole - 2 * MARGIN;
     koksma__canvas *canvas;
     const koksma_status opened = koksma__canvas_open(format, whole, whole + (caption ? CAPTION : 0), &canvas);
     if (opened) {

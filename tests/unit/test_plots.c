@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What plots refuse: sizes, grids, formats and points that can't be drawn. */
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/plot.h>
+
+#include "test.h"
+
+static double xs[] = {0.5, 0.25, 0.75, 0.125};
+
+static koksma_status scatter(const koksma_points *points, const koksma_scatter_options *options, int format)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    const koksma_status status = koksma_plot_scatter(points, options, (koksma_plot_format)format, &bytes, &size);
+    assert_true(status || (bytes && size > 100));
+    free(bytes);
+    return status;
+}
+
+static void sizes_and_grids(void **state)
+{
+    (void)state;
+    const koksma_points p = {2, 2, xs};
+    static const double odd[] = {-5, NAN, INFINITY, 1e9, 1e-9, 15};
+    assert_ok(scatter(&p, NULL, KOKSMA_PLOT_SVG));
+    assert_ok(scatter(&p, &(koksma_scatter_options){.size = 16}, KOKSMA_PLOT_PNG));
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        for (int format = 0; format < 3; format++) {
+            assert_int_equal(scatter(&p, &(koksma_scatter_options){.size = odd[i]}, format), KOKSMA_ARGUMENT);
+        }
+    }
+    assert_int_equal(scatter(&p, &(koksma_scatter_options){.columns = (size_t)1 << 40}, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(scatter(&p, &(koksma_scatter_options){.rows = KOKSMA_PLOT_MAX_CELLS + 1}, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(scatter(&p, NULL, 77), KOKSMA_ARGUMENT);
+}
+
+static void points_of_the_unit_square(void **state)
+{
+    (void)state;
+    double nan[] = {0.5, NAN};
+    assert_int_equal(scatter(&(koksma_points){1, 2, nan}, NULL, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(scatter(&(koksma_points){0, 2, xs}, NULL, 0), KOKSMA_ARGUMENT);
+    assert_int_equal(scatter(&(koksma_points){1, 1, xs}, NULL, 0), KOKSMA_DIM);
+    unsigned char *bytes;
+    size_t size;
+    const koksma_panel nothing = {0};
+    assert_int_equal(koksma_plot_panels(&nothing, 1, 0, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_plot_strata(NULL, 0, -1, NULL, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+}
+
+static void charts_without_labels(void **state)
+{
+    (void)state;
+    unsigned char *bytes;
+    size_t size;
+    koksma_chart chart = {0};
+    assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    assert_null(strstr(koksma_error_text(), "null"));
+    const koksma_curve curve = {.n = 2, .xs = xs, .ys = xs};
+    chart = (koksma_chart){.curves = &curve, .n_curves = 1};
+    assert_ok(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size));
+    free(bytes);
+    chart.size = NAN;
+    assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sizes_and_grids),
+        cmocka_unit_test(points_of_the_unit_square),
+        cmocka_unit_test(charts_without_labels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
