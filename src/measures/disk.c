@@ -113,6 +113,35 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     return status;
 }
 
+/* A point of the rim is off it by up to KOKSMA__DISK_RIM. The radius is moved to where comparing in doubles, as
+   koksma.h says how, counts right: out to points that belong to a closed disk, in to those that don't to an open one.
+ */
+static void settle_radius(const koksma_points *points, koksma_witness *w)
+{
+    for (;;) {
+        const double square = w->hi[0] * w->hi[0];
+        double next = w->closed ? HUGE_VAL : 0;
+        size_t count = 0;
+        for (size_t i = 0; i < points->n; i++) {
+            const double dx = points->xs[2 * i] - w->lo[0], dy = points->xs[2 * i + 1] - w->lo[1];
+            const double a = dx - round(dx), b = dy - round(dy), here = a * a + b * b;
+            const bool inside = w->closed ? here <= square : here < square;
+            count += inside;
+            if (inside != w->closed) {
+                next = w->closed ? fmin(next, here) : fmax(next, here);
+            }
+        }
+        const bool right = w->closed ? count >= w->count : count <= w->count;
+        if (right || fabs(next - square) > 4 * KOKSMA__DISK_RIM) {
+            return;
+        }
+        w->hi[0] = sqrt(next);
+        while (w->closed ? w->hi[0] * w->hi[0] < next : w->hi[0] * w->hi[0] > next) {
+            w->hi[0] = nextafter(w->hi[0], w->closed ? 1 : 0);
+        }
+    }
+}
+
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     search s = {.set = {.n = points->n, .r = args->params[0]}, .start.value = -1};
@@ -128,6 +157,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         out->exact = out->upper <= s.start.value;
         out->value = out->lower = s.start.value;
         out->witness = s.start.witness;
+        settle_radius(points, &out->witness);
     }
     free(s.set.weights);
     free(s.set.xs);
