@@ -226,21 +226,22 @@ static const struct {
 static int run(const cli_arguments *arguments)
 {
     const char *which = arguments->n_operands ? arguments->operands[0] : NULL;
-    bool found = false;
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    bool found = !which;
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        if (!which || !strcmp(which, lists[i].name)) {
-            lists[i].list(rows);
-            found = true;
-        }
+        found = found || !strcmp(which, lists[i].name);
     }
-    const int code = cli_rows_close(rows);
-    if (!code && (!found || arguments->n_operands > 1)) {
+    if (!found || arguments->n_operands > 1) {
         return cli_usage_error(
             arguments,
             "it takes one of patterns, measures, scenes, integrators, filters, uses, adaptive, warps, parameters");
     }
-    return code;
+    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        if (!which || !strcmp(which, lists[i].name)) {
+            lists[i].list(rows);
+        }
+    }
+    return cli_rows_close(rows);
 }
 
 static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};

@@ -119,8 +119,8 @@ static void put_tallies(measuring *j, const char *source, int dim)
     }
 }
 
-/* The prefixes that a set of n has; the whole set without --prefixes. */
-static void choose_prefixes(measuring *j, size_t n)
+/* The prefixes that a set of n has; the whole set without --prefixes. The exit code after an error. */
+static int choose_prefixes(measuring *j, size_t n)
 {
     if (j->powers || !cli_text(j->arguments, "prefixes", NULL)) {
         j->n_prefixes = 0;
@@ -129,6 +129,12 @@ static void choose_prefixes(measuring *j, size_t n)
         }
         j->prefixes[j->n_prefixes++] = n;
     }
+    for (size_t i = 0; i < j->n_prefixes; i++) {
+        if (j->prefixes[i] > n) {
+            return cli_usage_error(j->arguments, "prefixes: %zu points: the set has %zu", j->prefixes[i], n);
+        }
+    }
+    return CLI_YES;
 }
 
 /* Room for the first source's values, once it is known how many there are; the exit code after an error. */
@@ -162,9 +168,9 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, uin
             const size_t at = i * j->n_measures + m;
             double *kept = j->paired ? &j->firsts[trial * j->n_firsts + at] : NULL;
             koksma_value value = {.value = NAN};
-            status = prefix.n <= points->n ? measuring_evaluate(j, m, &prefix, &value) : KOKSMA_N;
+            status = measuring_evaluate(j, m, &prefix, &value);
             const bool measured = !status;
-            status = prefix.n <= points->n ? measuring_forgive(j, status) : KOKSMA_OK;
+            status = measuring_forgive(j, status);
             if (measured) {
                 koksma_tally_add(&j->tallies[at], value.value);
                 j->n_exact[at] += value.exact;
@@ -190,7 +196,9 @@ int measuring_trials(measuring *j, const char *source)
         code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
         if (!code) {
             dim = points.dim;
-            choose_prefixes(j, points.n);
+            code = choose_prefixes(j, points.n);
+        }
+        if (!code) {
             code = open_firsts(j, source);
         }
         if (!code) {

@@ -7,7 +7,7 @@
 
 static const char prefix[] = "pattern:";
 
-/* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'. */
+/* Splits "SPEC@N" or "SPEC@N@DIM" at its last one or two '@'; *dim is 0 when no set has so many. */
 static bool split(char *text, size_t *n, int *dim)
 {
     char *last = strrchr(text, '@');
@@ -19,14 +19,16 @@ static bool split(char *text, size_t *n, int *dim)
     char *n_text = last + 1;
     *dim = 2;
     if (before && before[1 + strspn(before + 1, "0123456789")] == '\0') {
-        *dim = (int)strtol(last + 1, &end, 10);
+        const long number = strtol(last + 1, &end, 10);
+        *dim = number >= 1 && number <= KOKSMA_MAX_DIM ? (int)number : 0;
         if (last[1] < '0' || last[1] > '9' || *end) {
             return false;
         }
         *before = '\0';
         n_text = before + 1;
     }
-    *n = strtoull(n_text, &end, 10);
+    const unsigned long long count = strtoull(n_text, &end, 10);
+    *n = count < SIZE_MAX ? (size_t)count : SIZE_MAX; /* 32 bits */
     return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
 }
 
@@ -49,6 +51,9 @@ int cli_source_open(const cli_arguments *arguments, const char *text, cli_source
     snprintf(copy, sizeof copy, "%s", text + sizeof prefix - 1);
     if (!split(copy, &source->n, &source->dim)) {
         return cli_usage_error(arguments, "'%s' is not of the form pattern:SPEC@N or pattern:SPEC@N@DIM", text);
+    }
+    if (source->dim == 0) {
+        return cli_usage_error(arguments, "'%s': the number of dimensions is 1 to %d", text, KOKSMA_MAX_DIM);
     }
     const koksma_status status = koksma_pattern_spec(copy, &source->spec);
     return status ? cli_fail(arguments, status) : CLI_YES;
