@@ -3,7 +3,7 @@
 #   make demo      install what is missing, build, reproduce the first paper's tables, say where the report is
 #   make test      build with sanitizers and with clang, run all tests
 #   make bench     speeds, each beside what it is compared with
-#   make install   install the release build (PREFIX=/usr/local, DESTDIR=)
+#   make install   install the release build (PREFIX=/usr/local, DESTDIR=), run ldconfig without a DESTDIR
 #   make explorer  one HTML file for a browser: patterns, measures and their witnesses, live
 #   make docs      a page for every pattern, measure, scene, .. in build/docs, with pictures
 #   make deb       Debian packages in build/deb, checked by lintian
@@ -36,6 +36,8 @@ bench: release
 
 install: release
 	cmake --install build/release
+	@test -n "$(DESTDIR)" || PATH=$$PATH:/usr/sbin:/sbin ldconfig 2>/dev/null || \
+	  echo "make install: ldconfig did not run, which takes root: until it does, LD_LIBRARY_PATH must name the folder of libkoksma.so" >&2
 
 explorer:
 	@scripts/setup explorer

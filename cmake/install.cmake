@@ -19,11 +19,11 @@ install(FILES studies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/studies)
 
 set(KOKSMA_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/koksma)
 install(EXPORT koksma-targets NAMESPACE koksma:: DESTINATION ${KOKSMA_PACKAGE_DIR})
-configure_package_config_file(cmake/koksma-config.cmake.in ${CMAKE_BINARY_DIR}/koksma-config.cmake
+configure_package_config_file(cmake/koksma-config.cmake.in ${PROJECT_BINARY_DIR}/koksma-config.cmake
                               INSTALL_DESTINATION ${KOKSMA_PACKAGE_DIR})
 # Before 1.0 a minor version may break programs, so that find_package(koksma 0.1) takes 0.1.x only.
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/koksma-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/koksma-config.cmake ${CMAKE_BINARY_DIR}/koksma-config-version.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/koksma-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/koksma-config.cmake ${PROJECT_BINARY_DIR}/koksma-config-version.cmake
         DESTINATION ${KOKSMA_PACKAGE_DIR})
 
 # pkg-config: paths from where the file lies.
@@ -32,8 +32,8 @@ file(RELATIVE_PATH KOKSMA_PC_PREFIX /${KOKSMA_PC_DIR} /)
 string(REGEX REPLACE "/$" "" KOKSMA_PC_PREFIX "${KOKSMA_PC_PREFIX}")
 list(JOIN KOKSMA_LAB_LINKS " " KOKSMA_LAB_LINKS)
 foreach(package ${packages})
-  configure_file(cmake/${package}.pc.in ${CMAKE_BINARY_DIR}/${package}.pc @ONLY)
-  install(FILES ${CMAKE_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
+  configure_file(cmake/${package}.pc.in ${PROJECT_BINARY_DIR}/${package}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${KOKSMA_PC_DIR})
 endforeach()
 
 if(NOT KOKSMA_LAB) # what follows belongs to the program, or loads both libraries
@@ -55,7 +55,7 @@ install(DIRECTORY python/koksma DESTINATION ${KOKSMA_PYTHON_DIR} FILES_MATCHING 
 
 # Manual pages and completions, printed by the program from its option tables. A cross-built program can't run here.
 if(NOT CMAKE_CROSSCOMPILING)
-  set(TEXTS ${CMAKE_BINARY_DIR}/texts)
+  set(TEXTS ${PROJECT_BINARY_DIR}/texts)
   set(printed ${TEXTS}/man/koksma.1 ${TEXTS}/koksma.bash ${TEXTS}/_koksma ${TEXTS}/koksma.fish)
   set(commands COMMAND koksma-program manual > ${TEXTS}/man/koksma.1
                COMMAND koksma-program completion bash > ${TEXTS}/koksma.bash

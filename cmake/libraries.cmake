@@ -12,12 +12,26 @@ endif()
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 
-# koksma_optional(NAME WHAT MODULES...): the switch KOKSMA_<NAME>: AUTO takes what pkg-config knows, ON insists, OFF
-# leaves it out. What is in has <NAME>_IN, and the sources see KOKSMA_<NAME>.
-add_library(koksma-pictures INTERFACE)
-macro(koksma_optional name what)
+# koksma_switch(NAME WHAT): the switch KOKSMA_<NAME>: AUTO takes what is there, ON insists, OFF leaves it out. Whatever
+# CMake takes for true or false is ON or OFF from here on. What is in has <NAME>_IN: a <NAME>_FOUND may be of an earlier
+# configure of the same folder.
+macro(koksma_switch name what)
   set(KOKSMA_${name} AUTO CACHE STRING "${what}: AUTO, ON or OFF")
   set(${name}_IN FALSE)
+  string(TOUPPER "${KOKSMA_${name}}" KOKSMA_${name})
+  if(KOKSMA_${name} MATCHES "^(ON|YES|TRUE|Y|1)$")
+    set(KOKSMA_${name} ON)
+  elseif(KOKSMA_${name} MATCHES "^(OFF|NO|FALSE|N|0|IGNORE|NOTFOUND|)$")
+    set(KOKSMA_${name} OFF)
+  elseif(NOT KOKSMA_${name} STREQUAL AUTO)
+    message(FATAL_ERROR "KOKSMA_${name}=${KOKSMA_${name}}: it takes AUTO, ON or OFF")
+  endif()
+endmacro()
+
+# koksma_optional(NAME WHAT MODULES...): the same for what pkg-config knows. The sources see KOKSMA_<NAME>.
+add_library(koksma-pictures INTERFACE)
+macro(koksma_optional name what)
+  koksma_switch(${name} "${what}")
   if(NOT KOKSMA_${name} STREQUAL OFF)
     pkg_check_modules(${name} IMPORTED_TARGET ${ARGN})
     if(${name}_FOUND)
@@ -45,9 +59,9 @@ if(EXR_IN)
   target_link_libraries(koksma-pictures INTERFACE ${OPENEXR_CORE_LIBRARY} ${OPENEXR_LIBRARY})
 endif()
 
-# Meshes: traced by Embree 3 or 4, read by assimp. AUTO takes what is there, ON insists, OFF leaves it out.
-set(KOKSMA_EMBREE AUTO CACHE STRING "Triangle meshes by Embree: AUTO, ON or OFF")
-set(KOKSMA_ASSIMP AUTO CACHE STRING "Mesh files by assimp: AUTO, ON or OFF")
+# Meshes: traced by Embree 3 or 4, read by assimp.
+koksma_switch(EMBREE "Triangle meshes by Embree")
+koksma_switch(ASSIMP "Mesh files by assimp")
 add_library(koksma-meshes INTERFACE)
 if(NOT KOKSMA_EMBREE STREQUAL OFF)
   foreach(version 4 3)
@@ -67,6 +81,7 @@ endif()
 if(NOT KOKSMA_ASSIMP STREQUAL OFF)
   pkg_check_modules(ASSIMP IMPORTED_TARGET assimp)
   if(ASSIMP_FOUND)
+    set(ASSIMP_IN TRUE)
     target_link_libraries(koksma-meshes INTERFACE PkgConfig::ASSIMP)
     target_compile_definitions(koksma-meshes INTERFACE KOKSMA_ASSIMP)
   elseif(KOKSMA_ASSIMP STREQUAL ON)
@@ -75,7 +90,6 @@ if(NOT KOKSMA_ASSIMP STREQUAL OFF)
 endif()
 
 # The same as link options, for who links the static libkoksma-lab through pkg-config.
-# A module that is OFF may have been found by an earlier configure: only what is in counts.
 foreach(switch PNG CAIRO)
   if(NOT ${switch}_IN)
     set(${switch}_LIBRARIES)
@@ -95,16 +109,18 @@ endif()
 if(EMBREE_VERSION)
   list(APPEND KOKSMA_LAB_LINKS -lembree${EMBREE_VERSION})
 endif()
-if(ASSIMP_FOUND)
+if(ASSIMP_IN)
   list(APPEND KOKSMA_LAB_LINKS -lassimp)
 endif()
 list(REMOVE_DUPLICATES KOKSMA_LAB_LINKS)
 
 # Studies on many machines. The sanitizers and MPI's own libraries don't go together.
-set(KOKSMA_MPI AUTO CACHE STRING "Studies under mpirun: AUTO, ON or OFF")
+koksma_switch(MPI "Studies under mpirun")
 if(NOT KOKSMA_MPI STREQUAL OFF AND NOT KOKSMA_SANITIZE AND NOT KOKSMA_THREAD_SANITIZER)
   find_package(MPI COMPONENTS C QUIET)
-  if(KOKSMA_MPI STREQUAL ON AND NOT MPI_C_FOUND)
+  if(MPI_C_FOUND)
+    set(MPI_IN TRUE)
+  elseif(KOKSMA_MPI STREQUAL ON)
     message(FATAL_ERROR "KOKSMA_MPI=ON, and CMake finds no MPI")
   endif()
 endif()

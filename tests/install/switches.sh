@@ -1,0 +1,54 @@
+#!/bin/sh
+# switches.sh C-COMPILER: what the build system does with what it is told: a project of somebody else that takes this one
+# in, switches in any spelling and turned over in one build folder, and what `make install` runs.
+set -eu
+compiler=$1
+source=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "switches.sh: $1"; [ ! -s "$work/log" ] || tail -5 "$work/log"; exit 1; }
+configure() { cmake -DCMAKE_C_COMPILER="$compiler" -DBUILD_TESTING=OFF "$@" >"$work/log" 2>&1; }
+
+# A parent project links the library by the name that an installed one has, and its own tests stay its own.
+mkdir "$work/parent"
+cat >"$work/parent/CMakeLists.txt" <<END
+cmake_minimum_required(VERSION 3.25)
+project(parent C)
+set(BUILD_TESTING ON)
+set(KOKSMA_LAB OFF)
+add_subdirectory("$source" koksma)
+add_executable(parent parent.c)
+target_link_libraries(parent PRIVATE koksma::koksma)
+get_property(tests DIRECTORY "$source" PROPERTY SUBDIRECTORIES)
+message(STATUS "folders: \${tests}")
+END
+echo 'int main(void) { return 0; }' >"$work/parent/parent.c"
+configure -S "$work/parent" -B "$work/parent/build" || fail "add_subdirectory"
+grep -q "folders: .*/src" "$work/log" || fail "the parent project saw no folders"
+! grep -q "folders: .*/tests" "$work/log" || fail "the parent project got our tests"
+
+# KOKSMA_ASSIMP as AUTO, then turned off and on in every spelling.
+build=$work/build
+configure -S "$source" -B "$build" || fail "configure"
+if grep -q -- -lassimp "$build/koksma-lab.pc"; then
+  for word in off 0 NO false; do
+    configure "-DKOKSMA_ASSIMP=$word" "$build" || fail "KOKSMA_ASSIMP=$word"
+    ! grep -q -- -lassimp "$build/koksma-lab.pc" || fail "KOKSMA_ASSIMP=$word: koksma-lab.pc has -lassimp"
+  done
+  configure -DKOKSMA_ASSIMP=on "$build" && grep -q -- -lassimp "$build/koksma-lab.pc" || fail "KOKSMA_ASSIMP=on"
+fi
+! configure -DKOKSMA_ASSIMP=perhaps "$build" || fail "KOKSMA_ASSIMP=perhaps was taken"
+grep -q "KOKSMA_ASSIMP=PERHAPS: it takes AUTO, ON or OFF" "$work/log" || fail "KOKSMA_ASSIMP=perhaps"
+
+# `make install` runs ldconfig where it installs for this machine, and does not mind when that fails.
+mkdir "$work/bin"
+printf '#!/bin/sh\n:\n' >"$work/bin/cmake"
+printf '#!/bin/sh\necho ldconfig ran\nexit "${LDCONFIG_EXIT:-0}"\n' >"$work/bin/ldconfig"
+chmod +x "$work/bin/cmake" "$work/bin/ldconfig"
+install() { env -u MAKEFLAGS -u DESTDIR PATH="$work/bin:$PATH" "$@" make -s -C "$source" -o release install $destdir >"$work/log" 2>&1; }
+destdir=
+install && grep -q 'ldconfig ran' "$work/log" || fail "make install"
+install LDCONFIG_EXIT=1 && grep -q 'LD_LIBRARY_PATH must name' "$work/log" || fail "make install, ldconfig fails"
+destdir=DESTDIR=$work/staged
+install && ! grep -q 'ldconfig ran' "$work/log" || fail "make install DESTDIR= ran ldconfig"
+echo "taken in, switched, installed"
