@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Images of linear light in floats: reading, writing, and how far one is from another.
- * Files: OpenEXR, PNG (sRGB, 8 or 16 bits) and PFM. EXR and PFM keep every float exactly.
+ * Files: OpenEXR, PNG and PFM, as koksma_image_read says. What is written as EXR or PFM keeps every float exactly.
  */
 #ifndef KOKSMA_IMAGE_H
 #define KOKSMA_IMAGE_H
@@ -30,8 +30,13 @@ KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int h
 /* Frees what init or read allocated; takes a zeroed struct and NULL. */
 KOKSMA_API void koksma_image_fini(koksma_image *image);
 
-/* Reads EXR, PNG or PFM, known by their content. Transparency and further channels are dropped.
-   Errors: MISSING, MALFORMED, UNSUPPORTED (deep EXR), MEMORY. */
+/* Reads EXR, PNG or PFM, known by their content. Transparency and further channels are dropped: a pixel's colour is
+   what it has, not what is seen of it over black.
+   EXR: the first part, in scan lines or tiles; channels R, G and B, or Y, or the only one. Files compressed by B44(A)
+   or DWA(A, B) come as half floats; an only channel must be Y there. PNG: 1 to 16 bits of sRGB; of another power
+   where a chunk gAMA says so (1.0: linear) and no sRGB or iCCP overrides it. PFM: Pf and PF, of either byte order;
+   the scale's size is not applied; bytes too many are an error. Errors: MISSING, MALFORMED, UNSUPPORTED (a deep or
+   subsampled EXR; of B44 and DWA also other channels, and numbers above 65504), MEMORY. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
 /* The i-th image format's name, NULL past the end; *left_out is the library that it needs and this build does

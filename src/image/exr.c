@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * OpenEXR by the C library OpenEXRCore: reads the first part, scan lines or tiles, channels R G B or Y (or the only
- * one), half or float; writes floats, ZIP-compressed. OpenEXRCore 3.1 has no DWAA and DWAB: exr_dwa.c reads those.
+ * one); writes floats, ZIP-compressed. OpenEXRCore 3.1.5 has no DWAA and DWAB, and decodes B44 and B44A wrongly
+ * without a word: exr_rgba.c reads those four.
  *
  * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
- * reader takes a chunk of that length for uncompressed. So what is written is read back, and written again without
- * compression if a bit differs.
+ * reader takes that for uncompressed. So what is written is read back, and written raw if a bit differs.
  */
 #ifdef KOKSMA_EXR
 #include <openexr.h>
@@ -50,13 +50,10 @@ static void on_error(exr_const_context_t file, exr_result_t code, const char *me
 static koksma_status fail(const source *s, exr_result_t code)
 {
     const char *text = *s->message ? s->message : exr_get_default_error_message(code);
-    if (code == EXR_ERR_OUT_OF_MEMORY) {
-        return koksma__fail(KOKSMA_MEMORY, "as an EXR: %s", text);
-    }
-    if (code == EXR_ERR_FEATURE_NOT_IMPLEMENTED) {
-        return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: OpenEXRCore can't decode its compression");
-    }
-    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %s", text);
+    const koksma_status status = code == EXR_ERR_OUT_OF_MEMORY             ? KOKSMA_MEMORY
+                                 : code == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? KOKSMA_UNSUPPORTED
+                                                                           : KOKSMA_MALFORMED;
+    return koksma__fail(status, "as an EXR: %s", text);
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------ */
@@ -102,6 +99,21 @@ static int count_channels(const exr_attr_chlist_t *list)
         y += colour(list->entries[i].name.str, 1) >= 0;
     }
     return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
+}
+
+/* exr_rgba.c knows channels by their names, and makes colours of Y beside others. */
+static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
+{
+    bool y = false, others = false, wide = false;
+    for (int i = 0; i < list->num_channels; i++) {
+        const char *name = list->entries[i].name.str;
+        y |= !strcmp(name, "Y");
+        others |= !strcmp(name, "RY") || !strcmp(name, "BY") || (channels == 1 && colour(name, 3) >= 0);
+        wide |= list->entries[i].pixel_type != EXR_PIXEL_HALF;
+    }
+    return others || y != (channels == 1)
+               ? koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: B44 and DWA files are read for R, G, B or for Y alone")
+               : koksma__exr_rgba_read(s->bytes, s->size, channels, wide, out);
 }
 
 /* Points the decoder's channels at the pixels of the chunk whose first pixel is (x, y). */
@@ -175,8 +187,10 @@ static koksma_status read_part(exr_const_context_t file, source *s, koksma_image
 {
     exr_storage_t storage;
     exr_attr_box2i_t window;
+    exr_compression_t compression;
     const exr_attr_chlist_t *list;
     exr_result_t r = exr_get_storage(file, 0, &storage);
+    r = r ? r : exr_get_compression(file, 0, &compression);
     r = r ? r : exr_get_data_window(file, 0, &window);
     r = r ? r : exr_get_channels(file, 0, &list);
     if (r) {
@@ -193,6 +207,9 @@ static koksma_status read_part(exr_const_context_t file, source *s, koksma_image
         if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1) {
             return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: subsampled channels are not read");
         }
+    }
+    if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
+        return read_rgba(s, list, channels, out);
     }
     const koksma_status status =
         koksma__image_claim((long long)window.max.x - window.min.x + 1, (long long)window.max.y - window.min.y + 1,
@@ -221,12 +238,9 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     if (r) {
         return fail(&s, r);
     }
-    exr_compression_t compression = EXR_COMPRESSION_NONE;
-    exr_get_compression(file, 0, &compression);
-    const bool dwa = compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB;
-    const koksma_status status = dwa ? KOKSMA_OK : read_part(file, &s, out);
+    const koksma_status status = read_part(file, &s, out);
     exr_finish(&file);
-    return dwa ? koksma__exr_dwa_read(bytes, size, out) : status;
+    return status;
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------ */

@@ -32,8 +32,10 @@ typedef struct koksma__image_format {
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
-/* exr_dwa.c: EXR files of the compressions DWAA and DWAB. */
-koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koksma_image *out);
+/* exr_rgba.c: EXR files by way of half floats: those compressed by DWAA, DWAB, B44 and B44A, whose channels are R, G,
+   B or Y. wide: they have numbers that are no halves; one too large for a half is UNSUPPORTED. */
+koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
+                                    koksma_image *out);
 
 /* An image file in memory, known by its content. Errors name no file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * PFM: "Pf" or "PF", width, height, a scale whose sign is the byte order (negative: little-endian), one blank, then
- * floats, the bottom row first. The scale's size has no agreed meaning and is not applied.
+ * floats, the bottom row first. The scale's size has no agreed meaning and is not applied. Some writers end the
+ * header with blanks and CR LF. The floats may begin with a byte that is a blank, so where they begin is told by the
+ * end of the file: they are its last bytes.
  */
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +29,20 @@ static float get_float(const unsigned char *b, bool little)
     return x;
 }
 
+/* Whether that ends a header: one blank of any kind, or blanks and the line's end. */
+static bool is_end(const unsigned char *bytes, size_t size)
+{
+    if (size == 1 && bytes[0] && strchr(" \t\r\n\v\f", bytes[0])) {
+        return true;
+    }
+    size_t i = 0;
+    while (i < size && (bytes[i] == ' ' || bytes[i] == '\t')) {
+        i++;
+    }
+    i += i < size && bytes[i] == '\r';
+    return i + 1 == size && bytes[i] == '\n';
+}
+
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     char header[96] = "", scale_text[24] = "", *end;
@@ -41,13 +57,17 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
         return koksma__fail(KOKSMA_MALFORMED, "line 3: the scale '%s' is not a number other than 0", scale_text);
     }
     const int channels = bytes[1] == 'F' ? 3 : 1;
-    const size_t start = 2 + (size_t)used + 1; /* one blank ends the header */
-    const size_t left = size > start ? size - start : 0;
+    const size_t head = 2 + (size_t)used, left = size > head + 1 ? size - head - 1 : 0;
     const koksma_status status = koksma__image_claim(width, height, channels, left, 0.25 / channels, out);
     if (status) {
         return status;
     }
-    const size_t row = (size_t)width * (size_t)channels;
+    const size_t row = (size_t)width * (size_t)channels, start = size - 4 * row * (size_t)height;
+    if (!is_end(bytes + head, start - head)) {
+        return koksma__fail(KOKSMA_MALFORMED,
+                            "line 3: %zu bytes follow the scale: too many for one blank and %lld x %lld pixels",
+                            size - head, width, height);
+    }
     for (size_t y = 0; y < (size_t)height; y++) {
         const unsigned char *from = bytes + start + 4 * row * ((size_t)height - 1 - y);
         for (size_t i = 0; i < row; i++) {

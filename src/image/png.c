@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * PNG by libpng. 8-bit files are sRGB, whose curve (IEC 61966-2-1) is applied here in double precision:
+ * PNG by libpng, 1 to 16 bits. Levels are sRGB's, whose curve (IEC 61966-2-1) is applied here in double precision:
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
- * 16-bit files come as linear numbers from libpng. Transparency is put over black. Written are 8 bits sRGB.
+ * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
+ * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is what writers of sRGB say, and is taken
+ * for sRGB. Transparency is dropped: a pixel's colour is what it has, for albedos and comparisons alike, whatever
+ * would be seen through it. Written are 8 bits sRGB.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>
@@ -16,18 +19,6 @@
 static bool recognises(const unsigned char *bytes, size_t size)
 {
     return size >= 8 && !png_sig_cmp(bytes, 0, 8);
-}
-
-static void to_linear(const unsigned char *bytes, size_t count, float *out)
-{
-    float table[256];
-    for (int i = 0; i < 256; i++) {
-        const double s = i / 255.0;
-        table[i] = (float)(s <= 0.04045 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4));
-    }
-    for (size_t i = 0; i < count; i++) {
-        out[i] = table[bytes[i]];
-    }
 }
 
 /* libpng makes room for what a chunk claims to hold before it reads it, up to 2 GiB: so no chunk may claim more than
@@ -49,74 +40,18 @@ static koksma_status check_chunks(const unsigned char *bytes, size_t size)
     return KOKSMA_OK;
 }
 
-static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
-{
-    png_image png = {.version = PNG_IMAGE_VERSION};
-    koksma_status status = check_chunks(bytes, size);
-    if (status) {
-        return status;
-    }
-    if (!png_image_begin_read_from_memory(&png, bytes, size)) {
-        return koksma__fail(KOKSMA_MALFORMED, "as a PNG: %s", png.message);
-    }
-    const bool wide = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0;
-    const int channels = png.format & PNG_FORMAT_FLAG_COLOR ? 3 : 1;
-    /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
-    status = koksma__image_claim(png.width, png.height, channels, size, 8 * 1032, out);
-    const size_t count = (size_t)png.width * png.height * (size_t)channels;
-    void *buffer = status ? NULL : calloc(count, wide ? 2 : 1);
-    if (!status && !buffer) {
-        status = koksma__fail_memory(count);
-    }
-    if (!status) {
-        png.format = channels == 3 ? (wide ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_RGB)
-                                   : (wide ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_GRAY);
-        const png_color black = {0};
-        if (!png_image_finish_read(&png, &black, buffer, 0, NULL)) {
-            status = koksma__fail(KOKSMA_MALFORMED, "as a PNG: %s", png.message);
-        }
-    }
-    if (!status && wide) {
-        for (size_t i = 0; i < count; i++) {
-            out->pixels[i] = (float)((const png_uint_16 *)buffer)[i] / 65535.0f;
-        }
-    } else if (!status) {
-        to_linear(buffer, count, out->pixels);
-    }
-    free(buffer);
-    png_image_free(&png);
-    return status;
-}
-
-static unsigned char to_srgb(float linear)
-{
-    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
-    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
-    return (unsigned char)(255 * s + 0.5);
-}
-
-typedef struct sink {
+/* What libpng reads from or writes to, and what it says. */
+typedef struct stream {
     koksma__bytes *out;
-    bool failed;
+    const unsigned char *in;
+    size_t left; /* bytes there */
+    bool no_memory;
     char message[128];
-} sink;
-
-static void put(png_structp png, png_bytep data, size_t size)
-{
-    sink *s = png_get_io_ptr(png);
-    if (!koksma__bytes_put(s->out, s->out->size, data, size)) {
-        png_error(png, "out of memory");
-    }
-}
-
-static void flush(png_structp png)
-{
-    (void)png;
-}
+} stream;
 
 static void on_error(png_structp png, png_const_charp message)
 {
-    sink *s = png_get_error_ptr(png);
+    stream *s = png_get_error_ptr(png);
     strncpy(s->message, message, sizeof s->message - 1);
     png_longjmp(png, 1);
 }
@@ -125,6 +60,179 @@ static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png;
     (void)message;
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------ */
+
+static png_voidp allocate(png_structp png, png_alloc_size_t size)
+{
+    stream *s = png_get_mem_ptr(png);
+    void *memory = malloc(size);
+    s->no_memory |= !memory;
+    return memory;
+}
+
+static void release(png_structp png, png_voidp memory)
+{
+    (void)png;
+    free(memory);
+}
+
+static void get(png_structp png, png_bytep data, size_t size)
+{
+    stream *s = png_get_io_ptr(png);
+    if (size > s->left) {
+        png_error(png, "cut short");
+    }
+    memcpy(data, s->in, size);
+    s->in += size;
+    s->left -= size;
+}
+
+typedef struct head {
+    png_uint_32 width, height;
+    int channels, level_bytes, passes;
+    double power; /* of the curve; 0: sRGB's */
+} head;
+
+/* The curve that the file asks for. */
+static double power_of(png_const_structp png, png_const_infop info)
+{
+    png_fixed_point gamma = 0;
+    const bool overridden = png_get_valid(png, info, PNG_INFO_sRGB | PNG_INFO_iCCP) != 0;
+    if (overridden || !png_get_gAMA_fixed(png, info, &gamma) || gamma <= 0 || fabs(2.2e-5 * gamma - 1) < 0.05) {
+        return 0;
+    }
+    return 1e5 / gamma;
+}
+
+/* The head, and the wish for grey or red, green and blue of 8 or 16 bits. May longjmp; nothing here that would need
+   releasing. */
+static bool get_head(png_structp png, png_infop info, head *h)
+{
+    static const png_byte wanted[] = "gAMA\0iCCP\0sRGB"; /* texts may be huge once unpacked */
+    if (setjmp(png_jmpbuf(png))) {
+        return false;
+    }
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, wanted, 3);
+    png_read_info(png, info);
+    h->width = png_get_image_width(png, info);
+    h->height = png_get_image_height(png, info);
+    h->power = power_of(png, info);
+    png_set_palette_to_rgb(png);
+    png_set_expand_gray_1_2_4_to_8(png);
+    png_set_strip_alpha(png);
+    h->passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    h->channels = png_get_channels(png, info);
+    h->level_bytes = png_get_bit_depth(png, info) / 8;
+    return true;
+}
+
+static bool get_rows(png_structp png, const head *h, unsigned char *levels)
+{
+    const size_t row = (size_t)h->width * (size_t)(h->channels * h->level_bytes);
+    if (setjmp(png_jmpbuf(png))) {
+        return false;
+    }
+    for (int pass = 0; pass < h->passes; pass++) {
+        for (size_t y = 0; y < h->height; y++) {
+            png_read_row(png, levels + y * row, NULL);
+        }
+    }
+    return true;
+}
+
+static koksma_status to_linear(const unsigned char *levels, const head *h, size_t count, float *out)
+{
+    const size_t n = (size_t)1 << 8 * h->level_bytes;
+    float *table = malloc(n * sizeof *table);
+    if (!table) {
+        return koksma__fail_memory(n * sizeof *table);
+    }
+    for (size_t i = 0; i < n; i++) {
+        const double s = (double)i / (double)(n - 1);
+        table[i] = (float)(h->power > 0   ? pow(s, h->power)
+                           : s <= 0.04045 ? s / 12.92
+                                          : pow((s + 0.055) / 1.055, 2.4));
+    }
+    for (size_t i = 0; i < count; i++) {
+        out[i] = table[h->level_bytes == 1 ? levels[i] : levels[2 * i] << 8 | levels[2 * i + 1]];
+    }
+    free(table);
+    return KOKSMA_OK;
+}
+
+static koksma_status fail(const stream *s)
+{
+    return koksma__fail(s->no_memory ? KOKSMA_MEMORY : KOKSMA_MALFORMED, "as a PNG: %s",
+                        *s->message ? s->message : "out of memory");
+}
+
+static koksma_status read_image(png_structp png, png_infop info, const stream *s, koksma_image *out)
+{
+    head h = {0};
+    const size_t size = s->left;
+    if (!get_head(png, info, &h)) {
+        return fail(s);
+    }
+    /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
+    koksma_status status = koksma__image_claim(h.width, h.height, h.channels, size, 8 * 1032, out);
+    if (status) {
+        return status;
+    }
+    const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
+    unsigned char *levels = calloc(count, (size_t)h.level_bytes);
+    if (!levels) {
+        return koksma__fail_memory(count * (size_t)h.level_bytes);
+    }
+    status = get_rows(png, &h, levels) ? to_linear(levels, &h, count, out->pixels) : fail(s);
+    free(levels);
+    return status;
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    stream s = {.in = bytes, .left = size};
+    koksma_status status = check_chunks(bytes, size);
+    if (status) {
+        return status;
+    }
+    png_structp png =
+        png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &s, on_error, on_warning, &s, allocate, release);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (info) {
+        png_set_read_fn(png, &s, get);
+        status = read_image(png, info, &s, out);
+    } else {
+        s.no_memory = true;
+        status = fail(&s);
+    }
+    png_destroy_read_struct(&png, &info, NULL);
+    return status;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------ */
+
+static unsigned char to_srgb(float linear)
+{
+    const double x = linear >= 0 ? fmin((double)linear, 1) : 0; /* NaN is 0 */
+    const double s = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
+    return (unsigned char)(255 * s + 0.5);
+}
+
+static void put(png_structp png, png_bytep data, size_t size)
+{
+    stream *s = png_get_io_ptr(png);
+    if (!koksma__bytes_put(s->out, s->out->size, data, size)) {
+        png_error(png, "out of memory");
+    }
+}
+
+static void flush(png_structp png)
+{
+    (void)png;
 }
 
 static void put_metadata(png_structp png, png_infop info, const char *metadata)
@@ -166,7 +274,7 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
 {
     const koksma_image *image = layers->image; /* one has a place */
     (void)n;
-    sink s = {.out = out};
+    stream s = {.out = out};
     const size_t count = (size_t)image->width * (size_t)image->channels;
     unsigned char *row = malloc(count);
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &s, on_error, on_warning);

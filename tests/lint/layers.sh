@@ -43,7 +43,7 @@ only() {
 }
 only 'png\.h' src/image/png.c
 only 'openexr\.h' src/image/exr.c
-only 'OpenEXR/' src/image/exr_dwa.c
+only 'OpenEXR/' src/image/exr_rgba.c
 only 'cairo' src/plot/cairo.c
 only 'sqlite3\.h' src/study/database.c
 only 'jansson\.h' src/scene/json.c

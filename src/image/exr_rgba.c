@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * EXR files compressed by DWAA and DWAB, which OpenEXRCore 3.1 can't decode, by the C face of OpenEXR's C++ library.
- * It opens files by name only and gives half floats, so the bytes go through a temporary file. Its last error is a
- * variable that threads share: the text may be another's, the status is not.
+ * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), by the C face of OpenEXR's
+ * C++ library. It opens files by name only and gives half floats, so the bytes go through a temporary file. Its last
+ * error is a variable that threads share: the text may be another's, the status is not.
  */
 #ifdef KOKSMA_EXR
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,15 +18,15 @@
 
 static koksma_status fail(void)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "as a DWA-compressed EXR: %s", ImfErrorMessage());
+    return koksma__fail(KOKSMA_MALFORMED, "as an EXR: %s", ImfErrorMessage());
 }
 
-static koksma_status read_pixels(ImfInputFile *file, size_t size, koksma_image *out)
+static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, bool wide, koksma_image *out)
 {
     int low_x, low_y, high_x, high_y;
     ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
     const koksma_status status =
-        koksma__image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1, 3, size, 4096, out);
+        koksma__image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1, channels, size, 4096, out);
     if (status) {
         return status;
     }
@@ -34,20 +35,27 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, koksma_image *
     if (!row) {
         return koksma__fail_memory(width * sizeof *row);
     }
-    bool whole = true;
+    bool whole = true, fits = true;
     for (int y = low_y; whole && y <= high_y; y++) {
         /* the base is where pixel (0, 0) would be */
         ImfRgba *base = (ImfRgba *)((uintptr_t)row - (uintptr_t)((ptrdiff_t)low_x * (ptrdiff_t)sizeof *row));
         whole = ImfInputSetFrameBuffer(file, base, 1, 0) && ImfInputReadPixels(file, y, y);
         for (size_t x = 0; whole && x < width; x++) {
-            float *to = out->pixels + 3 * (width * (size_t)(y - low_y) + x);
-            to[0] = ImfHalfToFloat(row[x].r);
-            to[1] = ImfHalfToFloat(row[x].g);
-            to[2] = ImfHalfToFloat(row[x].b);
+            const float colour[3] = {ImfHalfToFloat(row[x].r), ImfHalfToFloat(row[x].g), ImfHalfToFloat(row[x].b)};
+            const size_t at = width * (size_t)(y - low_y) + x;
+            for (size_t k = 0; k < (size_t)channels; k++) {
+                out->pixels[at * (size_t)channels + k] = colour[k];
+                fits &= !wide || isfinite(colour[k]);
+            }
         }
     }
     free(row);
-    return whole ? KOKSMA_OK : fail();
+    if (!whole) {
+        return fail();
+    }
+    return fits
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
 /* Whether the attributes of the headers lie within the file: the C++ library takes as much memory as they claim. An
@@ -80,7 +88,8 @@ static bool header_fits(const unsigned char *bytes, size_t size)
     return at < size;
 }
 
-koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koksma_image *out)
+koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
+                                    koksma_image *out)
 {
     const char *folder = getenv("TMPDIR");
     char path[4096];
@@ -105,7 +114,7 @@ koksma_status koksma__exr_dwa_read(const unsigned char *bytes, size_t size, koks
         return koksma__fail(KOKSMA_IO, "%s: can't be written", path);
     }
     ImfInputFile *file = ImfOpenInputFile(path);
-    const koksma_status status = file ? read_pixels(file, size, out) : fail();
+    const koksma_status status = file ? read_pixels(file, size, channels, wide, out) : fail();
     if (file) {
         ImfCloseInputFile(file);
     }
