@@ -17,7 +17,7 @@ struct koksma__json {
     size_t size;
 };
 
-/* ---- From a path to a line: jansson keeps no positions, so the text is walked again when an error needs one -----
+/* ---- From steps to a line: jansson keeps no positions, so the text is walked again when an error needs one -----
  */
 
 typedef struct walker {
@@ -63,63 +63,57 @@ static void skip_value(walker *w)
     } while (depth && w->at < w->end);
 }
 
-static bool enter_member(walker *w, const char *key, size_t length)
+/* Goes from the start of a list or object to that of its i-th item, or its member's value. */
+static bool enter(walker *w, size_t index)
 {
-    for (w->at++; w->at < w->end; w->at++) {
-        skip_space(w);
-        const char *start = w->at;
-        if (w->at >= w->end || *w->at != '"') {
-            return false;
-        }
-        skip_string(w);
-        const bool same = (size_t)(w->at - start) == length + 2 && !strncmp(start + 1, key, length);
-        skip_space(w);
-        w->at++; /* the colon */
-        if (same) {
-            skip_space(w);
-            return true;
-        }
-        skip_value(w);
-        skip_space(w);
-    }
-    return false;
-}
-
-static bool enter_item(walker *w, size_t index)
-{
+    const bool object = w->at < w->end && *w->at == '{';
     w->at++;
-    for (size_t i = 0; i < index && w->at < w->end; i++) {
+    for (size_t i = 0; w->at < w->end; i++) {
+        skip_space(w);
+        if (object) {
+            skip_string(w);
+            skip_space(w);
+            w->at++; /* the colon */
+            skip_space(w);
+        }
+        if (i == index) {
+            return w->at < w->end;
+        }
         skip_value(w);
         skip_space(w);
         w->at++; /* the comma */
     }
-    skip_space(w);
-    return w->at < w->end;
+    return false;
 }
 
-static size_t line_of(const koksma__json *document, const char *path)
+/* Where the member of that key stands: jansson keeps them in the text's order. */
+static size_t number_of(const json_t *object, const char *key)
 {
-    walker w = {document->text, document->text + document->size};
+    size_t number = 0;
+    for (void *i = json_object_iter((json_t *)(uintptr_t)object); i && json_object_iter_key(i) != key;
+         i = json_object_iter_next((json_t *)(uintptr_t)object, i)) {
+        number++;
+    }
+    return number;
+}
+
+static size_t line_of(const koksma__json_node *node)
+{
+    const char *text = node->document->text;
+    const json_t *value = node->document->root;
+    walker w = {text, text + node->document->size};
     skip_space(&w);
-    while (*path) {
-        bool found;
+    for (int i = 0; i < node->n_steps; i++) {
+        const koksma__json_step step = node->steps[i];
         const walker before = w;
-        if (*path == '[') {
-            found = enter_item(&w, strtoul(path + 1, NULL, 10));
-            path += strcspn(path, "]") + 1;
-        } else {
-            path += *path == '.';
-            const size_t length = strcspn(path, ".[");
-            found = enter_member(&w, path, length);
-            path += length;
-        }
-        if (!found) {
+        if (!enter(&w, step.key ? number_of(value, step.key) : step.item)) {
             w = before;
             break;
         }
+        value = step.key ? json_object_get(value, step.key) : json_array_get(value, step.item);
     }
     size_t line = 1;
-    for (const char *c = document->text; c < w.at && c < w.end; c++) {
+    for (const char *c = text; c < w.at && c < w.end; c++) {
         line += *c == '\n';
     }
     return line;
@@ -133,8 +127,8 @@ koksma_status koksma__json_fail(const koksma__json_node *node, const char *forma
     koksma__vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
     const koksma__json *d = node->document;
-    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(d, node->path),
-                        node->path, *node->path ? ": " : "", reason);
+    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(node), node->path,
+                        *node->path ? ": " : "", reason);
 }
 
 koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status)
@@ -210,7 +204,7 @@ void koksma__json_close(koksma__json *document)
 
 koksma__json_node koksma__json_root(const koksma__json *document)
 {
-    return (koksma__json_node){document, document->root, ""};
+    return (koksma__json_node){.document = document, .value = document->root};
 }
 
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
@@ -252,6 +246,17 @@ bool koksma__json_has(const koksma__json_node *node, const char *key)
     return json_object_get(node->value, key) != NULL;
 }
 
+/* The node below the parent; its path is still the caller's to write. */
+static koksma__json_node below(const koksma__json_node *parent, const json_t *value, const char *key, size_t item)
+{
+    koksma__json_node out = *parent;
+    out.value = value;
+    if (out.n_steps < KOKSMA__JSON_STEPS) {
+        out.steps[out.n_steps++] = (koksma__json_step){key, item};
+    }
+    return out;
+}
+
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
 {
     const json_t *value = json_object_get(node->value, key);
@@ -262,7 +267,8 @@ koksma_status koksma__json_member(const koksma__json_node *node, const char *key
         return koksma__json_fail(node, "field '%s' is missing", key);
     }
     const koksma__json_node parent = *node;
-    *out = (koksma__json_node){.document = parent.document, .value = value};
+    void *here = json_object_iter_at((json_t *)(uintptr_t)parent.value, key);
+    *out = below(&parent, value, json_object_iter_key(here), 0);
     snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", key);
     return KOKSMA_OK;
 }
@@ -278,7 +284,7 @@ koksma_status koksma__json_length(const koksma__json_node *node, size_t max, siz
 
 koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i)
 {
-    koksma__json_node out = {.document = node->document, .value = json_array_get(node->value, i)};
+    koksma__json_node out = below(node, json_array_get(node->value, i), NULL, i);
     snprintf(out.path, sizeof out.path, "%.100s[%zu]", node->path, i);
     return out;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * JSON files (scenes, plans) with errors that name file, line, field and reason. A node remembers its path from the
- * root
- * ("lights[2].centre"); its line is looked up only when something is wrong with it.
+ * root ("lights[2].centre"); its line is looked up only when something is wrong with it.
  */
 #ifndef KOKSMA_SCENE_JSON_H
 #define KOKSMA_SCENE_JSON_H
@@ -11,12 +10,21 @@
 
 typedef struct koksma__json koksma__json;
 
-enum { KOKSMA__JSON_PATH = 128 };
+enum { KOKSMA__JSON_PATH = 128, KOKSMA__JSON_STEPS = 16 };
 
+/* From a node to one below: to the member of that key, or, where it is NULL, to the item of that number. */
+typedef struct koksma__json_step {
+    const char *key;
+    size_t item;
+} koksma__json_step;
+
+/* The path is for readers, and may be cut; steps are the way itself, as far as there is room. */
 typedef struct koksma__json_node {
     const koksma__json *document;
     const void *value;
     char path[KOKSMA__JSON_PATH];
+    koksma__json_step steps[KOKSMA__JSON_STEPS];
+    int n_steps;
 } koksma__json_node;
 
 /* Parses text; kind and name are what errors call it: "scene 'box.json': line 3: …". Keeps its own copy of text.

@@ -121,6 +121,13 @@ static koksma_status parse_environment(const char *name, const field *f, koksma_
             return koksma__json_fail(f, "a second environment");
         }
     }
+    const bool image = koksma__json_has(f, "image");
+    if (!status && image && koksma__json_has(f, "radiance")) {
+        return koksma__json_fail(f, "it takes one of 'radiance' and 'image'");
+    }
+    if (!status && !image && (koksma__json_has(f, "scale") || koksma__json_has(f, "angle_deg"))) {
+        return koksma__json_fail(f, "'scale' and 'angle_deg' need 'image'");
+    }
     light->visible = true;
     status = status ? status : koksma__json_get_text(f, "image", false, &path);
     status = status ? status : koksma__json_get_flag(f, "visible", false, &light->visible);

@@ -21,6 +21,17 @@ static const struct {
     {"{\n\"camera\": \n", "line 3: unexpected token near end of file"},
     {"[]", "line 1: it takes an object"},
     {"{\n" CAMERA MATERIALS "\"shapes\": [],\n\"fog\": 1}", "line 5: fog: unknown field"},
+    {"{\n" CAMERA MATERIALS "\"shapes\": [],\n\"a.b[0]\": 1}", "line 5: a.b[0]: unknown field"},
+    {"{\n" CAMERA MATERIALS "\"shapes\": [],\n\"f\\u006fg\": 1}", "line 5: fog: unknown field"},
+    {"{\n" CAMERA MATERIALS "\"shapes\": [],\n\"lights\": [\n{\"kind\": \"environment\", \"radiance\": 1, \"image\": "
+     "\"a.pfm\"}]}",
+     "line 6: lights[0]: it takes one of 'radiance' and 'image'"},
+    {"{\n" CAMERA MATERIALS
+     "\"shapes\": [], \"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"scale\": 2}]}",
+     "line 4: lights[0]: 'scale' and 'angle_deg' need 'image'"},
+    {"{\n" CAMERA MATERIALS
+     "\"shapes\": [], \"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"angle_deg\": 0}]}",
+     "line 4: lights[0]: 'scale' and 'angle_deg' need 'image'"},
     {"{\n" MATERIALS "\"shapes\": []}", "line 1: field 'camera' is missing"},
     {"{\n" CAMERA MATERIALS "\"shapes\": [], \"ambient\": NaN}", "line 4: invalid token near 'NaN'"},
     {"{\n" CAMERA MATERIALS "\"shapes\": [], \"ambient\": 1e999}", "line 4: real number overflow near '1e999'"},
