@@ -3,17 +3,14 @@
  * glTF 2 before assimp sees it: every number that names another thing is in range, every piece lies within what holds
  * it, and nodes are trees. assimp takes some of that on trust. The file's other errors are left to it.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "scene/json.h"
-#include "scene/mesh.h"
+#include "scene/gltf.h"
 
 typedef koksma__json_node field;
 
-enum { MAX_ITEMS = 1 << 20 };
 #define MAX_BYTES ((long long)1 << 30)
 
 typedef struct lists {
@@ -21,24 +18,13 @@ typedef struct lists {
     size_t buffers, views, accessors, meshes, nodes, materials, cameras, images, textures;
 } lists;
 
-/* Item i of the list `key` of an object, which may have none: then *n is 0. */
-static koksma_status open_list(const field *object, const char *key, field *list, size_t *n)
-{
-    *n = 0;
-    if (!koksma__json_has(object, key)) {
-        return KOKSMA_OK;
-    }
-    const koksma_status status = koksma__json_member(object, key, list);
-    return status ? status : koksma__json_length(list, MAX_ITEMS, n);
-}
-
 /* Calls f for every item of the list. */
 static koksma_status each(const lists *l, const field *object, const char *key,
                           koksma_status (*f)(const lists *l, const field *item))
 {
     field list;
     size_t n;
-    koksma_status status = open_list(object, key, &list, &n);
+    koksma_status status = koksma__gltf_list(object, key, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         const field item = koksma__json_item(&list, i);
         status = f(l, &item);
@@ -50,7 +36,7 @@ static koksma_status each(const lists *l, const field *object, const char *key,
 static koksma_status names(const field *object, const char *key, size_t n)
 {
     long long number = 0;
-    const koksma_status status = koksma__json_get_whole(object, key, false, 0, MAX_ITEMS, &number);
+    const koksma_status status = koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number);
     if (!status && koksma__json_has(object, key) && (size_t)number >= n) {
         return koksma__json_fail(object, "%s is %lld of %zu", key, number, n);
     }
@@ -86,7 +72,7 @@ static koksma_status check_view(const lists *l, const field *f)
     long long number = 0, offset = 0, length = 0, room = 0, stride = 0;
     field buffer;
     koksma_status status = names(f, "buffer", l->buffers);
-    status = status ? status : koksma__json_get_whole(f, "buffer", true, 0, MAX_ITEMS, &number);
+    status = status ? status : koksma__json_get_whole(f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number);
     status = status ? status : bytes(f, "byteOffset", false, &offset);
     status = status ? status : bytes(f, "byteLength", true, &length);
     status = status ? status : bytes(f, "byteStride", false, &stride);
@@ -138,7 +124,7 @@ static koksma_status check_accessor(const lists *l, const field *f)
     if (status || !koksma__json_has(f, "bufferView")) {
         return status;
     }
-    status = koksma__json_get_whole(f, "bufferView", true, 0, MAX_ITEMS, &number);
+    status = koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number);
     status = status ? status : item_of(l, "bufferViews", number, &view);
     status = status ? status : bytes(&view, "byteLength", true, &room);
     status = status ? status : bytes(&view, "byteStride", false, &stride);
@@ -192,12 +178,12 @@ static koksma_status check_tree(const lists *l, unsigned char *has_parent)
 {
     field nodes, scenes, list;
     size_t n, n_scenes = 0;
-    koksma_status status = open_list(&l->root, "nodes", &nodes, &n);
+    koksma_status status = koksma__gltf_list(&l->root, "nodes", &nodes, &n);
     for (int pass = 0; !status && pass < 2; pass++) {
-        status = pass ? open_list(&l->root, "scenes", &scenes, &n_scenes) : KOKSMA_OK;
+        status = pass ? koksma__gltf_list(&l->root, "scenes", &scenes, &n_scenes) : KOKSMA_OK;
         for (size_t i = 0; !status && i < (pass ? n_scenes : l->nodes); i++) {
             const field item = koksma__json_item(pass ? &scenes : &nodes, i);
-            status = open_list(&item, pass ? "nodes" : "children", &list, &n);
+            status = koksma__gltf_list(&item, pass ? "nodes" : "children", &list, &n);
             for (size_t c = 0; !status && c < n; c++) {
                 const field child = koksma__json_item(&list, c);
                 long long number = 0;
@@ -237,7 +223,7 @@ static koksma_status check_root(const field *root)
         return koksma__json_fail(&asset, "glTF %.16s: only glTF 2 is read", version);
     }
     for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
-        status = open_list(root, all[i].key, &list, all[i].n);
+        status = koksma__gltf_list(root, all[i].key, &list, all[i].n);
     }
     for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
         status = all[i].check ? each(&l, root, all[i].key, all[i].check) : KOKSMA_OK;
@@ -251,63 +237,6 @@ static koksma_status check_root(const field *root)
     }
     status = check_tree(&l, has_parent);
     free(has_parent);
-    return status;
-}
-
-/* Follows keys into objects; false: one is not there. */
-static bool find(const field *from, const char *const keys[], field *out)
-{
-    field at = *from;
-    for (; *keys; keys++) {
-        const field object = at;
-        if (!koksma__json_has(&object, *keys) || koksma__json_member(&object, *keys, &at)) {
-            return false;
-        }
-    }
-    *out = at;
-    return true;
-}
-
-/* A reader that lacks one of these must not show the file (glTF 2.0, section 3.12). */
-static koksma_status check_extension(const lists *l, const field *item)
-{
-    static const char *const known[] = {"KHR_draco_mesh_compression", "KHR_lights_punctual",
-                                        "KHR_materials_emissive_strength"};
-    const char *name;
-    (void)l;
-    const koksma_status status = koksma__json_text(item, &name);
-    for (size_t i = 0; !status && i < sizeof known / sizeof *known; i++) {
-        if (!strcmp(name, known[i])) {
-            return KOKSMA_OK;
-        }
-    }
-    return status ? status : koksma__json_fail(item, "the file requires extension '%s', which is not read", name);
-}
-
-/* What is not there leaves *out as it is. */
-static koksma_status read_facts(const field *root, koksma__gltf *out)
-{
-    static const char *const strength[] = {"extensions", "KHR_materials_emissive_strength", NULL};
-    static const char *const perspective[] = {"perspective", NULL};
-    field list, found;
-    size_t n;
-    koksma_status status = open_list(root, "cameras", &list, &n);
-    if (!status && n) {
-        const field camera = koksma__json_item(&list, 0);
-        if (find(&camera, perspective, &found)) {
-            status = koksma__json_get_number(&found, "yfov", true, 0, M_PI, &out->yfov_rad);
-        }
-    }
-    status = status ? status : open_list(root, "animations", &list, &out->n_animations);
-    status = status ? status : open_list(root, "skins", &list, &out->n_skins);
-    status = status ? status : each(NULL, root, "extensionsRequired", check_extension);
-    status = status ? status : open_list(root, "materials", &list, &n);
-    for (size_t i = 0; !status && i < n && i < KOKSMA__GLTF_MATERIALS; i++) {
-        const field material = koksma__json_item(&list, i);
-        if (find(&material, strength, &found)) {
-            status = koksma__json_get_number(&found, "emissiveStrength", false, 0, 1e6, &out->strengths[i]);
-        }
-    }
     return status;
 }
 
@@ -338,7 +267,7 @@ koksma_status koksma__gltf_read(const char *path, const unsigned char *file, siz
     if (!status) {
         const field root = koksma__json_root(document);
         status = check_root(&root);
-        status = status ? status : read_facts(&root, out);
+        status = status ? status : koksma__gltf_facts(&root, out);
     }
     koksma__json_close(document);
     return status;
@@ -347,5 +276,6 @@ koksma_status koksma__gltf_read(const char *path, const unsigned char *file, siz
 koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size)
 {
     koksma__gltf idle;
+    koksma__gltf_init(&idle);
     return koksma__gltf_read(path, file, size, &idle);
 }

@@ -55,13 +55,33 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
 /* out = a b, where both have a fourth row 0 0 0 1. */
 void koksma__matrix_multiply(const double a[12], const double b[12], double out[12]);
 
+/* What a file has that is not read, by number. */
+typedef struct koksma__unread {
+    size_t animations, skins;
+    size_t vertex_colours;         /* meshes */
+    size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
+    size_t see_through;            /* materials */
+} koksma__unread;
+
+/* A light at a node. */
+typedef struct koksma__gltf_light {
+    bool far_away;
+    double colour[3], matrix[12]; /* times the intensity; of the node */
+} koksma__gltf_light;
+
 /* What assimp 5.2 does not tell of a glTF file, or tells otherwise. */
-enum { KOKSMA__GLTF_MATERIALS = 1024 };
+enum { KOKSMA__GLTF_MATERIALS = 1024, KOKSMA__GLTF_LIGHTS = 256 };
 typedef struct koksma__gltf {
-    double yfov_rad;                          /* of the first camera; 0: it has no perspective */
+    double yfov_rad;                          /* of the camera; 0: there is none */
+    double camera[12];                        /* its node's matrix */
     double strengths[KOKSMA__GLTF_MATERIALS]; /* of emission, by material (KHR_materials_emissive_strength) */
-    size_t n_animations, n_skins;             /* which are not read */
+    size_t n_lights;                          /* which may be more than there is room for */
+    koksma__gltf_light lights[KOKSMA__GLTF_LIGHTS];
+    koksma__unread unread; /* all but vertex colours and what is see-through */
 } koksma__gltf;
+
+/* What holds where a file says nothing. */
+void koksma__gltf_init(koksma__gltf *gltf);
 
 /* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size);

@@ -107,16 +107,28 @@ static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin
 
 /* What assimp took: a sum of the hashes of all files, materials' too, and what was wrong with one of these. */
 typedef struct taken {
+    const char *model;
     uint64_t hash;
     koksma_status status;
 } taken;
 
+/* The file that assimp means: it puts the model's folder before a name. */
+static bool find_file(const char *model, const char *path, char out[KOKSMA__MAX_PATH])
+{
+    const char *slash = strrchr(model, '/');
+    const size_t folder = slash ? (size_t)(slash - model) + 1 : 0;
+    const bool beside = !strncmp(path, model, folder);
+    return strlen(path) < KOKSMA__MAX_PATH &&
+           (koksma__is_plain_file(strcpy(out, path)) || (beside && koksma__find_named(model, path + folder, out)));
+}
+
 /* io->UserData: taken. After a file that is there and can't be read no other is opened: without materials, say, it
    would be another scene. */
-static struct aiFile *open_proc(struct aiFileIO *io, const char *path, const char *mode)
+static struct aiFile *open_proc(struct aiFileIO *io, const char *name, const char *mode)
 {
     taken *all = (taken *)(void *)io->UserData;
-    if (all->status || !strchr(mode, 'r') || !koksma__is_plain_file(path)) {
+    char path[KOKSMA__MAX_PATH];
+    if (all->status || !strchr(mode, 'r') || !find_file(all->model, name, path)) {
         return NULL;
     }
     open_file *f = calloc(1, sizeof *f);
@@ -155,7 +167,7 @@ static void close_proc(struct aiFileIO *io, struct aiFile *file)
    that it took. */
 static koksma_status import(const char *path, koksma__gltf *gltf, const struct aiScene **out, uint64_t *hash)
 {
-    taken all = {0};
+    taken all = {.model = path};
     struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)&all};
     const koksma_status status = koksma__mesh_file_check(path, gltf);
     if (status) {
@@ -280,11 +292,38 @@ static const struct aiTexture *embedded(const struct aiScene *from, const char *
     return NULL;
 }
 
+static void read_texture(const reader *r, const struct aiMaterial *from, enum aiTextureType type,
+                         struct aiString *name, koksma__file_texture *out)
+{
+    if (aiGetMaterialTexture(from, type, 0, name, NULL, NULL, NULL, NULL, NULL, NULL)) {
+        return;
+    }
+    const struct aiTexture *own = embedded(r->from, name->data);
+    out->name = name->data;
+    out->within = own != NULL;
+    if (own && !own->mHeight) { /* an image file; else its texels */
+        out->bytes = (const unsigned char *)own->pcData;
+        out->size = own->mWidth;
+    }
+}
+
+/* By glTF's alphaMode, whose alpha means nothing where it is OPAQUE; else by the opacity. */
+static bool is_see_through(const struct aiMaterial *from)
+{
+    struct aiString mode;
+    float opacity = 1;
+    unsigned one = 1;
+    if (!aiGetMaterialString(from, "$mat.gltf.alphaMode", 0, 0, &mode)) {
+        return strcmp(mode.data, "OPAQUE") != 0;
+    }
+    return !aiGetMaterialFloatArray(from, AI_MATKEY_OPACITY, &opacity, &one) && opacity < 1;
+}
+
 static void read_material(reader *r, const struct aiMaterial *from)
 {
-    koksma__file_material m = {.roughness = 1};
+    koksma__file_material m = {.roughness = 1, .see_through = is_see_through(from)};
     struct aiColor4D colour = {0.8f, 0.8f, 0.8f, 1}, glow = {0, 0, 0, 1};
-    struct aiString file;
+    struct aiString colour_map, glow_map;
     unsigned one = 1;
     if (aiGetMaterialColor(from, AI_MATKEY_BASE_COLOR, &colour)) {
         aiGetMaterialColor(from, AI_MATKEY_COLOR_DIFFUSE, &colour);
@@ -294,58 +333,24 @@ static void read_material(reader *r, const struct aiMaterial *from)
     aiGetMaterialFloatArray(from, AI_MATKEY_ROUGHNESS_FACTOR, &m.roughness, &one);
     memcpy(m.colour, &colour, sizeof m.colour);
     memcpy(m.glow, &glow, sizeof m.glow);
-    if (!aiGetMaterialTexture(from, aiTextureType_BASE_COLOR, 0, &file, NULL, NULL, NULL, NULL, NULL, NULL) ||
-        !aiGetMaterialTexture(from, aiTextureType_DIFFUSE, 0, &file, NULL, NULL, NULL, NULL, NULL, NULL)) {
-        const struct aiTexture *own = embedded(r->from, file.data);
-        m.texture = file.data;
-        m.within = own != NULL;
-        if (own && !own->mHeight) { /* an image file; else its texels */
-            m.bytes = (const unsigned char *)own->pcData;
-            m.size = own->mWidth;
-        }
+    read_texture(r, from, aiTextureType_BASE_COLOR, &colour_map, &m.colour_map);
+    if (!m.colour_map.name) {
+        read_texture(r, from, aiTextureType_DIFFUSE, &colour_map, &m.colour_map);
     }
+    read_texture(r, from, aiTextureType_EMISSIVE, &glow_map, &m.glow_map);
     koksma__build_material(&r->build, &m);
 }
 
-/* The matrix of the node of this name; false: there is none. */
-static bool find_node(const struct aiNode *node, const char *name, const double parent[12], int depth, double out[12])
+/* Whether the mesh has colours other than white, which changes nothing. */
+static bool is_coloured(const struct aiMesh *mesh)
 {
-    double matrix[12];
-    node_matrix(node, parent, matrix);
-    if (!strcmp(node->mName.data, name)) {
-        memcpy(out, matrix, sizeof matrix);
-        return true;
-    }
-    for (unsigned i = 0; depth < MAX_DEPTH && i < node->mNumChildren; i++) {
-        if (find_node(node->mChildren[i], name, matrix, depth + 1, out)) {
+    for (unsigned i = 0; mesh->mColors[0] && i < mesh->mNumVertices; i++) {
+        const struct aiColor4D c = mesh->mColors[0][i];
+        if (c.r != 1 || c.g != 1 || c.b != 1) {
             return true;
         }
     }
     return false;
-}
-
-static bool read_camera(reader *r)
-{
-    const struct aiCamera *c = r->from->mNumCameras ? r->from->mCameras[0] : NULL;
-    double matrix[12];
-    return c && find_node(r->from->mRootNode, c->mName.data, identity, 0, matrix) &&
-           koksma__build_camera(&r->build, matrix);
-}
-
-static koksma_status read_light(reader *r, const struct aiLight *from)
-{
-    koksma__file_light to = {
-        .name = from->mName.data,
-        .far_away = from->mType == aiLightSource_DIRECTIONAL,
-        .position = {from->mPosition.x, from->mPosition.y, from->mPosition.z},
-        .direction = {from->mDirection.x, from->mDirection.y, from->mDirection.z},
-        .colour = {from->mColorDiffuse.r, from->mColorDiffuse.g, from->mColorDiffuse.b},
-    };
-    if ((!to.far_away && from->mType != aiLightSource_POINT && from->mType != aiLightSource_SPOT) ||
-        !find_node(r->from->mRootNode, to.name, identity, 0, to.matrix)) {
-        return KOKSMA_OK; /* of a kind that we have none of */
-    }
-    return koksma__build_light(&r->build, &to);
 }
 
 static koksma_status read_all(reader *r, bool *has_camera)
@@ -370,11 +375,11 @@ static koksma_status read_all(reader *r, bool *has_camera)
     if (!r->build.status && !r->build.scene->n_placements) {
         return koksma__fail(KOKSMA_MALFORMED, "no triangles");
     }
-    *has_camera = read_camera(r);
-    for (unsigned i = 0; !r->build.status && i < from->mNumLights; i++) {
-        r->build.status = read_light(r, from->mLights[i]);
+    for (unsigned i = 0; i < from->mNumMeshes; i++) {
+        r->build.scene->unread.vertex_colours += is_coloured(from->mMeshes[i]);
     }
-    return r->build.status;
+    *has_camera = koksma__build_camera(&r->build);
+    return r->build.status ? r->build.status : koksma__build_lights(&r->build);
 }
 
 koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
@@ -382,8 +387,7 @@ koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *ha
     reader r = {.build = {.scene = scene, .path = path}};
     koksma_status status = import(path, &r.build.gltf, &r.from, &scene->hash);
     if (!status) {
-        scene->n_animations = r.build.gltf.n_animations;
-        scene->n_skins = r.build.gltf.n_skins;
+        scene->unread = r.build.gltf.unread;
         status = read_all(&r, has_camera);
         koksma__build_fini(&r.build);
         aiReleaseImport(r.from);

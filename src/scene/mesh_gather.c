@@ -26,8 +26,16 @@ void koksma__gather_count(void *gatherer, const koksma__file_mesh *mesh, const d
     }
 }
 
-/* The normal's matrix is the inverse transposed; times the determinant it is the cofactors. */
-static void turn_normal(const double m[12], const float v[3], float out[3])
+bool koksma__matrix_mirrors(const double m[12])
+{
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+               m[2] * (m[4] * m[9] - m[5] * m[8]) <
+           0;
+}
+
+/* The normal's matrix is the inverse transposed; times the determinant it is the cofactors. sign undoes the
+   determinant's. */
+static void turn_normal(const double m[12], double sign, const float v[3], float out[3])
 {
     for (int r = 0; r < 3; r++) {
         double sum = 0;
@@ -36,11 +44,12 @@ static void turn_normal(const double m[12], const float v[3], float out[3])
             const double cofactor = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
             sum += cofactor * (double)v[c];
         }
-        out[r] = (float)sum;
+        out[r] = (float)(sign * sum);
     }
 }
 
-static void append_vertices(const koksma__file_mesh *mesh, const double matrix[12], size_t base, koksma__mesh *out)
+static void append_vertices(const koksma__file_mesh *mesh, const double matrix[12], double sign, size_t base,
+                            koksma__mesh *out)
 {
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         const float *v = mesh->positions + 3 * i;
@@ -50,7 +59,7 @@ static void append_vertices(const koksma__file_mesh *mesh, const double matrix[1
                 (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
         }
         if (out->normals) {
-            turn_normal(matrix, mesh->normals + 3 * i, out->normals + 3 * (base + i));
+            turn_normal(matrix, sign, mesh->normals + 3 * i, out->normals + 3 * (base + i));
         }
         if (out->uvs) {
             out->uvs[2 * (base + i)] = mesh->uvs[3 * i];
@@ -66,12 +75,13 @@ void koksma__gather_append(void *gatherer, const koksma__file_mesh *mesh, const 
         return;
     }
     const size_t base = g->vertices;
-    append_vertices(mesh, matrix, base, g->out);
+    const bool swapped = koksma__matrix_mirrors(matrix) != g->mirrored;
+    append_vertices(mesh, matrix, swapped ? -1 : 1, base, g->out);
     for (size_t i = 0; i < mesh->n_faces; i++) {
         size_t n_corners;
         const unsigned *face = mesh->face(mesh->faces, i, &n_corners);
         for (size_t c = 2; c < n_corners; c++) {
-            const size_t corners[3] = {face[0], face[c - 1], face[c]};
+            const size_t corners[3] = {face[0], face[swapped ? c : c - 1], face[swapped ? c - 1 : c]};
             for (size_t k = 0; k < 3; k++) { /* beyond its mesh: beyond ours, too, which check() says */
                 g->out->indices[3 * g->triangles + k] =
                     corners[k] < mesh->n_vertices ? (uint32_t)(base + corners[k]) : UINT32_MAX;
@@ -82,10 +92,10 @@ void koksma__gather_append(void *gatherer, const koksma__file_mesh *mesh, const 
     g->vertices += mesh->n_vertices;
 }
 
-koksma_status koksma__file_mesh_take(const koksma__file_mesh *mesh, koksma__mesh *out)
+koksma_status koksma__file_mesh_take(const koksma__file_mesh *mesh, bool mirrored, koksma__mesh *out)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    koksma__gatherer g = {.out = out};
+    koksma__gatherer g = {.out = out, .mirrored = mirrored};
     const koksma_status status =
         koksma__mesh_init(mesh->n_vertices, koksma__file_triangles(mesh), mesh->normals, mesh->uvs, out);
     if (status) {

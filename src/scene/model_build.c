@@ -24,7 +24,7 @@ koksma_status koksma__build_init(koksma__build *build, size_t n_materials, size_
         return koksma__fail_memory((n_meshes + 1) * sizeof *build->meshes);
     }
     for (size_t i = 0; i < n_meshes; i++) {
-        build->meshes[i] = -1;
+        build->meshes[i][0] = build->meshes[i][1] = -1;
     }
     return KOKSMA_OK;
 }
@@ -44,33 +44,65 @@ static double clamp01(float x)
 
 /* An image of the file's own (glb), or a file beside it. Errors: MALFORMED (it isn't there, or we can't make it out),
    MISSING (it is there and can't be read), MEMORY. */
-static koksma_status read_texture(const koksma__build *build, const koksma__file_material *from, koksma_image *image)
+static koksma_status read_texture(const koksma__build *build, const koksma__file_texture *from, koksma_image *image)
 {
     char full[KOKSMA__MAX_PATH];
+    *image = (koksma_image){0};
     if (from->bytes) {
         const koksma_status status = koksma__image_read_bytes(from->bytes, from->size, image);
-        return status ? koksma__fail_in(status, from->texture) : KOKSMA_OK;
+        return status ? koksma__fail_in(status, from->name) : KOKSMA_OK;
     }
     if (from->within) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: bare texels", from->texture);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: bare texels", from->name);
     }
-    if (!koksma__path_beside(build->path, from->texture, full) || !koksma__is_plain_file(full)) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->texture);
+    if (!koksma__find_named(build->path, from->name, full)) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->name);
     }
     return koksma_image_read(full, image);
 }
 
-/* What isn't there or can't be made out is left out with a warning, and the colour is taken; what fails otherwise
-   is build->status. */
-static void take_texture(koksma__build *build, const koksma__file_material *from, koksma__material *m)
+/* What isn't there or can't be made out is a warning; what fails otherwise is build->status. */
+static void note(koksma__build *build, koksma_status status, char text[256])
+{
+    if (status == KOKSMA_MEMORY || status == KOKSMA_MISSING) {
+        build->status = status;
+    } else {
+        snprintf(text, 256, "%s", koksma_error_text());
+    }
+}
+
+/* Multiplies the pixels with a colour; a grey image becomes a coloured one where it must. */
+static koksma_status tint(koksma_image *image, const double colour[3])
+{
+    const size_t n = (size_t)image->width * (size_t)image->height;
+    koksma_image grey = *image;
+    if (grey.channels == 1 && (colour[0] != colour[1] || colour[0] != colour[2])) {
+        const koksma_status status = koksma_image_init(image, grey.width, grey.height, 3);
+        for (size_t i = 0; !status && i < 3 * n; i++) {
+            image->pixels[i] = grey.pixels[i / 3];
+        }
+        koksma_image_fini(&grey);
+        if (status) {
+            return status;
+        }
+    }
+    const size_t channels = (size_t)image->channels;
+    for (size_t i = 0; i < n * channels; i++) {
+        image->pixels[i] = (float)((double)image->pixels[i] * colour[i % channels]);
+    }
+    return KOKSMA_OK;
+}
+
+/* A texture that isn't there leaves the colour alone. */
+static void take_colour_map(koksma__build *build, const koksma__file_texture *from, koksma__material *m)
 {
     if (m->kind != KOKSMA__MATERIAL_LAMBERT) {
-        snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->texture);
+        snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
         return;
     }
     m->image = calloc(1, sizeof *m->image);
-    const koksma_status status =
-        m->image ? read_texture(build, from, m->image) : koksma__fail_memory(sizeof *m->image);
+    koksma_status status = m->image ? read_texture(build, from, m->image) : koksma__fail_memory(sizeof *m->image);
+    status = status ? status : tint(m->image, m->albedo[0]);
     if (!status) {
         koksma__material_mean(m);
         return;
@@ -78,10 +110,32 @@ static void take_texture(koksma__build *build, const koksma__file_material *from
     koksma_image_fini(m->image);
     free(m->image);
     m->image = NULL;
-    if (status == KOKSMA_MEMORY || status == KOKSMA_MISSING) {
-        build->status = status;
-    } else {
-        snprintf(m->lost, sizeof m->lost, "%s", koksma_error_text());
+    note(build, status, m->lost);
+}
+
+/* Luminaires shine evenly: with the texture's mean. One that isn't there leaves the surface dark, as most of such a
+   texture is. */
+static void take_glow_map(koksma__build *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
+{
+    koksma_image image;
+    const koksma_status status = read_texture(build, from, &image);
+    const size_t n = status ? 0 : (size_t)image.width * (size_t)image.height;
+    const size_t channels = (size_t)image.channels;
+    bool even = true;
+    for (size_t k = 0; k < 3; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < n; i++) {
+            const double value = (double)image.pixels[i * channels + k % channels];
+            sum += value > 0 ? fmin(value, BRIGHT) : 0;
+            even &= value == (double)image.pixels[k % channels];
+        }
+        glow[k] = n ? fmin(glow[k] * sum / (double)n, BRIGHT) : 0;
+    }
+    koksma_image_fini(&image);
+    if (status) {
+        note(build, status, m->dark);
+    } else if (!even) {
+        snprintf(m->evened, sizeof m->evened, "%s", from->name);
     }
 }
 
@@ -90,18 +144,22 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     const size_t i = build->scene->n_materials++;
     koksma__material *m = &build->scene->materials[i];
     const double strength = i < KOKSMA__GLTF_MATERIALS ? build->gltf.strengths[i] : 1;
+    double *glow = build->glows[i];
     snprintf(m->name, sizeof m->name, "%zu", i);
     m->kind = from->metallic > 0.5f ? KOKSMA__MATERIAL_GGX : KOKSMA__MATERIAL_LAMBERT;
     m->roughness = fmin(fmax((double)from->roughness, 0.03), 1);
     double *to = m->kind == KOKSMA__MATERIAL_GGX ? m->reflectance : m->albedo[0];
     for (int k = 0; k < 3; k++) {
-        const double glow = (double)from->glow[k] * strength;
         to[k] = clamp01(from->colour[k]);
-        build->glows[i][k] = glow > 0 ? fmin(glow, BRIGHT) : 0;
+        glow[k] = from->glow[k] > 0 ? fmin((double)from->glow[k] * strength, BRIGHT) : 0;
     }
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
-    if (from->texture && !build->status) {
-        take_texture(build, from, m);
+    build->scene->unread.see_through += from->see_through;
+    if (from->colour_map.name && !build->status) {
+        take_colour_map(build, &from->colour_map, m);
+    }
+    if (from->glow_map.name && !build->status && (glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
+        take_glow_map(build, &from->glow_map, glow, m);
     }
 }
 
@@ -116,14 +174,14 @@ void koksma__build_grey(koksma__build *build)
 /* ---- Placements, camera, lights -------------------------------------------------------------------------- */
 
 /* The scene's mesh for one of the file's, made where it is first placed. */
-static koksma_status find_mesh(koksma__build *build, const koksma__file_mesh *mesh, int *out)
+static koksma_status find_mesh(koksma__build *build, const koksma__file_mesh *mesh, bool mirrored, int *out)
 {
-    int *known = &build->meshes[mesh->number];
+    int *known = &build->meshes[mesh->number][mirrored];
     koksma_status status = KOKSMA_OK;
     if (*known < 0) {
         koksma__mesh *to = NULL;
         status = koksma__scene_add_mesh(build->scene, &to);
-        status = status ? status : koksma__file_mesh_take(mesh, to);
+        status = status ? status : koksma__file_mesh_take(mesh, mirrored, to);
         *known = (int)build->scene->n_meshes - 1;
     }
     *out = *known;
@@ -165,7 +223,7 @@ void koksma__build_placement(void *context, const koksma__file_mesh *mesh, const
     koksma__build *build = context;
     int ours;
     if (!build->status && koksma__file_triangles(mesh)) {
-        build->status = find_mesh(build, mesh, &ours);
+        build->status = find_mesh(build, mesh, koksma__matrix_mirrors(matrix), &ours);
         build->status = build->status ? build->status : place(build, ours, mesh->material, matrix);
     }
 }
@@ -182,12 +240,11 @@ static bool within(const double v[3], double bound)
     return fabs(v[0]) <= bound && fabs(v[1]) <= bound && fabs(v[2]) <= bound;
 }
 
-/* Only glTF has cameras: at the origin of their node, looking down its -z. What assimp says besides differs by
-   version: 5.2 adds the node's translation once more, and has other angles. */
-bool koksma__build_camera(koksma__build *build, const double matrix[12])
+/* At the origin of its node, looking down its -z. */
+bool koksma__build_camera(koksma__build *build)
 {
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1}, over[3] = {0, 1, 0};
-    const double fov = build->gltf.yfov_rad;
+    const double fov = build->gltf.yfov_rad, *matrix = build->gltf.camera;
     double eye[3], forward[3], up[3];
     transform(matrix, origin, 1, eye);
     transform(matrix, ahead, 0, forward);
@@ -196,23 +253,35 @@ bool koksma__build_camera(koksma__build *build, const double matrix[12])
            koksma__camera_aim(eye, forward, up, fov, &build->scene->camera);
 }
 
-koksma_status koksma__build_light(koksma__build *build, const koksma__file_light *from)
+/* Likewise. */
+static koksma_status build_light(koksma__build *build, size_t i)
 {
+    static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
+    const koksma__gltf_light *from = &build->gltf.lights[i];
     koksma__light *to = NULL;
     const koksma_status status = koksma__scene_add_light(build->scene, &to);
     if (status) {
         return status;
     }
-    const double position[3] = {(double)from->position[0], (double)from->position[1], (double)from->position[2]};
-    const double direction[3] = {(double)from->direction[0], (double)from->direction[1], (double)from->direction[2]};
     to->kind = from->far_away ? KOKSMA__LIGHT_DIRECTIONAL : KOKSMA__LIGHT_POINT;
-    transform(from->matrix, position, 1, to->centre);
-    transform(from->matrix, direction, 0, to->normal);
+    transform(from->matrix, origin, 1, to->centre);
+    transform(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {
-        to->radiance[k] = from->colour[k] > 0 ? fmin((double)from->colour[k], BRIGHT) : 0;
+        to->radiance[k] = fmin(from->colour[k], BRIGHT);
     }
     if (!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal))) {
-        return koksma__fail(KOKSMA_MALFORMED, "light '%s' is beyond 1e6 or leads nowhere", from->name);
+        return koksma__fail(KOKSMA_MALFORMED, "light %zu is beyond 1e6 or leads nowhere", i);
     }
     return KOKSMA_OK;
+}
+
+koksma_status koksma__build_lights(koksma__build *build)
+{
+    koksma_status status = build->gltf.n_lights <= KOKSMA__GLTF_LIGHTS
+                               ? KOKSMA_OK
+                               : koksma__fail(KOKSMA_MALFORMED, "more than %d luminaires", KOKSMA__MAX_LIGHTS);
+    for (size_t i = 0; !status && i < build->gltf.n_lights; i++) {
+        status = build_light(build, i);
+    }
+    return status;
 }

@@ -19,23 +19,21 @@ typedef struct koksma__file_mesh {
 /* A mesh where a node places it. */
 typedef void (*koksma__file_visitor)(void *context, const koksma__file_mesh *mesh, const double matrix[12]);
 
-/* A texture: `texture` is the name of a file beside the model, or, `within`, of one that the model holds: in so many
-   bytes, or in a way that we don't read (bytes is NULL). */
-typedef struct koksma__file_material {
-    float colour[3], glow[3], metallic, roughness;
-    const char *texture; /* NULL: none */
+/* `name` is that of a file beside the model, or, `within`, of one that the model holds: in so many bytes, or in a way
+   that we don't read (bytes is NULL). */
+typedef struct koksma__file_texture {
+    const char *name; /* NULL: there is none */
     bool within;
     const unsigned char *bytes;
     size_t size;
-} koksma__file_material;
+} koksma__file_texture;
 
-/* matrix: of the light's node. */
-typedef struct koksma__file_light {
-    const char *name;
-    bool far_away;
-    float position[3], direction[3], colour[3];
-    double matrix[12];
-} koksma__file_light;
+/* Textures are to be multiplied with the numbers before them. */
+typedef struct koksma__file_material {
+    float colour[3], glow[3], metallic, roughness;
+    koksma__file_texture colour_map, glow_map;
+    bool see_through;
+} koksma__file_material;
 
 /* ---- mesh_gather.c ------------------------------------------------------------------------------------------ */
 
@@ -45,6 +43,7 @@ typedef struct koksma__gatherer {
     koksma__mesh *out;
     size_t vertices, triangles;
     bool normals, uvs; /* all have them; true before the first pass */
+    bool mirrored;     /* turned inside out beside what the matrices do */
 } koksma__gatherer;
 
 void koksma__gather_count(void *gatherer, const koksma__file_mesh *mesh, const double matrix[12]);
@@ -52,8 +51,12 @@ void koksma__gather_append(void *gatherer, const koksma__file_mesh *mesh, const 
 
 size_t koksma__file_triangles(const koksma__file_mesh *mesh);
 
-/* That mesh alone, as it stands in the file, checked. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__file_mesh_take(const koksma__file_mesh *mesh, koksma__mesh *out);
+/* Whether it swaps left and right: then it turns counterclockwise triangles into clockwise ones. */
+bool koksma__matrix_mirrors(const double matrix[12]);
+
+/* That mesh alone, as it stands in the file, checked; mirrored: for placements that mirror it, so with two corners of
+   each triangle swapped and normals turned round. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__file_mesh_take(const koksma__file_mesh *mesh, bool mirrored, koksma__mesh *out);
 
 /* ---- model_build.c ------------------------------------------------------------------------------------------ */
 
@@ -61,7 +64,7 @@ typedef struct koksma__build {
     koksma_scene *scene;
     const char *path;
     koksma__gltf gltf;
-    int *meshes;          /* the scene's, by the file's numbers; -1: not yet */
+    int (*meshes)[2];     /* the scene's, by the file's numbers, and mirrored; -1: not yet */
     double (*glows)[3];   /* by material */
     koksma_status status; /* of the materials and placements so far */
 } koksma__build;
@@ -79,10 +82,10 @@ void koksma__build_grey(koksma__build *build);
 /* Does nothing after one that failed. Errors, in build->status: MALFORMED, MEMORY. */
 void koksma__build_placement(void *build, const koksma__file_mesh *mesh, const double matrix[12]);
 
-/* The camera at a node; false: it sees nothing. */
-bool koksma__build_camera(koksma__build *build, const double matrix[12]);
+/* The file's camera; false: there is none, or it sees nothing. */
+bool koksma__build_camera(koksma__build *build);
 
 /* Errors: MALFORMED, MEMORY. */
-koksma_status koksma__build_light(koksma__build *build, const koksma__file_light *from);
+koksma_status koksma__build_lights(koksma__build *build);
 
 #endif

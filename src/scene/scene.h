@@ -49,7 +49,10 @@ typedef struct koksma__material {
     double period, phase[2], angle_rad;
     double exponent, roughness, ior;
     koksma_image *image; /* the albedo over a surface's coordinates, in place of albedo; or NULL */
-    char lost[256];      /* why the model file's texture is left out; "": it isn't */
+    /* of a model file's material; "": it isn't so */
+    char lost[256];   /* why its texture is left out */
+    char dark[256];   /* why it doesn't glow */
+    char evened[256]; /* the texture over which its glow varies, and of which the mean is taken */
 } koksma__material;
 
 typedef enum koksma__light_kind {
@@ -108,10 +111,10 @@ struct koksma_scene {
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
     size_t n_materials, n_shapes, n_lights, n_meshes, n_placements, shape_room;
-    bool grey;                    /* no colour in it: images have one channel */
-    bool moves;                   /* something depends on time */
-    bool is_model;                /* a bare mesh file: nobody wrote its materials for this program */
-    size_t n_animations, n_skins; /* that it has, and that are not read */
+    bool grey;             /* no colour in it: images have one channel */
+    bool moves;            /* something depends on time */
+    bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
+    koksma__unread unread; /* of a bare mesh file */
     koksma__kept *kept;
 };
 

@@ -78,6 +78,37 @@ static bool of_materials(const koksma_scene *scene, asked *a)
             snprintf(a->text, a->size, "material %zu is without its texture: %s", i, m->lost);
             return true;
         }
+        if (*m->dark && here(a)) {
+            snprintf(a->text, a->size, "material %zu doesn't glow, for want of its emissive texture: %s", i, m->dark);
+            return true;
+        }
+        if (*m->evened && here(a)) {
+            snprintf(a->text, a->size, "material %zu glows evenly, with its emissive texture's mean: %s", i,
+                     m->evened);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool of_unread(const koksma__unread *u, asked *a)
+{
+    const struct {
+        size_t n;
+        const char *what, *so;
+    } all[] = {
+        {u->animations, "animations", "everything stays where its node puts it"},
+        {u->skins, "skins", "their meshes stand as they were modelled"},
+        {u->vertex_colours, "meshes' vertex colours", "materials alone say the colour"},
+        {u->second_uvs, "other texture coordinates than the first", "textures lie by the first"},
+        {u->transforms, "transforms of textures", "textures lie as if there were none"},
+        {u->see_through, "materials' transparencies", "they are opaque"},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (all[i].n && here(a)) {
+            snprintf(a->text, a->size, "%s (%zu) are not read: %s", all[i].what, all[i].n, all[i].so);
+            return true;
+        }
     }
     return false;
 }
@@ -88,17 +119,7 @@ static bool of_all(const koksma_scene *scene, asked *a)
         snprintf(a->text, a->size, "no shapes");
         return true;
     }
-    if (scene->n_animations && here(a)) {
-        snprintf(a->text, a->size, "animations (%zu) are not read: everything stays where its node puts it",
-                 scene->n_animations);
-        return true;
-    }
-    if (scene->n_skins && here(a)) {
-        snprintf(a->text, a->size, "skins (%zu) are not read: their meshes stand as they were modelled",
-                 scene->n_skins);
-        return true;
-    }
-    return false;
+    return of_unread(&scene->unread, a);
 }
 
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)

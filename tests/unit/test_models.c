@@ -212,7 +212,7 @@ static void hashes_cover_the_files_that_a_scene_names(void **state)
     unlink("one.pfm");
 }
 
-/* A square with a texture looks as one in the texture's colour; what is no image leaves the material's colour. */
+/* A square with a texture looks as one in the texture's colour times the material's; what is no image leaves that. */
 static void textures_of_models_are_read(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void textures_of_models_are_read(void **state)
     write_text("textured.obj", SQUARE_OBJ("textured.mtl"));
     write_text("textured.mtl", "newmtl a\nKd 0.75 0.75 0.75\nmap_Kd texture.pfm\n");
     write_text("texture.pfm", "Pf\n1 1\n-1\n\1\1\1\076"); /* 0.126 */
-    write_text("plain.mtl", "newmtl a\nKd 0.12598039 0.12598039 0.12598039\n");
+    write_text("plain.mtl", "newmtl a\nKd 0.094485294 0.094485294 0.094485294\n");
     const uint64_t hash = hash_of("textured.obj");
     assert_near(mean(NULL, "textured.obj", "distribution", 16, 4), mean(NULL, "plain.obj", "distribution", 16, 4),
                 1e-6);

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* glTF as JSON: gltf_check.c looks whether the parts fit together, gltf_facts.c reads what assimp does not tell. */
+#ifndef KOKSMA_SCENE_GLTF_H
+#define KOKSMA_SCENE_GLTF_H
+
+#include "scene/json.h"
+#include "scene/mesh.h"
+
+enum { KOKSMA__GLTF_ITEMS = 1 << 20 };
+
+/* The list `key` of an object, which may have none: then *n is 0. */
+koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key, koksma__json_node *list, size_t *n);
+
+/* What a checked file says. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_facts(const koksma__json_node *root, koksma__gltf *out);
+
+#endif
