@@ -191,8 +191,8 @@ static koksma_status take_camera(const graph *g, koksma__gltf *out)
         const field node = koksma__json_item(&g->nodes, i);
         number = best;
         status = koksma__json_get_whole(&node, "camera", false, 0, KOKSMA__GLTF_ITEMS, &number);
-        status = status ? status : is_shown(g, i, &shown);
-        if (!status && shown && number < best) {
+        status = !status && number < best ? is_shown(g, i, &shown) : status;
+        if (!status && shown) {
             const field camera = koksma__json_item(&g->cameras, (size_t)number);
             const bool sees = find(&camera, perspective, &found);
             at = sees ? i : at;
@@ -212,7 +212,7 @@ static koksma_status read_nodes(const field *root, koksma__gltf *out)
     if (!status && find(root, punctual, &found)) {
         status = koksma__gltf_list(&found, "lights", &g.lights, &g.n_lights);
     }
-    if (status || !(g.n_lights + g.n_cameras)) {
+    if (status || !g.n_nodes) {
         return status;
     }
     g.parents = malloc((g.n_nodes + 1) * sizeof *g.parents);

@@ -64,7 +64,7 @@ static koksma_status read_texture(const koksma__build *build, const koksma__file
 /* What isn't there or can't be made out is a warning; what fails otherwise is build->status. */
 static void note(koksma__build *build, koksma_status status, char text[256])
 {
-    if (status == KOKSMA_MEMORY || status == KOKSMA_MISSING) {
+    if (status == KOKSMA_MISSING || koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM)) {
         build->status = status;
     } else {
         snprintf(text, 256, "%s", koksma_error_text());

@@ -247,6 +247,10 @@ static void every_node_with_a_light_has_one(void **state)
     assert_near(lit(SQUARE "{" LAMP("0") "}", "0, 1, 2", plain, sun), 1, 1e-5);
     assert_near(lit(SQUARE "{\"rotation\": [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun), 0.5,
                 1e-5);
+    /* and every node with a camera: from the back where the scene has not the one in front */
+    const char *behind = SQUARE "{\"camera\": 0, \"translation\": [0, 0, -3], \"rotation\": [0, 1, 0, 0]}";
+    assert_near(lit(behind, "0, 1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), M_PI, 1e-5);
+    assert_near(lit(behind, "1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), 0, 0);
     /* a light that isn't there */
     koksma_scene *scene;
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
