@@ -26,14 +26,7 @@ koksma_status koksma__series_results(koksma_study *study, const koksma__series *
 
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
 {
-    for (size_t b = 0; b < study->plan.n_images; b++) {
-        for (size_t s = 0; s < study->plan.images[b].scenes.n; s++) {
-            if (!strcmp(study->plan.images[b].scenes.at[s], table->scene)) {
-                return &study->plan.images[b];
-            }
-        }
-    }
-    return NULL;
+    return &study->plan.images[table->images];
 }
 
 static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,

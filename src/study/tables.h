@@ -16,7 +16,7 @@ typedef struct koksma__cell {
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
                                      koksma__result **results, size_t *n);
 
-/* The block that renders an image table's scene, or NULL; koksma__plan_parse makes sure that there is one. */
+/* The block that makes an image table. */
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table);
 
 koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,
