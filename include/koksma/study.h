@@ -93,7 +93,7 @@ KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i
 typedef struct koksma_study_row {
     const char *pattern, *label;
     double published[3];    /* mean, SD, max */
-    double mean, low, high; /* our mean over the trials and its 95 % interval */
+    double mean, low, high; /* our mean over the trials and its 95 % interval (NaN of one) */
     double sd, max;         /* image tables: means over the trials; discrepancies: SD over the sets, mean of the
                                largest of 100 */
     double converged;       /* image tables: the mean against the last reference of the plan */
@@ -113,7 +113,7 @@ typedef struct koksma_images_row {
     char group[KOKSMA_IMAGES_GROUP]; /* the other places' texts, "pattern=halton scene=ball"; may be empty */
     long long spp;                   /* the number at {spp}; 0 without it */
     size_t trials;
-    double mean, low, high;              /* mean over the trials of the mean absolute error, with its 95 % interval */
+    double mean, low, high;              /* mean over the trials of the mean absolute error, with its 95 % interval (NaN of one) */
     double sd, max, rmse;                /* means over the trials */
     double slope, slope_low, slope_high; /* of the group's mean in log-log over {spp}; NaN below 2 numbers */
 } koksma_images_row;

@@ -84,6 +84,8 @@ void koksma__grid_interval(koksma__grid *g, koksma__estimate e, int digits)
 {
     if (isnan(e.value)) {
         koksma__html_add(g->html, "<td>&#8211;</td>");
+    } else if (isnan(e.low) || isnan(e.high)) {
+        koksma__html_add(g->html, "<td>%.*g <span class=\"pm\">&#177; ?</span></td>", digits, e.value);
     } else if (e.low == e.high) {
         koksma__html_add(g->html, "<td>%.*g</td>", digits, e.value);
     } else if (fabs((e.high - e.value) - (e.value - e.low)) < 1e-6 * (e.high - e.low)) {

@@ -81,9 +81,10 @@ static koksma_status compare_one(void *context, size_t i)
 static void add_slope(koksma_images_row *rows, size_t n)
 {
     double x[64], y[64], sigma[64];
-    size_t used = 0;
+    size_t used = 0, least = SIZE_MAX;
     for (size_t i = 0; i < n && used < 64; i++) {
         if (rows[i].spp > 0 && rows[i].mean > 0) {
+            least = rows[i].trials < least ? rows[i].trials : least;
             x[used] = log((double)rows[i].spp);
             y[used] = log(rows[i].mean);
             const double half = rows[i].high - rows[i].mean;
@@ -91,10 +92,11 @@ static void add_slope(koksma_images_row *rows, size_t n)
         }
     }
     const koksma__line line = koksma__fit_line(x, y, sigma, used);
+    const koksma__estimate slope = koksma__slope(&line, least);
     for (size_t i = 0; i < n; i++) {
-        rows[i].slope = line.slope;
-        rows[i].slope_low = line.slope - 1.959963984540054 * line.slope_error;
-        rows[i].slope_high = line.slope + 1.959963984540054 * line.slope_error;
+        rows[i].slope = slope.value;
+        rows[i].slope_low = slope.low;
+        rows[i].slope_high = slope.high;
     }
 }
 

@@ -88,6 +88,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     b->dim = (int)dim;
     status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
     status = status ? status : koksma__plan_check_measures(node, b);
+    koksma__plan_sort(&b->n);
     return status ? status : check_warps(node, b);
 }
 
@@ -144,6 +145,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);
+    koksma__plan_sort(&b->spp);
     status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->width = (int)size[0];

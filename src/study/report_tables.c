@@ -144,7 +144,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     const double z = (row->published[0] - cell.mean.mean) / error;
     char text[48];
     koksma__snprintf(text, sizeof text, "z = %+.1f", z);
-    koksma__table_judge(h, tally, t, row, cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
+    koksma__table_judge(h, tally, t, row, isnan(z) ? 0 : cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
     if (t->also) {
         koksma__html_add(h, "<td>");
         koksma__table_add_mean(h, &also.mean, 4, false);

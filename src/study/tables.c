@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "study/statistics.h"
 #include "study/tables.h"
+#include "study/tasks.h"
 
 enum { RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
 
@@ -22,6 +23,12 @@ koksma_status koksma__series_results(koksma_study *study, const koksma__series *
         status = *results ? KOKSMA_OK : koksma__fail_memory(sizeof **results);
     }
     return status;
+}
+
+koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
+{
+    return n == 1 && koksma__has_one_set(pattern) ? koksma__exactly(results->values[0])
+                                                  : koksma__summarize(results->values, n, RESULT_STRIDE);
 }
 
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
@@ -63,7 +70,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
     if (status) {
         return status;
     }
-    cell->mean = koksma__summarize(results->values, n, RESULT_STRIDE);
+    cell->mean = koksma__summarize_sets(pattern, results, n);
     cell->sd = cell->mean.sd;
     koksma__largest_of(results->values, n, RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
     if (isnan(cell->max)) {
