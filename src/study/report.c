@@ -90,6 +90,9 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     char path[1100];
     koksma__html html = {0};
     koksma__atomic_file file;
+    if (!study->store) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no report");
+    }
     koksma_status status = add_body(study, &html, run);
     if (!status && html.failed) {
         status = koksma__fail_memory(html.room);

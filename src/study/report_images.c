@@ -27,8 +27,8 @@ typedef struct row_means {
     double *mean[2];
 } row_means;
 
-static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma__tally *tally, const koksma__table *t,
-                                   size_t r, row_means *means)
+static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma__html *csv, koksma__tally *tally,
+                                   const koksma__table *t, size_t r, row_means *means)
 {
     const koksma__image_block *block = koksma__table_images(study, t);
     const koksma__table_row *row = &t->rows[r];
@@ -42,7 +42,9 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     }
     means->mean[0][r] = cell.mean.mean;
     means->mean[1][r] = last.mean.mean;
-    koksma__table_begin_row(h, t, row);
+    koksma__table_begin_row(h, csv, t, row);
+    koksma__table_csv_cell(csv, &cell);
+    koksma__table_csv_cell(csv, &last);
     add_image_cell(h, &cell);
     const double ratio = cell.mean.mean / row->published[0];
     char text[48];
@@ -143,17 +145,20 @@ koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, k
     double *numbers = malloc(2 * n * sizeof *numbers);
     size_t *places = malloc(2 * n * sizeof *places);
     row_means means = {{places, places + n}, {numbers, numbers + n}};
+    koksma__html csv = {0};
     koksma_status status = numbers && places ? KOKSMA_OK : koksma__fail_memory(4 * n * sizeof *numbers);
     if (!status) {
-        koksma__table_begin(h, t);
-        add_heads(h, koksma__table_images(study, t));
+        const koksma__image_block *block = koksma__table_images(study, t);
+        koksma__table_begin(h, &csv, t);
+        koksma__table_csv_heads(&csv, block->references[0].name);
+        koksma__table_csv_heads(&csv, block->references[block->n_references - 1].name);
+        add_heads(h, block);
     }
     for (size_t r = 0; !status && r < n; r++) {
-        status = add_image_row(study, h, tally, t, r, &means);
+        status = add_image_row(study, h, &csv, tally, t, r, &means);
     }
+    koksma__table_end(h, &csv, t);
     if (!status) {
-        koksma__html_add(h, "</tbody></table></div>\n");
-        koksma__table_add_notes(h, t);
         status = add_reference_remark(study, h, t, &means);
     }
     free(numbers);

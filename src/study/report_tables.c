@@ -22,8 +22,14 @@ static size_t note_of(const koksma__table *t, const char *pattern, int statistic
     return 0;
 }
 
-void koksma__table_begin_row(koksma__html *h, const koksma__table *t, const koksma__table_row *row)
+void koksma__table_begin_row(koksma__html *h, koksma__html *csv, const koksma__table *t, const koksma__table_row *row)
 {
+    koksma__csv_row(csv);
+    koksma__csv_text(csv, row->label);
+    koksma__csv_text(csv, row->pattern);
+    for (int s = 0; s < 3; s++) {
+        koksma__csv_number(csv, row->published[s]);
+    }
     koksma__html_add(h, "<tr><td>");
     koksma__html_text(h, row->label);
     koksma__html_add(h, "</td>");
@@ -93,8 +99,12 @@ void koksma__table_judge(koksma__html *h, koksma__tally *tally, const koksma__ta
     }
 }
 
-void koksma__table_add_notes(koksma__html *h, const koksma__table *t)
+void koksma__table_end(koksma__html *h, koksma__html *csv, const koksma__table *t)
 {
+    char name[96];
+    koksma__html_add(h, "</tbody></table></div>\n");
+    snprintf(name, sizeof name, "table-%.80s", t->id);
+    koksma__csv_close(csv, h, name);
     if (t->n_notes) {
         koksma__html_add(h, "<ol class=\"notes note\">\n");
         for (size_t i = 0; i < t->n_notes; i++) {
@@ -106,8 +116,31 @@ void koksma__table_add_notes(koksma__html *h, const koksma__table *t)
     }
 }
 
-void koksma__table_begin(koksma__html *h, const koksma__table *t)
+void koksma__table_csv_heads(koksma__html *csv, const char *of)
 {
+    static const char *const names[] = {"mean", "mean low", "mean high", "SD", "max"};
+    char text[KOKSMA_MAX_SPEC + 64];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(text, sizeof text, "%s, %s", of, names[i]);
+        koksma__csv_text(csv, text);
+    }
+}
+
+void koksma__table_csv_cell(koksma__html *csv, const koksma__cell *cell)
+{
+    koksma__csv_number(csv, cell->mean.mean);
+    koksma__csv_number(csv, cell->mean.low);
+    koksma__csv_number(csv, cell->mean.high);
+    koksma__csv_number(csv, cell->sd);
+    koksma__csv_number(csv, cell->max);
+}
+
+void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table *t)
+{
+    static const char *const names[] = {"row", "pattern", "published mean", "published SD", "published max"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        koksma__csv_text(csv, names[i]);
+    }
     koksma__html_add(h, "<h3");
     koksma__html_id(h, "table", t->id);
     koksma__html_add(h, ">Table %s: ", t->id);
@@ -117,8 +150,8 @@ void koksma__table_begin(koksma__html *h, const koksma__table *t)
 
 /* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
 
-static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__tally *tally,
-                                         const koksma__table *t, const koksma__table_row *row)
+static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
+                                         koksma__tally *tally, const koksma__table *t, const koksma__table_row *row)
 {
     koksma__cell cell, also = {0};
     koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, &cell);
@@ -128,7 +161,8 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     if (status) {
         return status;
     }
-    koksma__table_begin_row(h, t, row);
+    koksma__table_begin_row(h, csv, t, row);
+    koksma__table_csv_cell(csv, &cell);
     koksma__html_add(h, "<td>");
     koksma__table_add_mean(h, &cell.mean, 4, false);
     koksma__html_add(h, "</td>");
@@ -148,6 +182,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     if (t->also) {
         koksma__html_add(h, "<td>");
         koksma__table_add_mean(h, &also.mean, 4, false);
+        koksma__table_csv_cell(csv, &also);
         koksma__html_add(h, "</td>");
     }
     koksma__html_add(h, "</tr>\n");
@@ -162,7 +197,12 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     if (status) {
         return status;
     }
-    koksma__table_begin(h, t);
+    koksma__html csv = {0};
+    koksma__table_begin(h, &csv, t);
+    koksma__table_csv_heads(&csv, t->measure);
+    if (t->also) {
+        koksma__table_csv_heads(&csv, t->also);
+    }
     koksma__html_add(h, "<tr><th></th><th colspan=\"3\">published (100 sets)</th><th colspan=\"3\">");
     koksma__html_text(h, t->measure);
     koksma__html_add(h, ", %zu sets</th><th></th>%s</tr>\n", sets, t->also ? "<th>exact</th>" : "");
@@ -178,9 +218,8 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "</tr></thead>\n<tbody>\n");
     for (size_t r = 0; !status && r < t->n_rows; r++) {
-        status = add_discrepancy_row(study, h, tally, t, &t->rows[r]);
+        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r]);
     }
-    koksma__html_add(h, "</tbody></table></div>\n");
-    koksma__table_add_notes(h, t);
+    koksma__table_end(h, &csv, t);
     return status;
 }

@@ -3,13 +3,20 @@
 #ifndef KOKSMA_STUDY_REPORT_TABLES_H
 #define KOKSMA_STUDY_REPORT_TABLES_H
 
+#include "study/grid.h"
 #include "study/report.h"
 #include "study/tables.h"
 
-void koksma__table_begin(koksma__html *html, const koksma__table *table);
+/* The heads of the CSV's first columns, too. */
+void koksma__table_begin(koksma__html *html, koksma__html *csv, const koksma__table *table);
 
-/* The label and what is published. */
-void koksma__table_begin_row(koksma__html *html, const koksma__table *table, const koksma__table_row *row);
+/* The label and what is published; in the CSV the pattern besides. */
+void koksma__table_begin_row(koksma__html *html, koksma__html *csv, const koksma__table *table,
+                             const koksma__table_row *row);
+
+/* A cell's mean with its interval, SD and largest value; and the heads of such. */
+void koksma__table_csv_cell(koksma__html *csv, const koksma__cell *cell);
+void koksma__table_csv_heads(koksma__html *csv, const char *of);
 
 /* "0.0123 ± 0.0004" with so many digits: significant ones, or behind the point; no interval of one trial. */
 void koksma__table_add_mean(koksma__html *html, const koksma__summary *mean, int digits, bool behind_point);
@@ -21,7 +28,8 @@ void koksma__table_add_number(koksma__html *html, double value, int digits, bool
 void koksma__table_judge(koksma__html *html, koksma__tally *tally, const koksma__table *table,
                          const koksma__table_row *row, size_t trials, bool good, const char *text);
 
-void koksma__table_add_notes(koksma__html *html, const koksma__table *table);
+/* Ends the table: the CSV and the notes. */
+void koksma__table_end(koksma__html *html, koksma__html *csv, const koksma__table *table);
 
 koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *html, koksma__tally *tally,
                                                const koksma__table *table);

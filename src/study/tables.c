@@ -124,6 +124,9 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
 {
     const koksma__table *table = NULL;
     *found = false;
+    if (!study->store) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no results");
+    }
     for (size_t t = 0; t < study->plan.n_tables; t++) {
         if (!strcmp(study->plan.tables[t].id, id)) {
             table = &study->plan.tables[t];
