@@ -64,6 +64,8 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_rounded(rows, "behind_low", row->behind_low, 3);
     cli_row_rounded(rows, "behind_high", row->behind_high, 3);
     cli_row_whole(rows, "trials", (uint64_t)ranking->trials);
+    cli_row_whole(rows, "width", (uint64_t)ranking->width);
+    cli_row_whole(rows, "height", (uint64_t)ranking->height);
     cli_row_end(rows);
 }
 

@@ -83,7 +83,7 @@ typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSM
    output. JSON is an object a line; NPY is an array of records with byte strings. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
-/* Writes DIR/report.html: one file that needs no network. */
+/* Writes DIR/report.html: one file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
 /* The id of table i of the plan, NULL past the end. */
@@ -93,9 +93,9 @@ KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i
 typedef struct koksma_study_row {
     const char *pattern, *label;
     double published[3];    /* mean, SD, max */
-    double mean, low, high; /* our mean over the trials and its 95 % interval */
+    double mean, low, high; /* our mean over the trials and its 95 % interval (NaN of one) */
     double sd, max;         /* image tables: means over the trials; discrepancies: SD over the sets, mean of the
-                               largest of 100 */
+                               largest of 100 (of fewer sets: of all) */
     double converged;       /* image tables: the mean against the last reference of the plan */
     size_t trials;
 } koksma_study_row;
@@ -113,14 +113,15 @@ typedef struct koksma_images_row {
     char group[KOKSMA_IMAGES_GROUP]; /* the other places' texts, "pattern=halton scene=ball"; may be empty */
     long long spp;                   /* the number at {spp}; 0 without it */
     size_t trials;
-    double mean, low, high;              /* mean over the trials of the mean absolute error, with its 95 % interval */
-    double sd, max, rmse;                /* means over the trials */
+    double mean, low, high; /* mean over the trials of the mean absolute error, with its 95 % interval (NaN of one) */
+    double sd, max, rmse;   /* means over the trials */
     double slope, slope_low, slope_high; /* of the group's mean in log-log over {spp}; NaN below 2 numbers */
 } koksma_images_row;
 
 /* Compares all images whose paths fit `places`, such as "out_{spp}_{trial}.exr", with a reference: rows sorted by
    group and spp, which the caller frees. {spp} and {trial} take digits, other names any text without '/'. Errors:
-   ARGUMENT (a place that is not closed), MISSING (no such file), what reading an image says, MEMORY. */
+   ARGUMENT (a place that is not closed), MISSING (no such file), MALFORMED (a pixel that is not a finite number),
+   what reading an image says, MEMORY. */
 KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
                                              koksma_images_row **rows, size_t *n);
 

@@ -10,10 +10,13 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/room.h"
 #include "core/status.h"
 #include "study/answers.h"
 
-enum { MAX_PATTERNS = KOKSMA__CHART_POINTS, MAX_MEASURES = 64, MAX_VARIANTS = 16, SAMPLES = 1000 };
+/* The bootstrap's time goes with the square of the patterns; combinations of options beyond have no column of their
+   own in the summary. */
+enum { MAX_PATTERNS = 256, MAX_VARIANTS = 24, SAMPLES = 1000 };
 
 typedef struct pairs {
     size_t n;
@@ -29,12 +32,18 @@ typedef struct point {
     const char *measure;
 } point;
 
-/* Sums of rho by measure and variant. */
+/* Sums of rho of one measure, by variant. */
+typedef struct measure_sums {
+    const char *measure;
+    double total, rho[MAX_VARIANTS];
+    size_t all, cases[MAX_VARIANTS];
+    size_t sure, few; /* cases whose interval excludes 0; that have too few patterns for one */
+} measure_sums;
+
 typedef struct sums {
-    size_t n_measures, n_variants;
-    const char *measures[MAX_MEASURES], *variants[MAX_VARIANTS];
-    double rho[MAX_MEASURES][MAX_VARIANTS];
-    size_t cases[MAX_MEASURES][MAX_VARIANTS], sure[MAX_MEASURES];
+    size_t n, room, n_variants, room_of_variants;
+    measure_sums *of;
+    const char **variants;
 } sums;
 
 static bool has(const koksma__wholes *wholes, long long n)
@@ -47,18 +56,57 @@ static bool has(const koksma__wholes *wholes, long long n)
     return false;
 }
 
-static size_t index_of(const char **list, size_t *n, size_t max, const char *text)
+/* The sums of a measure; NULL: no memory. */
+static measure_sums *sums_of(sums *s, const char *measure)
 {
-    for (size_t i = 0; i < *n; i++) {
-        if (!strcmp(list[i], text)) {
-            return i;
+    for (size_t m = 0; m < s->n; m++) {
+        if (!strcmp(s->of[m].measure, measure)) {
+            return &s->of[m];
         }
     }
-    if (*n == max) {
-        return max - 1;
+    measure_sums *of = koksma__room_for_one(s->of, s->n, &s->room, 16, sizeof *of);
+    if (!of) {
+        return NULL;
     }
-    list[*n] = text;
-    return (*n)++;
+    s->of = of;
+    of[s->n] = (measure_sums){.measure = measure};
+    return &of[s->n++];
+}
+
+static koksma_status index_of_variant(sums *s, const char *variant, size_t *index)
+{
+    for (*index = 0; *index < s->n_variants; ++*index) {
+        if (!strcmp(s->variants[*index], variant)) {
+            return KOKSMA_OK;
+        }
+    }
+    const char **variants =
+        koksma__room_for_one(s->variants, s->n_variants, &s->room_of_variants, 16, sizeof *variants);
+    if (!variants) {
+        return KOKSMA_MEMORY;
+    }
+    s->variants = variants;
+    variants[s->n_variants++] = variant;
+    return KOKSMA_OK;
+}
+
+static koksma_status add_case(sums *s, const point *p, const koksma__estimate *rho, size_t n_patterns)
+{
+    size_t v;
+    measure_sums *of = sums_of(s, p->measure);
+    const koksma_status status = of ? index_of_variant(s, p->variant, &v) : KOKSMA_MEMORY;
+    if (status) {
+        return status;
+    }
+    of->total += rho->value;
+    of->all++;
+    of->sure += rho->low > 0 || rho->high < 0;
+    of->few += n_patterns < KOKSMA__LEAST_PAIRS;
+    if (v < MAX_VARIANTS) {
+        of->rho[v] += rho->value;
+        of->cases[v]++;
+    }
+    return KOKSMA_OK;
 }
 
 /* The patterns that both blocks have rows of. */
@@ -147,73 +195,92 @@ static koksma_status list_row(koksma_study *study, void *context, const point *p
     koksma__grid_number(l->grid, (double)found.n, 7);
     koksma__grid_interval(l->grid, rho, 3);
     koksma__grid_interval(l->grid, tau, 3);
-    sums *s = l->sums;
-    const size_t m = index_of(s->measures, &s->n_measures, MAX_MEASURES, p->measure);
-    const size_t v = index_of(s->variants, &s->n_variants, MAX_VARIANTS, p->variant);
-    s->rho[m][v] += rho.value;
-    s->cases[m][v]++;
-    s->sure[m] += rho.low > 0 || rho.high < 0;
-    return KOKSMA_OK;
+    return add_case(l->sums, p, &rho, found.n);
 }
 
-static double mean_rho(const sums *s, size_t m, size_t *cases)
+static double mean_rho(const measure_sums *m)
 {
-    double total = 0;
-    *cases = 0;
-    for (size_t v = 0; v < s->n_variants; v++) {
-        total += s->rho[m][v];
-        *cases += s->cases[m][v];
-    }
-    return *cases ? total / (double)*cases : (double)NAN;
+    return m->all ? m->total / (double)m->all : (double)NAN;
 }
 
-/* The measures, best first, as indices. */
-static void order(const sums *s, size_t by[MAX_MEASURES])
+/* The measures, best first: insertion sort, ties by place. */
+static void order(sums *s)
 {
-    for (size_t m = 0; m < s->n_measures; m++) {
-        size_t at = m, cases;
-        const double value = fabs(mean_rho(s, m, &cases));
-        for (; at > 0 && fabs(mean_rho(s, by[at - 1], &cases)) < value; at--) {
-            by[at] = by[at - 1];
+    for (size_t m = 1; m < s->n; m++) {
+        const measure_sums of = s->of[m];
+        size_t at = m;
+        for (; at > 0 && fabs(mean_rho(&s->of[at - 1])) < fabs(mean_rho(&of)); at--) {
+            s->of[at] = s->of[at - 1];
         }
-        by[at] = m;
+        s->of[at] = of;
     }
 }
 
-static void add_summary(koksma__html *h, const char *id, const sums *s, const size_t *by)
+/* What the answer leaves out. */
+static void add_limits(koksma__html *h, const koksma__topic *topic, const sums *s)
 {
-    koksma__grid grid;
-    char text[KOKSMA__VARIANT_TEXT + 64];
-    size_t cases, worst_cases;
-    const double best = mean_rho(s, by[0], &cases), worst = mean_rho(s, by[s->n_measures - 1], &worst_cases);
+    size_t most = 0;
+    for (size_t b = 0; b < topic->n_images; b++) {
+        most = topic->images[b]->patterns.n > most ? topic->images[b]->patterns.n : most;
+    }
+    if (most > MAX_PATTERNS) {
+        koksma__html_add(h,
+                         "<p>Of up to %zu patterns the first %d are correlated; the others are in the export.</p>\n",
+                         most, MAX_PATTERNS);
+    }
+    if (s->n_variants > MAX_VARIANTS) {
+        koksma__html_add(h,
+                         "<p>%zu more combinations of options have no column here; the means are over them, too, and "
+                         "all are in the list of cases.</p>\n",
+                         s->n_variants - MAX_VARIANTS);
+    }
+}
+
+static void add_sentence(koksma__html *h, const sums *s)
+{
+    const measure_sums *best = &s->of[0], *worst = &s->of[s->n - 1];
     koksma__html_add(h, "<p><strong>Answer.</strong> <code>");
-    koksma__html_text(h, s->measures[by[0]]);
+    koksma__html_text(h, best->measure);
     koksma__html_add(h,
                      "</code> orders the patterns most as the error of the images does: mean rank correlation "
-                     "(Spearman) %+.2f over %zu cases, in %zu of which its interval excludes 0; last is <code>",
-                     best, cases, s->sure[by[0]]);
-    koksma__html_text(h, s->measures[by[s->n_measures - 1]]);
+                     "(Spearman) %+.2f over %zu cases, in %zu of which its interval excludes 0",
+                     mean_rho(best), best->all, best->sure);
+    if (best->few) {
+        koksma__html_add(h, " (%zu have fewer than %d patterns, too few for an interval)", best->few,
+                         KOKSMA__LEAST_PAIRS);
+    }
+    koksma__html_add(h, "; last is <code>");
+    koksma__html_text(h, worst->measure);
     koksma__html_add(h, "</code> with %+.2f. A measure that is better when larger has negative numbers.</p>\n",
-                     worst);
-    snprintf(text, sizeof text, "correlation-%s", id);
+                     mean_rho(worst));
+}
+
+static void add_summary(koksma__html *h, const koksma__topic *topic, const sums *s)
+{
+    const size_t n_variants = s->n_variants < MAX_VARIANTS ? s->n_variants : MAX_VARIANTS;
+    koksma__grid grid;
+    char text[KOKSMA__VARIANT_TEXT + 64];
+    add_sentence(h, s);
+    add_limits(h, topic, s);
+    snprintf(text, sizeof text, "correlation-%.40s", topic->id);
     koksma__grid_open(&grid, h, text);
     koksma__grid_head(&grid, "measure");
     koksma__grid_head(&grid, "mean Spearman");
     koksma__grid_head(&grid, "cases");
     koksma__grid_head(&grid, "cases that exclude 0");
-    for (size_t v = 0; v < s->n_variants; v++) {
+    for (size_t v = 0; v < n_variants; v++) {
         snprintf(text, sizeof text, "mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
         koksma__grid_head(&grid, text);
     }
-    for (size_t i = 0; i < s->n_measures; i++) {
-        const size_t m = by[i];
+    for (size_t i = 0; i < s->n; i++) {
+        const measure_sums *m = &s->of[i];
         koksma__grid_row(&grid);
-        koksma__grid_text(&grid, s->measures[m]);
-        koksma__grid_number(&grid, mean_rho(s, m, &cases), 3);
-        koksma__grid_number(&grid, (double)cases, 7);
-        koksma__grid_number(&grid, (double)s->sure[m], 7);
-        for (size_t v = 0; v < s->n_variants; v++) {
-            koksma__grid_number(&grid, s->cases[m][v] ? s->rho[m][v] / (double)s->cases[m][v] : (double)NAN, 3);
+        koksma__grid_text(&grid, m->measure);
+        koksma__grid_number(&grid, mean_rho(m), 3);
+        koksma__grid_number(&grid, (double)m->all, 7);
+        koksma__grid_number(&grid, (double)m->sure, 7);
+        for (size_t v = 0; v < n_variants; v++) {
+            koksma__grid_number(&grid, m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN, 3);
         }
     }
     koksma__grid_close(&grid);
@@ -249,7 +316,7 @@ static koksma_status add_scatter(koksma_study *study, void *context, const point
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
                      p->measure, koksma__spearman(found.x, found.y, found.n));
-    const koksma__chart chart = {title, p->measure, "mean absolute error", true, true, n, series};
+    const koksma__chart chart = {title, p->measure, "mean absolute error", true, true, n, series, found.n - n};
     koksma__html_chart(to->html, &chart);
     free(series);
     to->left--;
@@ -260,12 +327,8 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
 {
     koksma__grid grid;
     koksma__html list = {0};
-    sums *s = calloc(1, sizeof *s);
-    size_t by[MAX_MEASURES];
+    sums s = {0};
     char name[64];
-    if (!s) {
-        return koksma__fail_memory(sizeof *s);
-    }
     snprintf(name, sizeof name, "correlations-%.40s", topic->id);
     koksma__grid_open(&grid, &list, name);
     static const char *const heads[] = {"scene", "options", "samples", "measure", "patterns"};
@@ -274,21 +337,22 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
     }
     koksma__grid_head_interval(&grid, "Spearman");
     koksma__grid_head_interval(&grid, "Kendall");
-    listing l = {&grid, s};
+    listing l = {&grid, &s};
     koksma_status status = visit_all(study, topic, list_row, &l);
     koksma__grid_close(&grid);
-    if (!status && s->n_measures) {
-        order(s, by);
-        add_summary(h, topic->id, s, by);
+    if (!status && s.n) {
+        order(&s);
+        add_summary(h, topic, &s);
         koksma__html_add(h, "<details><summary>Every case, with intervals</summary>\n%s</details>\n",
                          list.text ? list.text : "");
         koksma__html_add(h, "<div class=\"figures\">\n");
-        plots to = {h, s->measures[by[0]], 6};
+        plots to = {h, s.of[0].measure, 6};
         status = visit_all(study, topic, add_scatter, &to);
         koksma__html_add(h, "</div>\n");
     }
     h->failed |= list.failed;
     free(list.text);
-    free(s);
+    free(s.of);
+    free(s.variants);
     return status;
 }

@@ -11,8 +11,8 @@
 
 /* One comparison: option v of a pattern at n in a case against option 0. */
 typedef struct tally {
-    size_t cases, better, worse;
-    double logs; /* sum of the logs of the ratios */
+    size_t cases, better, worse, unknown; /* unknown: without an interval */
+    double logs;                          /* sum of the logs of the ratios */
 } tally;
 
 typedef struct side {
@@ -20,18 +20,54 @@ typedef struct side {
     koksma__summary mean;
 } side;
 
-static void compare(koksma__grid *g, const side *base, const side *other, tally *t)
+/* The values of trials that both sides have; *n: how many. */
+static koksma_status pair(const side *base, const side *other, double **values, size_t *n)
 {
-    const size_t n = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
-    const koksma__summary d = koksma__paired(other->results->values, base->results->values, n, KOKSMA__RESULT_STRIDE);
-    koksma__estimate e = {d.mean / base->mean.mean, d.low / base->mean.mean, d.high / base->mean.mean};
+    const size_t room = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
+    *n = 0;
+    *values = malloc((2 * room + 1) * sizeof **values);
+    if (!*values) {
+        return koksma__fail_memory((2 * room + 1) * sizeof **values);
+    }
+    for (size_t i = 0, k = 0; i < base->mean.n && k < other->mean.n;) {
+        const koksma__result *a = &base->results[i], *b = &other->results[k];
+        if (a->trial == b->trial) {
+            (*values)[*n] = a->values[0];
+            (*values)[room + (*n)++] = b->values[0];
+        }
+        i += a->trial <= b->trial;
+        k += b->trial <= a->trial;
+    }
+    if (*n < room) { /* together again */
+        memmove(*values + *n, *values + room, *n * sizeof **values);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status compare(koksma__grid *g, const side *base, const side *other, tally *t)
+{
+    double *values;
+    size_t n;
+    const koksma_status status = pair(base, other, &values, &n);
+    if (status) {
+        return status;
+    }
+    const double mean = koksma__summarize(values, n, 1).mean;
+    koksma__summary d = koksma__paired(values + n, values, n, 1);
+    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) {
+        d = koksma__exactly(d.mean);
+    }
+    koksma__estimate e = {d.mean / mean, d.low / mean, d.high / mean};
     koksma__grid_interval(g, e, 3);
     if (!isnan(e.value)) {
         t->cases++;
         t->better += e.high < 0;
         t->worse += e.low > 0;
-        t->logs += log(other->mean.mean / base->mean.mean);
+        t->unknown += isnan(e.low);
+        t->logs += log(1 + e.value);
     }
+    free(values);
+    return KOKSMA_OK;
 }
 
 static void add_answer(koksma__html *h, const char *base, const char *other, const tally *t)
@@ -44,9 +80,13 @@ static void add_answer(koksma__html *h, const char *base, const char *other, con
         koksma__html_add(
             h,
             ": the value is %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely larger "
-            "in %zu, too close to tell in %zu.</p>\n",
+            "in %zu, too close to tell in %zu",
             100 * (exp(t->logs / (double)t->cases) - 1), t->cases, t->better, t->worse,
-            t->cases - t->better - t->worse);
+            t->cases - t->better - t->worse - t->unknown);
+        if (t->unknown) {
+            koksma__html_add(h, ", one trial alone and so unsure in %zu", t->unknown);
+        }
+        koksma__html_add(h, ".</p>\n");
     }
 }
 
@@ -78,7 +118,7 @@ static koksma_status add_row(koksma_study *study, koksma__grid *g, const grid_ca
             base = s;
             koksma__grid_interval(g, koksma__estimate_of(&s.mean), 3);
         } else if (!status) {
-            compare(g, &base, &s, &tallies[v]);
+            status = compare(g, &base, &s, &tallies[v]);
             free(s.results);
         }
     }

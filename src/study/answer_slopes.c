@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * How measures and errors fall with n: slopes in log-log by weighted least squares over the larger half of the sizes,
- * with standard errors, beside what theory says is possible. A bound with a logarithm has no slope; the slope of the
+ * with intervals, beside what theory says is possible. A bound with a logarithm has no slope; the slope of the
  * bound itself over the same sizes stands in its place.
  */
 #include <math.h>
@@ -22,12 +22,25 @@ static const struct {
     {"l2-disk", "Beck 1987", -0.75, 0},
 };
 
-/* The means of one pattern over the sizes. */
+/* The means of one pattern over the sizes, with room for all of them. */
 typedef struct curve {
     size_t n;
-    double x[KOKSMA__CHART_POINTS];
-    koksma__summary y[KOKSMA__CHART_POINTS];
+    double *x, *logs; /* logs: room for a fit's three columns */
+    koksma__summary *y;
 } curve;
+
+static koksma_status curve_init(curve *c, size_t room)
+{
+    *c = (curve){.x = calloc(4 * room, sizeof *c->x), .y = calloc(room, sizeof *c->y)};
+    c->logs = c->x ? c->x + room : NULL;
+    return c->x && c->y ? KOKSMA_OK : koksma__fail_memory(room * (4 * sizeof *c->x + sizeof *c->y));
+}
+
+static void curve_fini(curve *c)
+{
+    free(c->x);
+    free(c->y);
+}
 
 /* What a curve is of. */
 typedef struct subject {
@@ -51,7 +64,7 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
     koksma_status status = KOKSMA_OK;
     const koksma__wholes *n = sizes(s);
     out->n = 0;
-    for (size_t i = 0; !status && i < n->n && out->n < KOKSMA__CHART_POINTS; i++) {
+    for (size_t i = 0; !status && i < n->n; i++) {
         koksma__summary mean;
         status = s->image ? koksma__image_mean(study, s->image, s->scene, s->variant, pattern, n->at[i], NULL, &mean)
                           : koksma__discrepancy_mean(study, s->discrepancy, s->warp, pattern, n->at[i], s->measure,
@@ -64,58 +77,56 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
     return status;
 }
 
-/* Over the larger half, at least three sizes. */
-static koksma__line fit(const curve *c)
-{
-    double x[KOKSMA__CHART_POINTS], y[KOKSMA__CHART_POINTS], sigma[KOKSMA__CHART_POINTS];
-    size_t first = c->n / 2;
-    first = c->n - first < 3 && c->n >= 3 ? c->n - 3 : first;
-    for (size_t i = first; i < c->n; i++) {
-        x[i - first] = log(c->x[i]);
-        y[i - first] = log(c->y[i].mean);
-        sigma[i - first] = c->y[i].n > 1 ? c->y[i].sd / sqrt((double)c->y[i].n) / c->y[i].mean : 0;
-    }
-    return koksma__fit_line(x, y, sigma, c->n - first);
-}
-
+/* Over the larger half, at least three sizes where there are as many. */
 static koksma__estimate slope_of(const curve *c)
 {
-    const koksma__line line = fit(c);
-    const double half = isnan(line.slope_error) ? 0 : 1.959963984540054 * line.slope_error;
-    return (koksma__estimate){line.slope, line.slope - half, line.slope + half};
+    size_t first = c->n / 2, least = SIZE_MAX;
+    first = c->n < 3 ? 0 : c->n - first < 3 ? c->n - 3 : first;
+    const size_t n = c->n - first;
+    double *x = c->logs, *y = x + n, *sigma = y + n;
+    for (size_t i = 0; i < n; i++) {
+        const koksma__summary *from = &c->y[first + i];
+        x[i] = log(c->x[first + i]);
+        y[i] = log(from->mean);
+        sigma[i] = from->n > 1 ? from->sd / sqrt((double)from->n) / from->mean : 0;
+        least = from->n < least ? from->n : least;
+    }
+    const koksma__line line = koksma__fit_line(x, y, sigma, n);
+    return koksma__slope(&line, least);
 }
 
-/* The bound over the sizes of a curve, scaled to touch its first value. */
-static bool bound_of(const subject *s, const curve *like, curve *out, const char **who)
+/* The bound over the sizes of a curve; NULL: none is known, else whose it is. */
+static const char *bound_of(const subject *s, const curve *like, curve *out)
 {
     char measure[64];
     snprintf(measure, sizeof measure, "%.*s", (int)strcspn(s->measure ? s->measure : "", ":"),
              s->measure ? s->measure : "");
     for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
-        if (!s->image && !s->warp[0] && s->discrepancy->dim == 2 && !strcmp(bounds[b].measure, measure)) {
-            *who = bounds[b].who;
-            *out = *like;
+        if (!s->image && !s->warp[0] && s->discrepancy->dim == 2 && !strcmp(bounds[b].measure, measure) && like->n) {
+            out->n = like->n;
             for (size_t i = 0; i < like->n; i++) {
-                const double n = like->x[i];
-                out->y[i] = (koksma__summary){.n = 1, .mean = pow(n, bounds[b].power) * pow(log(n), bounds[b].logs)};
+                const double n = out->x[i] = like->x[i];
+                out->y[i] = koksma__exactly(pow(n, bounds[b].power) * pow(log(n), bounds[b].logs));
             }
-            return true;
+            return bounds[b].who;
         }
     }
-    return false;
+    return NULL;
 }
 
+/* Where there are more points than a chart has, some evenly among them. */
 static void plot_curve(koksma__chart_series *to, const curve *c, const char *label, bool theory, double scale)
 {
     to->line = true;
     to->theory = theory;
-    to->n = c->n;
+    to->n = c->n < KOKSMA__CHART_POINTS ? c->n : KOKSMA__CHART_POINTS;
     snprintf(to->label, sizeof to->label, "%.95s", label);
-    for (size_t i = 0; i < c->n; i++) {
-        to->x[i] = c->x[i];
-        to->y[i] = c->y[i].mean * scale;
-        to->low[i] = theory ? to->y[i] : c->y[i].low;
-        to->high[i] = theory ? to->y[i] : c->y[i].high;
+    for (size_t i = 0; i < to->n; i++) {
+        const size_t k = to->n < c->n ? i * (c->n - 1) / (to->n - 1) : i;
+        to->x[i] = c->x[k];
+        to->y[i] = c->y[k].mean * scale;
+        to->low[i] = theory ? to->y[i] : c->y[k].low;
+        to->high[i] = theory ? to->y[i] : c->y[k].high;
     }
 }
 
@@ -140,86 +151,125 @@ static void add_sentence(koksma__html *h, const char *name, const char *const *l
             counted++;
         }
     }
-    if (counted) {
-        koksma__html_add(h, "<p><strong>");
-        koksma__html_text(h, name);
-        koksma__html_add(h, ":</strong> ");
-        koksma__html_text(h, labels[best]);
-        koksma__html_add(
-            h,
-            " falls fastest, as N<sup>%.3f</sup> (%.3f to %.3f); %zu of %zu patterns are surely faster than "
-            "the N<sup>&#8722;1/2</sup> of random samples.</p>\n",
-            slopes[best].value, slopes[best].low, slopes[best].high, faster, counted);
+    if (!counted) {
+        return;
     }
+    koksma__html_add(h, "<p><strong>");
+    koksma__html_text(h, name);
+    koksma__html_add(h, ":</strong> ");
+    koksma__html_text(h, labels[best]);
+    koksma__html_add(h, " falls fastest, as N<sup>%.3f</sup>", slopes[best].value);
+    if (!isnan(slopes[best].low)) {
+        koksma__html_add(h, " (%.3f to %.3f)", slopes[best].low, slopes[best].high);
+    }
+    koksma__html_add(
+        h, "; %zu of %zu patterns are surely faster than the N<sup>&#8722;1/2</sup> of random samples.</p>\n", faster,
+        counted);
+}
+
+static void add_heads(koksma__grid *g, const subject *s)
+{
+    char text[64];
+    koksma__grid_head(g, "pattern");
+    koksma__grid_head_interval(g, "slope");
+    for (size_t i = 0; i < sizes(s)->n; i++) {
+        snprintf(text, sizeof text, "N = %lld", sizes(s)->at[i]);
+        koksma__grid_head_interval(g, text);
+    }
+}
+
+static void add_row(koksma__grid *g, const subject *s, const char *pattern, koksma__estimate slope, const curve *c)
+{
+    koksma__grid_row(g);
+    koksma__grid_text(g, pattern);
+    koksma__grid_interval(g, slope, 3);
+    for (size_t i = 0, k = 0; i < sizes(s)->n; i++) {
+        const bool has = k < c->n && c->x[k] == (double)sizes(s)->at[i];
+        const koksma__estimate none = {NAN, NAN, NAN};
+        koksma__grid_interval(g, has ? koksma__estimate_of(&c->y[k++]) : none, 3);
+    }
+}
+
+static void add_bound(koksma__grid *g, koksma__chart *chart, const char *who, const curve *bound, double scale)
+{
+    char text[96];
+    snprintf(text, sizeof text, "lower bound (%s), scaled", who);
+    plot_curve(&chart->series[chart->n++], bound, text, true, scale);
+    koksma__estimate slope = slope_of(bound);
+    slope.low = slope.high = slope.value;
+    snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
+    koksma__grid_row(g);
+    koksma__grid_text(g, text);
+    koksma__grid_interval(g, slope, 3);
+}
+
+/* All patterns' rows, slopes and curves. */
+static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subject *s, koksma__chart *chart,
+                              koksma__estimate *slopes)
+{
+    curve c = {0}, bound = {0};
+    const char *who = NULL;
+    double scale = 1;
+    koksma_status status = curve_init(&c, sizes(s)->n);
+    status = status ? status : curve_init(&bound, sizes(s)->n);
+    for (size_t p = 0; !status && p < patterns(s)->n; p++) {
+        const char *pattern = patterns(s)->at[p];
+        status = collect(study, s, pattern, &c);
+        slopes[p] = status ? (koksma__estimate){NAN, NAN, NAN} : slope_of(&c);
+        if (!status && p == 0 && (who = bound_of(s, &c, &bound))) {
+            scale = c.y[0].mean / bound.y[0].mean / 4;
+        }
+        if (!status && p + 1 < KOKSMA__CHART_SERIES) {
+            plot_curve(&chart->series[chart->n++], &c, pattern, false, 1);
+        }
+        add_row(g, s, pattern, slopes[p], &c);
+    }
+    if (!status && who) {
+        add_bound(g, chart, who, &bound, scale);
+    }
+    curve_fini(&c);
+    curve_fini(&bound);
+    return status;
 }
 
 static koksma_status add_subject(koksma_study *study, koksma__html *h, const char *id, size_t number,
                                  const subject *s)
 {
     char name[KOKSMA__VARIANT_TEXT + 64], file[64], title[256];
-    const size_t n = patterns(s)->n < KOKSMA__CHART_SERIES - 1 ? patterns(s)->n : KOKSMA__CHART_SERIES - 1;
-    koksma__chart_series *series = calloc(KOKSMA__CHART_SERIES, sizeof *series);
-    curve *curves = calloc(KOKSMA__CHART_SERIES + 1, sizeof *curves);
-    koksma__estimate slopes[KOKSMA__CHART_SERIES];
-    koksma_status status = series && curves ? KOKSMA_OK : koksma__fail_memory(sizeof *series * KOKSMA__CHART_SERIES);
-    for (size_t p = 0; !status && p < n; p++) {
-        status = collect(study, s, patterns(s)->at[p], &curves[p]);
-        slopes[p] = slope_of(&curves[p]);
-        plot_curve(&series[p], &curves[p], patterns(s)->at[p], false, 1);
+    const size_t n = patterns(s)->n;
+    if (sizes(s)->n < 2) {
+        return KOKSMA_OK;
     }
-    if (!status && sizes(s)->n >= 2) {
-        const char *who = NULL;
-        curve *bound = &curves[KOKSMA__CHART_SERIES];
-        size_t n_series = n;
-        name_subject(s, name, sizeof name);
-        add_sentence(h, name, (const char *const *)patterns(s)->at, slopes, n);
-        koksma__estimate bound_slope = {NAN, NAN, NAN};
-        if (n && curves[0].n && bound_of(s, &curves[0], bound, &who)) {
-            snprintf(title, sizeof title, "lower bound (%s), scaled", who);
-            plot_curve(&series[n_series++], bound, title, true, curves[0].y[0].mean / bound->y[0].mean / 4);
-            bound_slope = slope_of(bound);
-        }
-        snprintf(file, sizeof file, "slopes-%.32s-%zu", id, number);
+    name_subject(s, name, sizeof name);
+    snprintf(file, sizeof file, "slopes-%.32s-%zu", id, number);
+    snprintf(title, sizeof title, "%.200s against N", name);
+    koksma__chart chart = {.title = title,
+                           .x_title = s->image ? "samples a pixel" : "points",
+                           .y_title = s->image ? "mean absolute error" : s->measure,
+                           .log_x = true,
+                           .log_y = true,
+                           .series = calloc(KOKSMA__CHART_SERIES, sizeof *chart.series),
+                           .left_out = n < KOKSMA__CHART_SERIES ? 0 : n - (KOKSMA__CHART_SERIES - 1)};
+    koksma__estimate *slopes = calloc(n, sizeof *slopes);
+    koksma_status status =
+        chart.series && slopes ? KOKSMA_OK : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
+    if (!status) {
+        koksma__html rows = {0};
         koksma__grid grid;
-        koksma__grid_open(&grid, h, file);
-        koksma__grid_head(&grid, "pattern");
-        koksma__grid_head_interval(&grid, "slope");
-        for (size_t i = 0; i < sizes(s)->n; i++) {
-            snprintf(title, sizeof title, "N = %lld", sizes(s)->at[i]);
-            koksma__grid_head_interval(&grid, title);
-        }
-        for (size_t p = 0; p < n; p++) {
-            koksma__grid_row(&grid);
-            koksma__grid_text(&grid, patterns(s)->at[p]);
-            koksma__grid_interval(&grid, slopes[p], 3);
-            for (size_t i = 0; i < sizes(s)->n; i++) {
-                koksma__estimate e = {NAN, NAN, NAN};
-                for (size_t k = 0; k < curves[p].n; k++) {
-                    e = curves[p].x[k] == (double)sizes(s)->at[i] ? koksma__estimate_of(&curves[p].y[k]) : e;
-                }
-                koksma__grid_interval(&grid, e, 3);
-            }
-        }
-        if (who) {
-            koksma__grid_row(&grid);
-            snprintf(title, sizeof title, "none falls faster (%s)", who);
-            koksma__grid_text(&grid, title);
-            bound_slope.low = bound_slope.high = bound_slope.value;
-            koksma__grid_interval(&grid, bound_slope, 3);
-        }
+        koksma__grid_open(&grid, &rows, file);
+        add_heads(&grid, s);
+        status = add_rows(study, &grid, s, &chart, slopes);
         koksma__grid_close(&grid);
-        snprintf(title, sizeof title, "%.200s against N", name);
-        const koksma__chart chart = {title,
-                                     s->image ? "samples a pixel" : "points",
-                                     s->image ? "mean absolute error" : s->measure,
-                                     true,
-                                     true,
-                                     n_series,
-                                     series};
-        koksma__html_chart(h, &chart);
+        if (!status) {
+            add_sentence(h, name, (const char *const *)patterns(s)->at, slopes, n);
+            koksma__html_add(h, "%s", rows.text ? rows.text : "");
+            koksma__html_chart(h, &chart);
+        }
+        h->failed |= rows.failed;
+        free(rows.text);
     }
-    free(series);
-    free(curves);
+    free(chart.series);
+    free(slopes);
     return status;
 }
 

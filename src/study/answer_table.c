@@ -7,7 +7,7 @@
 #include "core/status.h"
 #include "study/answers.h"
 
-enum { MAX_PATTERNS = 256, EQUAL_TO = 16 };
+enum { EQUAL_TO = 16 };
 
 /* ---- Means --------------------------------------------------------------------------------------------- */
 
@@ -46,10 +46,10 @@ static void add_heads(koksma__grid *g, const columns *c)
     }
 }
 
-/* Patterns by their mean in the last column. */
-static koksma_status order(koksma_study *study, const columns *c, const koksma__texts *patterns, size_t *by)
+/* Patterns by their mean in the last column; means: room for them. */
+static koksma_status order(koksma_study *study, const columns *c, const koksma__texts *patterns, double *means,
+                           size_t *by)
 {
-    double means[MAX_PATTERNS];
     for (size_t p = 0; p < patterns->n; p++) {
         koksma__summary mean;
         const koksma_status status = cell_of(study, c, patterns->at[p], c->n - 1, &mean);
@@ -66,33 +66,44 @@ static koksma_status order(koksma_study *study, const columns *c, const koksma__
     return KOKSMA_OK;
 }
 
+static koksma_status add_rows(koksma_study *study, koksma__grid *grid, const columns *c,
+                              const koksma__texts *patterns, const size_t *by)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < patterns->n; i++) {
+        koksma__grid_row(grid);
+        koksma__grid_text(grid, patterns->at[by[i]]);
+        for (size_t k = 0; !status && k < c->n; k++) {
+            koksma__summary mean = {0};
+            status = cell_of(study, c, patterns->at[by[i]], k, &mean);
+            koksma__grid_interval(grid, koksma__estimate_of(&mean), 4);
+        }
+    }
+    return status;
+}
+
 static koksma_status add_table(koksma_study *study, koksma__html *h, const char *file, const char *title,
                                const columns *c, const koksma__texts *patterns)
 {
-    size_t by[MAX_PATTERNS];
     koksma__grid grid;
-    if (patterns->n > MAX_PATTERNS || c->n == 0) {
+    if (c->n == 0) {
         return KOKSMA_OK;
     }
-    koksma_status status = order(study, c, patterns, by);
-    if (status) {
-        return status;
+    double *means = malloc(patterns->n * sizeof *means);
+    size_t *by = malloc(patterns->n * sizeof *by);
+    koksma_status status = means && by ? order(study, c, patterns, means, by)
+                                       : koksma__fail_memory(patterns->n * (sizeof *means + sizeof *by));
+    if (!status) {
+        koksma__html_add(h, "<h4>");
+        koksma__html_text(h, title);
+        koksma__html_add(h, "</h4>\n");
+        koksma__grid_open(&grid, h, file);
+        add_heads(&grid, c);
+        status = add_rows(study, &grid, c, patterns, by);
+        koksma__grid_close(&grid);
     }
-    koksma__html_add(h, "<h4>");
-    koksma__html_text(h, title);
-    koksma__html_add(h, "</h4>\n");
-    koksma__grid_open(&grid, h, file);
-    add_heads(&grid, c);
-    for (size_t i = 0; !status && i < patterns->n; i++) {
-        koksma__grid_row(&grid);
-        koksma__grid_text(&grid, patterns->at[by[i]]);
-        for (size_t k = 0; !status && k < c->n; k++) {
-            koksma__summary mean;
-            status = cell_of(study, c, patterns->at[by[i]], k, &mean);
-            koksma__grid_interval(&grid, koksma__estimate_of(&mean), 4);
-        }
-    }
-    koksma__grid_close(&grid);
+    free(means);
+    free(by);
     return status;
 }
 
@@ -129,7 +140,7 @@ static koksma_status convergence(koksma_study *study, const columns *c, const ch
 {
     koksma_status status = KOKSMA_OK;
     *out = (koksma__convergence){n, mean, error, 0};
-    for (size_t k = 0; !status && k < c->n && out->count < KOKSMA__CHART_POINTS; k++) {
+    for (size_t k = 0; !status && k < c->n; k++) {
         koksma__summary s;
         status = cell_of(study, c, pattern, k, &s);
         if (!status && s.n && s.mean > 0) {
@@ -143,16 +154,19 @@ static koksma_status convergence(koksma_study *study, const columns *c, const ch
 
 static koksma_status add_equal(koksma_study *study, koksma__grid *g, const columns *c)
 {
-    double n[KOKSMA__CHART_POINTS], mean[KOKSMA__CHART_POINTS], error[KOKSMA__CHART_POINTS];
     const koksma__texts *patterns = &c->image->patterns;
     koksma__convergence p;
     koksma__summary target = {0};
+    double *n = malloc(3 * c->n * sizeof *n);
+    if (!n) {
+        return koksma__fail_memory(3 * c->n * sizeof *n);
+    }
     koksma_status status =
         koksma__image_mean(study, c->image, c->scene, c->variant, patterns->at[0], EQUAL_TO, NULL, &target);
     for (size_t i = 0; !status && target.n && i < patterns->n; i++) {
         bool outside;
         char name[KOKSMA__VARIANT_TEXT + 64];
-        status = convergence(study, c, patterns->at[i], n, mean, error, &p);
+        status = convergence(study, c, patterns->at[i], n, n + c->n, n + 2 * c->n, &p);
         const koksma__estimate e =
             koksma__samples_for(&p, target.mean, i ? target.sd / sqrt((double)target.n) : 0, &outside);
         koksma__case_name(c->scene, c->variant, name, sizeof name);
@@ -162,6 +176,7 @@ static koksma_status add_equal(koksma_study *study, koksma__grid *g, const colum
         koksma__grid_interval(g, e, 3);
         koksma__grid_text(g, isnan(e.value) ? "its error doesn't fall" : outside ? "extrapolated" : "between sizes");
     }
+    free(n);
     return status;
 }
 

@@ -9,7 +9,8 @@
 
 /* ---- What the store has -------------------------------------------------------------------------------- */
 
-static koksma_status mean_of(koksma_study *study, const koksma__series *series, long long trials,
+/* sets: of point sets, not of images, which a pattern without other sets makes differ all the same. */
+static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
                              koksma__result **results, koksma__summary *mean)
 {
     koksma__result *found;
@@ -18,7 +19,8 @@ static koksma_status mean_of(koksma_study *study, const koksma__series *series, 
     if (status) {
         return status;
     }
-    *mean = koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
+    *mean = sets ? koksma__summarize_sets(series->pattern, found, n)
+                 : koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
     if (results) {
         *results = found;
     } else {
@@ -39,7 +41,7 @@ koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discre
                                    .what = measure,
                                    .n = n,
                                    .dim = block->dim};
-    return mean_of(study, &series, block->trials, results, mean);
+    return mean_of(study, &series, true, block->trials, results, mean);
 }
 
 koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
@@ -60,7 +62,7 @@ koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block 
                                    .n = spp,
                                    .width = width,
                                    .height = height};
-    return mean_of(study, &series, block->trials, results, mean);
+    return mean_of(study, &series, false, block->trials, results, mean);
 }
 
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
@@ -85,27 +87,53 @@ static const answer answers[KOKSMA__ASK_KINDS] = {
     [KOKSMA__ASK_TABLE] = koksma__answer_table,
 };
 
+static koksma_status topic_init(const koksma__plan *plan, const char *id, koksma__topic *topic)
+{
+    *topic = (koksma__topic){.id = id,
+                             .discrepancies = calloc(plan->n_discrepancies + 1, sizeof *topic->discrepancies),
+                             .images = calloc(plan->n_images + 1, sizeof *topic->images)};
+    return topic->discrepancies && topic->images
+               ? KOKSMA_OK
+               : koksma__fail_memory((plan->n_discrepancies + plan->n_images) * sizeof *topic->images);
+}
+
+static void topic_fini(koksma__topic *topic)
+{
+    free(topic->discrepancies);
+    free(topic->images);
+}
+
+/* Whether a question about blocks called `wanted` (NULL: none) is about a block of this id. */
+static bool is_asked(const char *wanted, const char *id)
+{
+    return wanted && id && !strcmp(id, wanted);
+}
+
 static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__question *q)
 {
     const koksma__plan *plan = &study->plan;
-    koksma__topic topic = {.id = q->id};
-    for (size_t b = 0; b < plan->n_discrepancies && topic.n_discrepancies < KOKSMA__TOPIC_BLOCKS; b++) {
-        const char *id = plan->discrepancies[b].id;
-        if (q->discrepancies && id && !strcmp(id, q->discrepancies)) {
+    koksma__topic topic;
+    koksma_status status = topic_init(plan, q->id, &topic);
+    for (size_t b = 0; !status && b < plan->n_discrepancies; b++) {
+        if (is_asked(q->discrepancies, plan->discrepancies[b].id)) {
             topic.discrepancies[topic.n_discrepancies++] = &plan->discrepancies[b];
         }
     }
-    for (size_t b = 0; b < plan->n_images && topic.n_images < KOKSMA__TOPIC_BLOCKS; b++) {
-        if (q->images && plan->images[b].id && !strcmp(plan->images[b].id, q->images)) {
+    for (size_t b = 0; !status && b < plan->n_images; b++) {
+        if (is_asked(q->images, plan->images[b].id)) {
             topic.images[topic.n_images++] = &plan->images[b];
         }
     }
-    koksma__html_add(html, "<h3");
-    koksma__html_id(html, "question", q->id);
-    koksma__html_add(html, ">(%s) ", q->id);
-    koksma__html_text(html, q->title);
-    koksma__html_add(html, "</h3>\n");
-    return answers[q->kind](study, html, &topic);
+    if (!status) {
+        koksma__html_add(html, "<h3");
+        koksma__html_id(html, "question", q->id);
+        koksma__html_add(html, ">(%s) ", q->id);
+        koksma__html_text(html, q->title);
+        koksma__html_add(html, "</h3>\n");
+        status = answers[q->kind](study, html, &topic);
+    }
+    topic_fini(&topic);
+    return status;
 }
 
 /* A plan that asks nothing gets what its blocks can answer. */
@@ -117,14 +145,15 @@ static koksma_status ask_all(koksma_study *study, koksma__html *html)
     static const koksma__question_kind order[] = {KOKSMA__ASK_TABLE, KOKSMA__ASK_CORRELATION, KOKSMA__ASK_SLOPES,
                                                   KOKSMA__ASK_EQUAL, KOKSMA__ASK_OPTIONS};
     const koksma__plan *plan = &study->plan;
-    koksma_status status = KOKSMA_OK;
-    koksma__topic topic = {.id = ""};
-    for (; topic.n_discrepancies < plan->n_discrepancies && topic.n_discrepancies < KOKSMA__TOPIC_BLOCKS;
-         topic.n_discrepancies++) {
+    koksma__topic topic;
+    koksma_status status = topic_init(plan, "", &topic);
+    while (!status && topic.n_discrepancies < plan->n_discrepancies) {
         topic.discrepancies[topic.n_discrepancies] = &plan->discrepancies[topic.n_discrepancies];
+        topic.n_discrepancies++;
     }
-    for (; topic.n_images < plan->n_images && topic.n_images < KOKSMA__TOPIC_BLOCKS; topic.n_images++) {
+    while (!status && topic.n_images < plan->n_images) {
         topic.images[topic.n_images] = &plan->images[topic.n_images];
+        topic.n_images++;
     }
     for (size_t k = 0; !status && k < sizeof order / sizeof *order; k++) {
         char id[16];
@@ -139,6 +168,7 @@ static koksma_status ask_all(koksma_study *study, koksma__html *html)
             html->text[before] = '\0';
         }
     }
+    topic_fini(&topic);
     return status;
 }
 

@@ -7,13 +7,13 @@
 #include "study/report_chart.h"
 #include "study/tables.h"
 
-enum { KOKSMA__TOPIC_BLOCKS = 16, KOKSMA__RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
+enum { KOKSMA__RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
 
 /* A question with its blocks. */
 typedef struct koksma__topic {
     const char *id;
-    const koksma__discrepancy_block *discrepancies[KOKSMA__TOPIC_BLOCKS];
-    const koksma__image_block *images[KOKSMA__TOPIC_BLOCKS];
+    const koksma__discrepancy_block **discrepancies; /* room for all of the plan */
+    const koksma__image_block **images;
     size_t n_discrepancies, n_images;
 } koksma__topic;
 

@@ -6,7 +6,6 @@
 
 #include "core/random.h"
 #include "core/status.h"
-#include "core/sum.h"
 #include "study/statistics.h"
 
 static int compare_doubles(const void *a, const void *b)
@@ -78,7 +77,7 @@ koksma_status koksma__bootstrap_pairs(const double *x, const double *y, size_t n
                                       size_t samples, uint64_t seed, koksma__estimate *out)
 {
     *out = (koksma__estimate){n ? statistic(x, y, n) : (double)NAN, -1, 1};
-    if (n < 4) {
+    if (n < KOKSMA__LEAST_PAIRS) {
         return KOKSMA_OK;
     }
     double *values = malloc((samples + 2 * n) * sizeof *values);
@@ -102,28 +101,5 @@ koksma_status koksma__bootstrap_pairs(const double *x, const double *y, size_t n
         interval(values, kept, out);
     }
     free(values);
-    return KOKSMA_OK;
-}
-
-koksma_status koksma__bootstrap_mean(const double *values, size_t n, size_t samples, uint64_t seed,
-                                     koksma__estimate *out)
-{
-    *out = (koksma__estimate){koksma__summarize(values, n, 1).mean, NAN, NAN};
-    if (n == 0) {
-        return KOKSMA_OK;
-    }
-    double *means = malloc(samples * sizeof *means);
-    if (!means) {
-        return koksma__fail_memory(samples * sizeof *means);
-    }
-    for (size_t s = 0; s < samples; s++) {
-        koksma__sum sum = {0};
-        for (size_t i = 0; i < n; i++) {
-            koksma__sum_add(&sum, values[drawn(seed, s, i, n)]);
-        }
-        means[s] = koksma__sum_value(&sum) / (double)n;
-    }
-    interval(means, samples, out);
-    free(means);
     return KOKSMA_OK;
 }

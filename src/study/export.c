@@ -106,7 +106,7 @@ static void put_json_text(FILE *f, const char *text)
     putc('"', f);
 }
 
-/* The seed is a text: readers that take numbers for doubles would lose its last bits. */
+/* The seed is a text: readers that take numbers for doubles would lose its last bits. JSON has no infinity. */
 static koksma_status put_json(void *context, const koksma__series *series, const koksma__result *result)
 {
     FILE *f = ((writer *)context)->stream;
@@ -119,7 +119,7 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     }
     fprintf(f, ",\"trial\":%lld,\"seed\":\"%llu\"", result->trial, (unsigned long long)result->seed);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        koksma__fprintf(f, isnan(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k],
+        koksma__fprintf(f, !isfinite(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k],
                         result->values[k]);
     }
     fputs("}\n", f);

@@ -17,24 +17,43 @@ void koksma__grid_open(koksma__grid *g, koksma__html *html, const char *name)
                      name);
 }
 
-static void add_csv(koksma__grid *g, const char *text)
+static const char *comma(const koksma__html *csv)
 {
-    const bool starts = g->csv.size == 0 || g->csv.text[g->csv.size - 1] == '\n';
-    koksma__html_add(&g->csv, "%s\"", starts ? "" : ",");
-    for (; *text; text++) {
-        koksma__html_add(&g->csv, *text == '"' ? "\"\"" : "%c", *text);
-    }
-    koksma__html_add(&g->csv, "\"");
+    return csv->size == 0 || csv->text[csv->size - 1] == '\n' ? "" : ",";
 }
 
-static void add_csv_number(koksma__grid *g, double value)
+void koksma__csv_text(koksma__html *csv, const char *text)
+{
+    koksma__html_add(csv, "%s\"", comma(csv));
+    for (; *text; text++) {
+        koksma__html_add(csv, *text == '"' ? "\"\"" : "%c", *text);
+    }
+    koksma__html_add(csv, "\"");
+}
+
+void koksma__csv_number(koksma__html *csv, double value)
 {
     char text[40] = "";
     if (!isnan(value)) {
         koksma__snprintf(text, sizeof text, "%.17g", value);
     }
-    const bool starts = g->csv.size == 0 || g->csv.text[g->csv.size - 1] == '\n';
-    koksma__html_add(&g->csv, "%s%s", starts ? "" : ",", text);
+    koksma__html_add(csv, "%s%s", comma(csv), text);
+}
+
+void koksma__csv_row(koksma__html *csv)
+{
+    koksma__html_add(csv, "\r\n");
+}
+
+void koksma__csv_close(koksma__html *csv, koksma__html *html, const char *name)
+{
+    koksma__csv_row(csv);
+    koksma__html_add(html, "<p class=\"csv\"><a download=\"%s.csv\" href=\"data:text/csv;base64,", name);
+    koksma__html_base64(html, (const unsigned char *)csv->text, csv->failed ? 0 : csv->size);
+    koksma__html_add(html, "\">%s.csv</a></p>\n", name);
+    html->failed |= csv->failed;
+    free(csv->text);
+    *csv = (koksma__html){0};
 }
 
 void koksma__grid_head(koksma__grid *g, const char *text)
@@ -42,7 +61,7 @@ void koksma__grid_head(koksma__grid *g, const char *text)
     koksma__html_add(g->html, "<th scope=\"col\">");
     koksma__html_text(g->html, text);
     koksma__html_add(g->html, "</th>");
-    add_csv(g, text);
+    koksma__csv_text(&g->csv, text);
 }
 
 void koksma__grid_head_interval(koksma__grid *g, const char *text)
@@ -50,15 +69,15 @@ void koksma__grid_head_interval(koksma__grid *g, const char *text)
     char more[160];
     koksma__grid_head(g, text);
     snprintf(more, sizeof more, "%.150s low", text);
-    add_csv(g, more);
+    koksma__csv_text(&g->csv, more);
     snprintf(more, sizeof more, "%.150s high", text);
-    add_csv(g, more);
+    koksma__csv_text(&g->csv, more);
 }
 
 void koksma__grid_row(koksma__grid *g)
 {
     koksma__html_add(g->html, g->in_body ? "</tr>\n<tr>" : "</tr></thead>\n<tbody><tr>");
-    koksma__html_add(&g->csv, "\r\n");
+    koksma__csv_row(&g->csv);
     g->in_body = true;
 }
 
@@ -67,7 +86,7 @@ void koksma__grid_text(koksma__grid *g, const char *text)
     koksma__html_add(g->html, "<td>");
     koksma__html_text(g->html, text);
     koksma__html_add(g->html, "</td>");
-    add_csv(g, text);
+    koksma__csv_text(&g->csv, text);
 }
 
 void koksma__grid_number(koksma__grid *g, double value, int digits)
@@ -77,13 +96,15 @@ void koksma__grid_number(koksma__grid *g, double value, int digits)
     } else {
         koksma__html_add(g->html, "<td>%.*g</td>", digits, value);
     }
-    add_csv_number(g, value);
+    koksma__csv_number(&g->csv, value);
 }
 
 void koksma__grid_interval(koksma__grid *g, koksma__estimate e, int digits)
 {
     if (isnan(e.value)) {
         koksma__html_add(g->html, "<td>&#8211;</td>");
+    } else if (isnan(e.low) || isnan(e.high)) {
+        koksma__html_add(g->html, "<td>%.*g <span class=\"pm\">&#177; ?</span></td>", digits, e.value);
     } else if (e.low == e.high) {
         koksma__html_add(g->html, "<td>%.*g</td>", digits, e.value);
     } else if (fabs((e.high - e.value) - (e.value - e.low)) < 1e-6 * (e.high - e.low)) {
@@ -93,18 +114,13 @@ void koksma__grid_interval(koksma__grid *g, koksma__estimate e, int digits)
         koksma__html_add(g->html, "<td>%.*g <span class=\"pm\">%.2g &#8230; %.2g</span></td>", digits, e.value, e.low,
                          e.high);
     }
-    add_csv_number(g, e.value);
-    add_csv_number(g, e.low);
-    add_csv_number(g, e.high);
+    koksma__csv_number(&g->csv, e.value);
+    koksma__csv_number(&g->csv, e.low);
+    koksma__csv_number(&g->csv, e.high);
 }
 
 void koksma__grid_close(koksma__grid *g)
 {
     koksma__html_add(g->html, g->in_body ? "</tr></tbody></table></div>\n" : "</tr></thead></table></div>\n");
-    koksma__html_add(&g->csv, "\r\n");
-    koksma__html_add(g->html, "<p class=\"csv\"><a download=\"%s.csv\" href=\"data:text/csv;base64,", g->name);
-    koksma__html_base64(g->html, (const unsigned char *)g->csv.text, g->csv.failed ? 0 : g->csv.size);
-    koksma__html_add(g->html, "\">%s.csv</a></p>\n", g->name);
-    g->html->failed |= g->csv.failed;
-    free(g->csv.text);
+    koksma__csv_close(&g->csv, g->html, g->name);
 }

@@ -6,6 +6,20 @@
 #include "study/html.h"
 #include "study/statistics.h"
 
+/* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------- */
+
+/* Cells of a row; NaN is an empty one. */
+void koksma__csv_text(koksma__html *csv, const char *text);
+void koksma__csv_number(koksma__html *csv, double value);
+
+/* Ends a row. */
+void koksma__csv_row(koksma__html *csv);
+
+/* Ends the last row, appends a link with the file inside, and frees it. */
+void koksma__csv_close(koksma__html *csv, koksma__html *html, const char *name);
+
+/* ---- Tables with their CSV ------------------------------------------------------------------------------- */
+
 typedef struct koksma__grid {
     koksma__html *html, csv;
     char name[64];

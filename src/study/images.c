@@ -62,6 +62,20 @@ static koksma_status collect(const char *places, const glob_t *found, pictures *
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
+/* One pixel that is no number would make a whole group's error none. */
+static koksma_status check_finite(const koksma_image *image, const char *path)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(image->pixels[i])) {
+            const size_t pixel = i / (size_t)image->channels;
+            return koksma__fail(KOKSMA_MALFORMED, "%s: pixel (%zu, %zu) is not a finite number", path,
+                                pixel % (size_t)image->width, pixel / (size_t)image->width);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status compare_one(void *context, size_t i)
 {
     pictures *all = context;
@@ -69,9 +83,7 @@ static koksma_status compare_one(void *context, size_t i)
     koksma_status status = koksma_image_read(all->at[i].path, &image);
     if (!status) {
         status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
-        if (status) {
-            status = koksma__fail_in(status, all->at[i].path);
-        }
+        status = status ? koksma__fail_in(status, all->at[i].path) : check_finite(&image, all->at[i].path);
         koksma_image_fini(&image);
     }
     return status;
@@ -81,9 +93,10 @@ static koksma_status compare_one(void *context, size_t i)
 static void add_slope(koksma_images_row *rows, size_t n)
 {
     double x[64], y[64], sigma[64];
-    size_t used = 0;
+    size_t used = 0, least = SIZE_MAX;
     for (size_t i = 0; i < n && used < 64; i++) {
         if (rows[i].spp > 0 && rows[i].mean > 0) {
+            least = rows[i].trials < least ? rows[i].trials : least;
             x[used] = log((double)rows[i].spp);
             y[used] = log(rows[i].mean);
             const double half = rows[i].high - rows[i].mean;
@@ -91,10 +104,11 @@ static void add_slope(koksma_images_row *rows, size_t n)
         }
     }
     const koksma__line line = koksma__fit_line(x, y, sigma, used);
+    const koksma__estimate slope = koksma__slope(&line, least);
     for (size_t i = 0; i < n; i++) {
-        rows[i].slope = line.slope;
-        rows[i].slope_low = line.slope - 1.959963984540054 * line.slope_error;
-        rows[i].slope_high = line.slope + 1.959963984540054 * line.slope_error;
+        rows[i].slope = slope.value;
+        rows[i].slope_low = slope.low;
+        rows[i].slope_high = slope.high;
     }
 }
 
@@ -150,6 +164,7 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
                                                             : collect(places, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
+    status = status ? status : check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
     status = status ? status : make_rows(&all, rows, n);
     koksma_image_fini(&all.reference);

@@ -88,6 +88,7 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     b->dim = (int)dim;
     status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
     status = status ? status : koksma__plan_check_measures(node, b);
+    koksma__plan_sort(&b->n);
     return status ? status : check_warps(node, b);
 }
 
@@ -144,6 +145,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);
+    koksma__plan_sort(&b->spp);
     status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->width = (int)size[0];
@@ -254,37 +256,66 @@ bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char
            has_text(&block->patterns, pattern) && has_whole(&block->n, n);
 }
 
-/* Whether the blocks make every row of table t. */
-static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
+static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
 {
-    for (size_t b = 0; t->scene && b < plan->n_images; b++) {
-        const koksma__image_block *i = &plan->images[b];
-        if (has_text(&i->variants, "") && has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) &&
-            has_whole(&i->spp, t->n)) {
+    return has_text(&i->variants, "") && has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) &&
+           has_whole(&i->spp, t->n);
+}
+
+/* The first image block that makes all rows of a table: they are compared with the same references, at one size. With
+   none the plan has no such block for *row. */
+static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
+{
+    *row = 0;
+    for (size_t b = 0; b < plan->n_images; b++) {
+        size_t r = 0;
+        while (r < t->n_rows && makes_image(&plan->images[b], t, t->rows[r].pattern)) {
+            r++;
+        }
+        if (r == t->n_rows) {
+            t->images = b;
             return true;
         }
+        *row = r > *row ? r : *row;
     }
-    for (size_t b = 0; !t->scene && b < plan->n_discrepancies; b++) {
-        const koksma__discrepancy_block *d = &plan->discrepancies[b];
-        if (koksma__plan_block_makes(d, measure, pattern, t->n, t->dim)) {
+    return false;
+}
+
+/* Whether a discrepancy block makes the measure of a row. */
+static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
+{
+    for (size_t b = 0; b < plan->n_discrepancies; b++) {
+        if (koksma__plan_block_makes(&plan->discrepancies[b], measure, pattern, t->n, t->dim)) {
             return true;
         }
     }
     return false;
 }
 
+static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row)
+{
+    for (*row = 0; *row < t->n_rows; ++*row) {
+        const char *pattern = t->rows[*row].pattern;
+        if (!is_made(plan, t, t->measure, pattern) || (t->also && !is_made(plan, t, t->also, pattern))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static koksma_status check_tables(const koksma__json_node *root, const koksma__plan *plan)
 {
     for (size_t i = 0; i < plan->n_tables; i++) {
-        const koksma__table *t = &plan->tables[i];
-        for (size_t r = 0; r < t->n_rows; r++) {
-            if (!is_made(plan, t, t->measure, t->rows[r].pattern) ||
-                (t->also && !is_made(plan, t, t->also, t->rows[r].pattern))) {
-                koksma__json_node tables;
-                koksma__json_member(root, "tables", &tables);
-                const koksma__json_node table = koksma__json_item(&tables, i);
-                return koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[r].pattern);
-            }
+        koksma__table *t = &plan->tables[i];
+        size_t row;
+        if (!(t->scene ? find_images(plan, t, &row) : find_discrepancies(plan, t, &row))) {
+            koksma__json_node tables;
+            koksma__json_member(root, "tables", &tables);
+            const koksma__json_node table = koksma__json_item(&tables, i);
+            return row && t->scene
+                       ? koksma__json_fail(&table, "no block of the plan makes the row of %s with those before it",
+                                           t->rows[row].pattern)
+                       : koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[row].pattern);
         }
     }
     return KOKSMA_OK;

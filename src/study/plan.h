@@ -64,6 +64,7 @@ typedef struct koksma__table {
     char *scene;          /* an image table */
     char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
     long long n, dim;     /* dim: of a discrepancy table */
+    size_t images;        /* of an image table: the image block that makes all its rows */
     size_t n_rows, n_notes;
     koksma__table_row *rows;
     koksma__note *notes;

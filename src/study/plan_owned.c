@@ -43,6 +43,9 @@ koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
 {
     koksma_status status = join_text(&p->name, "+", q->name);
     status = status ? status : join_text(&p->title, "; ", q->title);
+    for (size_t t = 0; t < q->n_tables; t++) {
+        q->tables[t].images += p->n_images;
+    }
     if (!status && q->about) {
         status = p->about ? join_text(&p->about, " ", q->about) : KOKSMA_OK;
     }

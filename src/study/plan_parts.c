@@ -132,6 +132,19 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
     return status;
 }
 
+static int compare_wholes(const void *a, const void *b)
+{
+    const long long x = *(const long long *)a, y = *(const long long *)b;
+    return (x > y) - (x < y);
+}
+
+void koksma__plan_sort(koksma__wholes *wholes)
+{
+    if (wholes->n) {
+        qsort(wholes->at, wholes->n, sizeof *wholes->at, compare_wholes);
+    }
+}
+
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n)

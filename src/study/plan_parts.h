@@ -27,6 +27,10 @@ koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key,
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
                                   koksma__wholes *out);
 
+/* By size: what is said of the larger sizes, or between neighbours, doesn't depend on how a plan lists them. Places
+   in the plan are lost: errors that name them come before. */
+void koksma__plan_sort(koksma__wholes *wholes);
+
 /* A list of objects into an array of zeroed items of item_size bytes; *n counts the items that must be freed, also on
    failure. */
 koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,

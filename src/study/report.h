@@ -5,9 +5,10 @@
 #include "study/html.h"
 #include "study/study.h"
 
-/* Published means: how many there are, agree, and differ for a known reason. */
+/* Published means: how many have one of ours beside them, agree, and differ for a known reason; how many have none.
+ */
 typedef struct koksma__tally {
-    size_t cells, agree, explained;
+    size_t cells, agree, explained, waiting;
 } koksma__tally;
 
 /* Appends the figures of the plan: point sets as SVG, scenes as pixels. */

@@ -157,5 +157,8 @@ void koksma__html_chart(koksma__html *h, const koksma__chart *c)
     add_legend(h, c);
     koksma__html_add(h, "</svg><figcaption>");
     koksma__html_text(h, c->title);
+    if (c->left_out) {
+        koksma__html_add(h, ". %zu more are not in this picture.", c->left_out);
+    }
     koksma__html_add(h, "</figcaption></figure>\n");
 }

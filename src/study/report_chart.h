@@ -21,6 +21,7 @@ typedef struct koksma__chart {
     bool log_x, log_y;
     size_t n;
     koksma__chart_series *series; /* room for KOKSMA__CHART_SERIES */
+    size_t left_out;              /* what else there is, which the caption counts */
 } koksma__chart;
 
 /* Non-finite points, and on logarithmic axes those that are not positive, are left out. */

@@ -22,7 +22,7 @@ enum { MOST_BYTES = 24 << 20, GAIN = 8, MAX_SHOWN = 24 };
 enum { SPECTRUM_TRIALS = 4, SPECTRUM_PIXELS = 1 << 16 };
 
 typedef struct budget {
-    size_t used;
+    size_t used, left_out; /* left_out: scenes that would take too much */
     bool shown;
 } budget;
 
@@ -118,7 +118,7 @@ static koksma_status add_spectra(koksma__html *h, const koksma__task *first, con
                  "Spectrum of the image error: %.200s, %lld samples a pixel, mean over rings and %d trials",
                  first->scene->name, first->n,
                  first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS);
-        const koksma__chart chart = {title, "cycles a pixel", "power", false, true, n, series};
+        const koksma__chart chart = {title, "cycles a pixel", "power", false, true, n, series, patterns->n - n};
         koksma__html_chart(h, &chart);
     }
     free(series);
@@ -154,13 +154,14 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
     const size_t shown = block->patterns.n < MAX_SHOWN ? block->patterns.n : MAX_SHOWN;
     const size_t pixels = (size_t)first->width * (size_t)first->height;
     koksma__reference_image *reference = &study->references[first->references[first->n_series - 1]];
-    if (!koksma__reference_exists(study, reference) || b->used + 4 * pixels * (shown + 1) > MOST_BYTES) {
-        return KOKSMA_OK;
-    }
-    bool done;
-    koksma_status status = are_done(study, first, shown, 1, &done);
+    bool done = koksma__reference_exists(study, reference);
+    koksma_status status = done ? are_done(study, first, shown, 1, &done) : KOKSMA_OK;
     if (status || !done) {
         return status;
+    }
+    if (b->used + 4 * pixels * (shown + 1) > MOST_BYTES) {
+        b->left_out++;
+        return KOKSMA_OK;
     }
     status = koksma__reference_read(study, reference);
     koksma__html floats = {0};
@@ -191,8 +192,12 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
             koksma_image_fini(&image);
         }
     }
-    koksma__html_add(h, "</div>\n<div class=\"comparer\" data-width=\"%d\" data-height=\"%d\" data-name=\"",
-                     first->width, first->height);
+    koksma__html_add(h, "</div>\n");
+    if (shown < block->patterns.n) {
+        koksma__html_add(h, "<p>%zu more patterns are not shown.</p>\n", block->patterns.n - shown);
+    }
+    koksma__html_add(h, "<div class=\"comparer\" data-width=\"%d\" data-height=\"%d\" data-name=\"", first->width,
+                     first->height);
     koksma__html_text(h, first->scene->name);
     koksma__html_add(h, "\">%s</div>\n", floats.text ? floats.text : "");
     h->failed |= floats.failed;
@@ -214,6 +219,10 @@ koksma_status koksma__report_pictures(koksma_study *study, koksma__html *h, cons
             t->n == block->spp.at[block->spp.n / 2]) {
             status = add_scene(study, h, t, &b, run);
         }
+    }
+    if (!status && b.left_out) {
+        koksma__html_add(h, "<p>The pictures of %zu scenes are left out: this file would be too large.</p>\n",
+                         b.left_out);
     }
     if (!status && b.shown) {
         koksma__html_add(h, "<script>\n%s</script>\n", koksma__report_js);

@@ -15,13 +15,15 @@ koksma_status koksma__report_runs(koksma_study *study, koksma__html *h)
     for (long long i = 0; !status && found; i++) {
         status = koksma__store_run(study->store, i, &run, &found);
         if (!status && found) {
-            koksma__html_add(h, "<li>%s: %lld jobs in %.1f s with %lld workers on ", run.started, run.jobs,
-                             run.seconds, run.workers);
+            koksma__html_add(h, "<li>");
+            koksma__html_text(h, run.started);
+            koksma__html_add(h, ": %lld jobs in %.1f s with %lld workers on ", run.jobs, run.seconds, run.workers);
             koksma__html_text(h, run.machine);
-            koksma__html_add(
-                h, ", koksma %s; idle %.1f %% of the time, in the database %.1f %% of the processor time</li>",
-                run.version, percent(run.idle_seconds, (double)run.workers * run.seconds),
-                percent(run.store_seconds, run.processor_seconds));
+            koksma__html_add(h, ", koksma ");
+            koksma__html_text(h, run.version);
+            koksma__html_add(h, "; idle %.1f %% of the time, in the database %.1f %% of the processor time</li>",
+                             percent(run.idle_seconds, (double)run.workers * run.seconds),
+                             percent(run.store_seconds, run.processor_seconds));
         }
     }
     koksma__html_add(h, "</ul>\n");

@@ -2,14 +2,23 @@
 /* Convergence: slopes in log-log, and how many samples reach an error. */
 #include <math.h>
 
+#include <koksma/series.h>
+
 #include "study/statistics.h"
+
+/* What a chi-square over its degrees of freedom exceeds by chance in 5 % of cases (Wilson and Hilferty 1931). */
+static double largest_by_chance(size_t degrees)
+{
+    const double a = 2 / (9 * (double)degrees), root = 1 - a + 1.644853626951473 * sqrt(a);
+    return root * root * root;
+}
 
 /* Weighted least squares: with w = 1/sigma^2, S = sum w, x' = sum w x / S, slope = sum w (x - x') y / sum w (x -
    x')^2, whose variance is 1 / sum w (x - x')^2 when the sigmas are right. When the points scatter more than their
    sigmas say (the line is not the whole truth), the variance grows by the reduced chi-square. */
 koksma__line koksma__fit_line(const double *x, const double *y, const double *sigma, size_t n)
 {
-    koksma__line line = {NAN, NAN, NAN, {NAN, NAN, NAN}};
+    koksma__line line = {NAN, NAN, NAN, 0, {NAN, NAN, NAN}};
     double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, chi = 0;
     bool weighted = true;
     for (size_t i = 0; i < n; i++) {
@@ -38,11 +47,19 @@ koksma__line koksma__fit_line(const double *x, const double *y, const double *si
     }
     const double reduced = n > 2 ? chi / (double)(n - 2) : 1;
     const double scale = weighted ? fmax(reduced, 1) : n > 2 ? reduced : 0;
+    line.degrees = n > 2 && (!weighted || reduced > largest_by_chance(n - 2)) ? n - 2 : 0;
     line.slope_error = n > 2 || weighted ? sqrt(scale / sxx) : (double)NAN;
     line.covariance[0] = scale * (1 / s + sx / s * sx / s / sxx);
     line.covariance[1] = scale / sxx;
     line.covariance[2] = -scale * sx / s / sxx;
     return line;
+}
+
+koksma__estimate koksma__slope(const koksma__line *line, size_t least)
+{
+    const size_t degrees = line->degrees ? line->degrees : least > 1 ? least - 1 : 0;
+    const double half = degrees ? koksma_student_975(degrees) * line->slope_error : (double)NAN;
+    return (koksma__estimate){line->slope, line->slope - half, line->slope + half};
 }
 
 /* Between sizes a and b the error is taken for c n^slope. The interval comes from the standard errors of the three

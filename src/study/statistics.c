@@ -31,11 +31,19 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
         const double t = item(a, b, i * stride) - s.mean;
         koksma__sum_add(&squares, t * t);
     }
-    s.sd = n > 1 ? sqrt(koksma__sum_value(&squares) / (double)(n - 1)) : 0;
-    const double half = n > 1 ? koksma_student_975(n - 1) * s.sd / sqrt((double)n) : 0;
+    if (n < 2) {
+        return s;
+    }
+    s.sd = sqrt(koksma__sum_value(&squares) / (double)(n - 1));
+    const double half = koksma_student_975(n - 1) * s.sd / sqrt((double)n);
     s.low = s.mean - half;
     s.high = s.mean + half;
     return s;
+}
+
+koksma__summary koksma__exactly(double value)
+{
+    return (koksma__summary){1, value, 0, value, value, value};
 }
 
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)

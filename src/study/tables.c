@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "study/statistics.h"
 #include "study/tables.h"
+#include "study/tasks.h"
 
 enum { RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
 
@@ -24,16 +25,15 @@ koksma_status koksma__series_results(koksma_study *study, const koksma__series *
     return status;
 }
 
+koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
+{
+    return n == 1 && koksma__has_one_set(pattern) ? koksma__exactly(results->values[0])
+                                                  : koksma__summarize(results->values, n, RESULT_STRIDE);
+}
+
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
 {
-    for (size_t b = 0; b < study->plan.n_images; b++) {
-        for (size_t s = 0; s < study->plan.images[b].scenes.n; s++) {
-            if (!strcmp(study->plan.images[b].scenes.at[s], table->scene)) {
-                return &study->plan.images[b];
-            }
-        }
-    }
-    return NULL;
+    return &study->plan.images[table->images];
 }
 
 static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,
@@ -70,7 +70,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
     if (status) {
         return status;
     }
-    cell->mean = koksma__summarize(results->values, n, RESULT_STRIDE);
+    cell->mean = koksma__summarize_sets(pattern, results, n);
     cell->sd = cell->mean.sd;
     koksma__largest_of(results->values, n, RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
     if (isnan(cell->max)) {
@@ -124,6 +124,9 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
 {
     const koksma__table *table = NULL;
     *found = false;
+    if (!study->store) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no results");
+    }
     for (size_t t = 0; t < study->plan.n_tables; t++) {
         if (!strcmp(study->plan.tables[t].id, id)) {
             table = &study->plan.tables[t];

@@ -16,7 +16,10 @@ typedef struct koksma__cell {
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
                                      koksma__result **results, size_t *n);
 
-/* The block that renders an image table's scene, or NULL; koksma__plan_parse makes sure that there is one. */
+/* The summary of the values of a pattern's point sets: of one that has no other set, exact. */
+koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n);
+
+/* The block that makes an image table. */
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table);
 
 koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,

@@ -35,13 +35,10 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
     return t->series && t->references && t->done ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
 }
 
-/* All sets of a deterministic pattern are one set. */
-static long long sets_of(const char *pattern, long long trials)
+bool koksma__has_one_set(const char *pattern)
 {
     koksma_spec spec;
-    const bool one =
-        !koksma_pattern_spec(pattern, &spec) && !spec.shift && (spec.pattern->claims & KOKSMA_CLAIM_DETERMINISTIC);
-    return one ? 1 : trials;
+    return !koksma_pattern_spec(pattern, &spec) && !spec.shift && (spec.pattern->claims & KOKSMA_CLAIM_DETERMINISTIC);
 }
 
 static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
@@ -53,7 +50,8 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
                                    .pattern = b->patterns.at[i / (b->n.n * warps)],
                                    .n = b->n.at[i / warps % b->n.n],
                                    .variant = b->warps.n ? b->warps.at[i % warps] : "",
-                                   .trials = sets_of(b->patterns.at[i / (b->n.n * warps)], b->trials),
+                                   .trials =
+                                       koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
                                    .n_series = b->measures.n};
         status = add_task(tasks, &task);
     }

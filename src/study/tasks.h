@@ -42,6 +42,9 @@ typedef struct koksma__tasks {
     koksma__rounds *rounds;
 } koksma__tasks;
 
+/* All sets of a deterministic pattern are one set. */
+bool koksma__has_one_set(const char *pattern);
+
 /* All tasks of the plan of one kind. Errors: ARGUMENT (more than 2^30 jobs), MEMORY. */
 koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks);
 void koksma__tasks_close(koksma__tasks *tasks);

@@ -33,21 +33,56 @@ static void slope_by_hand(void **state)
     assert_true(isnan(koksma__fit_line(x, y, one, 1).slope));
 }
 
-/* The interval of the slope, +-1.96 standard errors, covers the true slope in 95 % of cases. */
+/* How often in 2000 cases the interval of the slope covers the true one, of n sizes with `trials` each: their
+   standard errors are estimates, and so is nothing but the residuals with one trial. */
+static int slopes_covered(size_t n, size_t trials)
+{
+    int covered = 0;
+    for (uint64_t t = 0; t < 2000; t++) {
+        double x[6], y[6], sigma[6], values[16];
+        for (size_t i = 0; i < n; i++) {
+            for (size_t k = 0; k < trials; k++) {
+                values[k] = 3 - 0.75 * (double)i + 0.1 * (double)(1 + i % 3) * normal(t, 16 * i + k);
+            }
+            const koksma__summary s = koksma__summarize(values, trials, 1);
+            x[i] = (double)i;
+            y[i] = s.mean;
+            sigma[i] = trials > 1 ? s.sd / sqrt((double)trials) : 0;
+        }
+        const koksma__line line = koksma__fit_line(x, y, sigma, n);
+        const koksma__estimate e = koksma__slope(&line, trials);
+        covered += e.low <= -0.75 && -0.75 <= e.high;
+    }
+    return covered;
+}
+
+/* 1900 are due; more where the standard errors are of few trials, whose Student's quantile is the safe side. */
 static void slope_covers(void **state)
 {
     (void)state;
-    const double x[] = {1, 2, 3, 4, 5, 6}, sigma[] = {0.1, 0.2, 0.1, 0.3, 0.1, 0.2};
-    int covered = 0;
-    for (uint64_t t = 0; t < 2000; t++) {
-        double y[6];
-        for (uint64_t i = 0; i < 6; i++) {
-            y[i] = 3 - 0.75 * x[i] + sigma[i] * normal(t, i);
-        }
-        const koksma__line line = koksma__fit_line(x, y, sigma, 6);
-        covered += fabs(line.slope + 0.75) <= 1.96 * line.slope_error;
-    }
-    assert_in_range(covered, 1870, 1990); /* 1900 and up: the standard error only ever grows */
+    assert_in_range(slopes_covered(3, 1), 1820, 1970);
+    assert_in_range(slopes_covered(6, 1), 1850, 1950);
+    assert_in_range(slopes_covered(3, 3), 1900, 2000);
+    assert_in_range(slopes_covered(6, 4), 1900, 2000);
+    assert_in_range(slopes_covered(6, 16), 1860, 1980);
+}
+
+static void slope_of_two_points(void **state)
+{
+    (void)state;
+    const double x[] = {0, 2}, y[] = {1, 3}, sigma[] = {0.3, 0.4}, none[] = {0, 0};
+    koksma__line line = koksma__fit_line(x, y, sigma, 2);
+    koksma__estimate e = koksma__slope(&line, 5);
+    assert_near(e.value, 1, 1e-15);
+    assert_near(e.high - e.value, koksma_student_975(4) * 0.25, 1e-12); /* sqrt(0.3^2 + 0.4^2) / 2 */
+    line = koksma__fit_line(x, y, none, 2);
+    e = koksma__slope(&line, 1);
+    assert_true(e.value == 1 && isnan(e.low) && isnan(e.high));
+    const double bent[] = {0, 1, 5, 3}, at[] = {0, 1, 2, 3}, small[] = {1e-3, 1e-3, 1e-3, 1e-3};
+    line = koksma__fit_line(at, bent, small, 4); /* no line: the residuals say so */
+    assert_int_equal(line.degrees, 2);
+    e = koksma__slope(&line, 100);
+    assert_near(e.high - e.value, koksma_student_975(2) * line.slope_error, 1e-12);
 }
 
 static void correlations_by_hand(void **state)
@@ -101,34 +136,34 @@ static void bootstrap_intervals(void **state)
         values[i] = normal(5, i);
         y[i] = values[i] + 0.1 * normal(6, i);
     }
-    const koksma__summary s = koksma__summarize(values, 400, 1);
-    assert_ok(koksma__bootstrap_mean(values, 400, 4000, 1, &e));
-    assert_near(e.low, s.low, 0.1 * (s.high - s.low)); /* the t interval, for so many */
-    assert_near(e.high, s.high, 0.1 * (s.high - s.low));
-    assert_ok(koksma__bootstrap_mean(values, 400, 4000, 1, &again));
-    assert_true(e.low == again.low && e.high == again.high);
     assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &e));
     assert_true(e.low < e.value && e.value < e.high && e.low > 0.95 && e.high <= 1);
-    assert_ok(koksma__bootstrap_pairs(values, y, 3, koksma__spearman, 500, 3, &e));
-    assert_true(e.low == -1 && e.high == 1);
+    assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &again));
+    assert_true(e.low == again.low && e.high == again.high);
+    for (size_t n = 1; n < 7; n++) { /* too few to say that it isn't 0 */
+        assert_ok(koksma__bootstrap_pairs(values, values, n, koksma__spearman, 500, 3, &e));
+        assert_true(e.low == -1 && e.high == 1);
+    }
+    assert_ok(koksma__bootstrap_pairs(values, values, 7, koksma__spearman, 500, 3, &e));
+    assert_true(e.value == 1 && e.low == 1);
 }
 
-/* Bootstrap intervals of the mean of 30 exponential values cover it in about 92 to 95 % of cases. */
+/* Of 10 pairs without correlation the interval excludes 0 in about 5 % of cases. */
 static void bootstrap_covers(void **state)
 {
     (void)state;
-    int covered = 0;
-    for (uint64_t t = 0; t < 1000; t++) {
-        double values[30], pair[2];
+    int excluded = 0;
+    for (uint64_t t = 0; t < 400; t++) {
+        double x[10], y[10];
         koksma__estimate e;
-        for (uint64_t i = 0; i < 30; i++) {
-            koksma__random_pair(t, KOKSMA__PURPOSE_TEST, i, 9, pair);
-            values[i] = -log(1 - pair[0]);
+        for (uint64_t i = 0; i < 10; i++) {
+            x[i] = normal(t, i);
+            y[i] = normal(t, 100 + i);
         }
-        assert_ok(koksma__bootstrap_mean(values, 30, 400, t, &e));
-        covered += e.low <= 1 && 1 <= e.high;
+        assert_ok(koksma__bootstrap_pairs(x, y, 10, koksma__spearman, 300, t, &e));
+        excluded += e.low > 0 || e.high < 0;
     }
-    assert_in_range(covered, 890, 965);
+    assert_in_range(excluded, 4, 44);
 }
 
 static void paired_differences(void **state)
@@ -139,6 +174,10 @@ static void paired_differences(void **state)
     assert_near(s.mean, 3, 0);
     assert_near(s.sd, 1, 1e-15);
     assert_near(s.high, 3 + 4.302652729749464 / sqrt(3), 1e-12);
+    const koksma__summary one = koksma__paired(a, b, 1, 1);
+    assert_true(one.mean == 2 && one.n == 1 && isnan(one.sd) && isnan(one.low) && isnan(one.high));
+    const koksma__summary exact = koksma__exactly(2);
+    assert_true(exact.mean == 2 && exact.sd == 0 && exact.low == 2 && exact.high == 2 && exact.max == 2);
     assert_near(koksma__student_quantile(0.9975, 20), 3.153400, 1e-6);
 }
 
@@ -164,10 +203,15 @@ static void samples_for_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slope_by_hand),        cmocka_unit_test(slope_covers),
-        cmocka_unit_test(correlations_by_hand), cmocka_unit_test(correlations_over_all_orders),
-        cmocka_unit_test(bootstrap_intervals),  cmocka_unit_test(bootstrap_covers),
-        cmocka_unit_test(paired_differences),   cmocka_unit_test(samples_for_an_error),
+        cmocka_unit_test(slope_by_hand),
+        cmocka_unit_test(slope_covers),
+        cmocka_unit_test(slope_of_two_points),
+        cmocka_unit_test(correlations_by_hand),
+        cmocka_unit_test(correlations_over_all_orders),
+        cmocka_unit_test(bootstrap_intervals),
+        cmocka_unit_test(bootstrap_covers),
+        cmocka_unit_test(paired_differences),
+        cmocka_unit_test(samples_for_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

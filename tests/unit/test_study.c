@@ -207,13 +207,30 @@ static void store_keeps_many_rows(void **state)
     rmdir(folder);
 }
 
+static void study_without_folder(void **state)
+{
+    (void)state;
+    const char *plans[] = {"shirley1991"};
+    const koksma_study_options options = {.plans = plans, .n_plans = 1};
+    koksma_study *study;
+    koksma_study_row row;
+    bool found;
+    assert_ok(koksma_study_open(&options, &study));
+    assert_int_equal(koksma_study_report(study, NULL), KOKSMA_ARGUMENT);
+    assert_string_equal(koksma_error_text(), "a study without a folder has no report");
+    assert_int_equal(koksma_study_table_row(study, koksma_study_table_at(study, 0), 0, &row, &found),
+                     KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_study_run(study, NULL, NULL), KOKSMA_ARGUMENT);
+    assert_ok(koksma_study_close(study));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(summary_by_hand),       cmocka_unit_test(student_table),
         cmocka_unit_test(largest_of_blocks),     cmocka_unit_test(wrong_plans),
         cmocka_unit_test(shipped_plans_parse),   cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows),
+        cmocka_unit_test(store_keeps_many_rows), cmocka_unit_test(study_without_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Published tables of a report beside what the store has: labels, marks and notes, and those of discrepancies. */
+#include "study/report_tables.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+
+/* ---- Marks ------------------------------------------------------------------------------------------------- */
+
+/* The number of the note on a cell, from 1, or 0. */
+static size_t note_of(const koksma__table *t, const char *pattern, int statistic)
+{
+    for (size_t i = 0; i < t->n_notes; i++) {
+        const koksma__note *n = &t->notes[i];
+        if (n->statistic == statistic && (!n->pattern || !strcmp(n->pattern, pattern))) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
+void koksma__table_begin_row(koksma__html *h, koksma__html *csv, const koksma__table *t, const koksma__table_row *row)
+{
+    koksma__csv_row(csv);
+    koksma__csv_text(csv, row->label);
+    koksma__csv_text(csv, row->pattern);
+    for (int s = 0; s < 3; s++) {
+        koksma__csv_number(csv, row->published[s]);
+    }
+    koksma__html_add(h, "<tr><td>");
+    koksma__html_text(h, row->label);
+    koksma__html_add(h, "</td>");
+    for (int s = 0; s < 3; s++) {
+        const size_t note = note_of(t, row->pattern, s);
+        const double value = row->published[s];
+        if (isnan(value)) {
+            koksma__html_add(h, "<td>&#8211;</td>");
+            continue;
+        }
+        int decimals = 4; /* all that are printed, at least four */
+        while (decimals < 7 && fabs(value * pow(10, decimals) - round(value * pow(10, decimals))) > 1e-6) {
+            decimals++;
+        }
+        koksma__html_add(h, "<td>%.*f", decimals, value);
+        if (note) {
+            koksma__html_add(h, "<sup class=\"note\">%zu</sup>", note);
+        }
+        koksma__html_add(h, "</td>");
+    }
+}
+
+void koksma__table_add_mean(koksma__html *h, const koksma__summary *mean, int digits, bool behind_point)
+{
+    const double half = mean->high - mean->mean;
+    if (mean->n == 0) {
+        koksma__html_add(h, "&#8211;");
+        return;
+    }
+    koksma__html_add(h, behind_point ? "%.*f" : "%.*g", digits, mean->mean);
+    if (isnan(half)) {
+        koksma__html_add(h, " <span class=\"pm\">&#177; ?</span>");
+    } else {
+        koksma__html_add(
+            h, behind_point ? " <span class=\"pm\">&#177; %.*f</span>" : " <span class=\"pm\">&#177; %.*g</span>",
+            behind_point ? digits : 2, half);
+    }
+}
+
+void koksma__table_add_number(koksma__html *h, double value, int digits, bool behind_point)
+{
+    if (isnan(value)) {
+        koksma__html_add(h, "<td>&#8211;</td>");
+    } else {
+        koksma__html_add(h, behind_point ? "<td>%.*f</td>" : "<td>%.*g</td>", digits, value);
+    }
+}
+
+void koksma__table_judge(koksma__html *h, koksma__tally *tally, const koksma__table *t, const koksma__table_row *row,
+                         size_t trials, bool good, const char *text)
+{
+    const size_t note = note_of(t, row->pattern, 0);
+    if (isnan(row->published[0])) {
+        koksma__html_add(h, "<td>new</td>");
+    } else if (trials == 0) {
+        tally->waiting++;
+        koksma__html_add(h, "<td>not yet</td>");
+    } else if (!good && note) {
+        tally->cells++;
+        tally->explained++;
+        koksma__html_add(h, "<td class=\"note\">note %zu</td>", note);
+    } else {
+        tally->cells++;
+        tally->agree += good;
+        koksma__html_add(h, "<td class=\"%s\">%s %s</td>", good ? "good" : "bad", good ? "&#10003;" : "&#10007;",
+                         text);
+    }
+}
+
+void koksma__table_end(koksma__html *h, koksma__html *csv, const koksma__table *t)
+{
+    char name[96];
+    koksma__html_add(h, "</tbody></table></div>\n");
+    snprintf(name, sizeof name, "table-%.80s", t->id);
+    koksma__csv_close(csv, h, name);
+    if (t->n_notes) {
+        koksma__html_add(h, "<ol class=\"notes note\">\n");
+        for (size_t i = 0; i < t->n_notes; i++) {
+            koksma__html_add(h, "<li>");
+            koksma__html_text(h, t->notes[i].reason);
+            koksma__html_add(h, "</li>\n");
+        }
+        koksma__html_add(h, "</ol>\n");
+    }
+}
+
+void koksma__table_csv_heads(koksma__html *csv, const char *of)
+{
+    static const char *const names[] = {"mean", "mean low", "mean high", "SD", "max"};
+    char text[KOKSMA_MAX_SPEC + 64];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(text, sizeof text, "%s, %s", of, names[i]);
+        koksma__csv_text(csv, text);
+    }
+}
+
+void koksma__table_csv_cell(koksma__html *csv, const koksma__cell *cell)
+{
+    koksma__csv_number(csv, cell->mean.mean);
+    koksma__csv_number(csv, cell->mean.low);
+    koksma__csv_number(csv, cell->mean.high);
+    koksma__csv_number(csv, cell->sd);
+    koksma__csv_number(csv, cell->max);
+}
+
+void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table *t)
+{
+    static const char *const names[] = {"row", "pattern", "published mean", "published SD", "published max"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        koksma__csv_text(csv, names[i]);
+    }
+    koksma__html_add(h, "<h3");
+    koksma__html_id(h, "table", t->id);
+    koksma__html_add(h, ">Table %s: ", t->id);
+    koksma__html_text(h, t->title);
+    koksma__html_add(h, "</h3>\n<div class=\"scroll\"><table>\n<thead>");
+}
+
+/* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
+
+static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
+                                         koksma__tally *tally, const koksma__table *t, const koksma__table_row *row)
+{
+    koksma__cell cell, also = {0};
+    koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, &cell);
+    if (!status && t->also) {
+        status = koksma__table_discrepancy(study, t, t->also, row->pattern, &also);
+    }
+    if (status) {
+        return status;
+    }
+    koksma__table_begin_row(h, csv, t, row);
+    koksma__table_csv_cell(csv, &cell);
+    koksma__html_add(h, "<td>");
+    koksma__table_add_mean(h, &cell.mean, 4, false);
+    koksma__html_add(h, "</td>");
+    koksma__table_add_number(h, cell.sd, 3, false);
+    koksma__html_add(h, isnan(cell.max) ? "<td>&#8211;" : "<td>%.3g", cell.max);
+    if (!isnan(cell.max_sd)) {
+        koksma__html_add(h, " <span class=\"pm\">&#177; %.3f</span>", cell.max_sd);
+    }
+    koksma__html_add(h, "</td>");
+    /* The published mean is of 100 sets, rounded to three digits. */
+    const double n = (double)cell.mean.n, half_digit = 0.5 * pow(10, floor(log10(row->published[0])) - 2);
+    const double error = sqrt(cell.sd * cell.sd * (0.01 + 1 / n)) + half_digit;
+    const double z = (row->published[0] - cell.mean.mean) / error;
+    char text[48];
+    koksma__snprintf(text, sizeof text, "z = %+.1f", z);
+    koksma__table_judge(h, tally, t, row, isnan(z) ? 0 : cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
+    if (t->also) {
+        koksma__html_add(h, "<td>");
+        koksma__table_add_mean(h, &also.mean, 4, false);
+        koksma__table_csv_cell(csv, &also);
+        koksma__html_add(h, "</td>");
+    }
+    koksma__html_add(h, "</tr>\n");
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *h, koksma__tally *tally,
+                                               const koksma__table *t)
+{
+    size_t sets;
+    koksma_status status = koksma__table_sets(study, t, &sets);
+    if (status) {
+        return status;
+    }
+    koksma__html csv = {0};
+    koksma__table_begin(h, &csv, t);
+    koksma__table_csv_heads(&csv, t->measure);
+    if (t->also) {
+        koksma__table_csv_heads(&csv, t->also);
+    }
+    koksma__html_add(h, "<tr><th></th><th colspan=\"3\">published (100 sets)</th><th colspan=\"3\">");
+    koksma__html_text(h, t->measure);
+    koksma__html_add(h, ", %zu sets</th><th></th>%s</tr>\n", sets, t->also ? "<th>exact</th>" : "");
+    koksma__html_add(
+        h,
+        "<tr><th>pattern</th><th>ave</th><th>SD</th><th>max</th><th>mean <span class=\"pm\">95 %%</span></th>"
+        "<th>SD</th><th>largest of %zu</th><th>mean agrees</th>",
+        sets < 100 ? sets : (size_t)100);
+    if (t->also) {
+        koksma__html_add(h, "<th>");
+        koksma__html_text(h, t->also);
+        koksma__html_add(h, "</th>");
+    }
+    koksma__html_add(h, "</tr></thead>\n<tbody>\n");
+    for (size_t r = 0; !status && r < t->n_rows; r++) {
+        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r]);
+    }
+    koksma__table_end(h, &csv, t);
+    return status;
+}
