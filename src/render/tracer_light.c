@@ -170,7 +170,9 @@ koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__ver
         return ask_all(trace, v, base, values);
     }
     koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices);
-    status = status ? status : koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
+    if (!status && frame->rules->areas) {
+        status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
+    }
     for (int i = 0; !status && i < v->n; i++) {
         chosen[i] = v->lit[i] ? choose(frame, &v->surfaces[i], choices[2 * v->paths[i].sample]) : (choice){-1, 0};
     }

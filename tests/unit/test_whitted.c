@@ -65,9 +65,43 @@ static void glass_sends_rays_both_ways(void **state)
     assert_near(seen(scene, 9), r + t * t * (1 + r + r * r), 1e-5); /* the next weighs less than 1/1000 */
 }
 
+/* A luminaire that is chosen stands for all of them, and has no place on it to draw. */
+static void one_light_stands_for_all(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 3, 4], \"target\": [0, 0, 0], \"fov_deg\": 30},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
+        "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
+        "{\"kind\": \"sphere\", \"centre\": [0, 0.3, 0], \"radius\": 0.3, \"material\": \"m\"}],"
+        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-2, 2, 0], \"facing\": [0, 0, 0], \"half\": [0.5, 0.5],"
+        "\"radiance\": 3}, {\"kind\": \"disk\", \"centre\": [2, 3, 1], \"facing\": [0, 0, 0], \"radius\": 0.5,"
+        "\"radiance\": 9}]}");
+    for (size_t k = 0; k < 12; k++) {
+        double error;
+        koksma_render_options options = options_of(scene, "random", k % 2 ? "utah" : "whitted", 16, 24);
+        options.scope = KOKSMA_SCOPE_IMAGE;
+        const double all = mean_of(scene, &options, NULL);
+        options.pairing = k / 2 % 2 ? KOKSMA_PAIRING_NATIVE : KOKSMA_PAIRING_SHUFFLED;
+        options.lights = (koksma_light_selection)(KOKSMA_LIGHTS_ONE + (int)(k / 4));
+        options.depth = 0;
+        double sum = 0, squares = 0; /* over seeds: the pixels differ by what they show */
+        for (options.seed = 1; options.seed <= 8; options.seed++) {
+            const double mean = mean_of(scene, &options, NULL);
+            sum += mean / 8;
+            squares += mean * mean / 8;
+        }
+        error = sqrt(fmax(squares - sum * sum, 0) / 7);
+        assert_true(error < 0.01);
+        assert_near(sum, all, 6 * error + 2e-3);
+    }
+    koksma_scene_close(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_light_stands_for_all),
         cmocka_unit_test(lights_are_points_at_their_centres),
         cmocka_unit_test(glass_sends_rays_both_ways),
     };
