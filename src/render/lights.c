@@ -200,8 +200,7 @@ static bool aim_sphere(const koksma__lamp *lamp, const float p[3], const float u
     const float cosine = 1 - off, sine = sqrtf(off * (2 - off)), turn = 2 * KOKSMA__PI_F * u[1];
     const float x = sine * cosf(turn), y = sine * sinf(turn);
     const float inside = radius * radius - square * sine * sine;
-    /* ends a little before the surface, which would else shade itself where it is seen at a grazing angle */
-    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0) - 1e-3f * radius;
+    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0);
     for (int k = 0; k < 3; k++) {
         out->w[k] = x * a[k] + y * b[k] + cosine * axis[k];
         out->d[k] = t * out->w[k];

@@ -95,10 +95,13 @@ static void ask(const koksma__trace *trace, const koksma__vertices *v, const cho
 {
     const koksma__frame *frame = trace->frame;
     koksma__shadows shadows;
+    KOKSMA__LANES(int32_t, aimed);
     float light[KOKSMA__BLOCK][3];
     int asked = 0;
     memset(shadows.light, 0, sizeof shadows.light);
+    shadows.aimed = aimed;
     for (int i = 0; i < v->whole; i++) {
+        aimed[i] = -1;
         shadows.dx[i] = shadows.dy[i] = shadows.dz[i] = 1;
     }
     for (int i = 0; i < v->n; i++) {
@@ -118,6 +121,7 @@ static void ask(const koksma__trace *trace, const koksma__vertices *v, const cho
             shadows.dy[i] = beam.d[1];
             shadows.dz[i] = beam.d[2];
             shadows.light[i] = 1;
+            aimed[i] = lamp->light_shape;
             asked++;
         }
     }
