@@ -277,7 +277,6 @@ bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float
 
 bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out)
 {
-    static const float middle[2] = {0.5f, 0.5f};
     switch (lamp->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
     case KOKSMA__LIGHT_DISK:
@@ -297,13 +296,14 @@ bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__bea
             out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
         }
         return true;
-    default:
-        if (!koksma__lamp_sample(lamp, p, middle, out)) {
-            return false;
-        }
-        out->density = 0;
-        return true;
+    case KOKSMA__LIGHT_POINT:
+        return aim_point(lamp, p, 1, out);
+    case KOKSMA__LIGHT_DIRECTIONAL:
+        return aim_directional(lamp, out);
+    case KOKSMA__LIGHT_ENVIRONMENT: /* has none; ambient light stands for it */
+        return false;
     }
+    return false;
 }
 
 float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t, const float n[3])

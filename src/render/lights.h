@@ -50,7 +50,7 @@ typedef struct koksma__beam {
 /* False when nothing comes. */
 bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float u[2], koksma__beam *out);
 
-/* The luminaire as a point at its centre (Whitted's). */
+/* The luminaire as a point at its centre (Whitted's); false for an environment, which has none. */
 bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out);
 
 /* The density with which sample() would choose the way w (of length 1) from p, which meets the luminaire at distance

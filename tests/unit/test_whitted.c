@@ -99,12 +99,32 @@ static void one_light_stands_for_all(void **state)
     koksma_scene_close(scene);
 }
 
+/* An environment has no centre: rays and mirrors see it, and no surface has light from it, whichever way it faces. */
+static void environments_are_seen_and_light_nothing(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"0, 1, 0", "1, 0, 0", "0, 0, 1", "0, 0, -1"};
+    for (size_t i = 0; i < 8; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [%s], \"target\": [0, 0, 0], \"up\": [1, 1, 1], \"fov_deg\": 0.01},"
+            "\"materials\": [{\"name\": \"m\", %s}], \"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0],"
+            "\"normal\": [%s], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", \"radiance\": 2}]}",
+            ways[i / 2],
+            i % 2 ? "\"kind\": \"mirror\", \"reflectance\": 0.5" : "\"kind\": \"lambert\", \"albedo\": 0.9",
+            ways[i / 2]);
+        assert_near(seen(text, 2), i % 2 ? 1 : 0, 1e-6);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_light_stands_for_all),
         cmocka_unit_test(lights_are_points_at_their_centres),
         cmocka_unit_test(glass_sends_rays_both_ways),
+        cmocka_unit_test(environments_are_seen_and_light_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
