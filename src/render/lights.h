@@ -35,7 +35,7 @@ typedef struct koksma__lights {
     int environment_lamp;             /* its number, or -1 */
 } koksma__lights;
 
-/* Errors: MEMORY. */
+/* Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
 void koksma__lights_fini(koksma__lights *lights);
 
@@ -69,6 +69,7 @@ bool koksma__lamp_mesh_sample(const koksma__lamp *lamp, const float p[3], const 
 
 /* ---- environment.c ------------------------------------------------------------------------------------- */
 
+/* Errors: MALFORMED (a pixel that is infinite or no number), MEMORY. */
 koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out);
 void koksma__environment_close(koksma__environment *environment);
 /* A way by importance; its density. */
