@@ -19,7 +19,8 @@ typedef struct koksma__lamp {
     bool visible;
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2], area;
     float radiance[3];
-    float power;     /* luminous, for choosing: of the whole surface, over pi */
+    float
+        power; /* luminous, for choosing: all that it emits, over pi^2; of one that is far away, irradiance over pi */
     int light_shape; /* id of its own surface, or -1 */
     const koksma__environment *environment;
     koksma__lamp_mesh *mesh; /* of a luminous mesh, or NULL */
