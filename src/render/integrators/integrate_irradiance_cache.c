@@ -8,9 +8,9 @@
  *
  * Records are made before the picture, on ever finer grids of pixels: those places of a grid that no record covers
  * are computed by all threads, and entered one after the other, so that threads change nothing. A place of the
- * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, most where light
- * comes from near things under an open sky (off by up to a third of the indirect light at 192 x 144 pixels, less with
- * more pixels); without light that a mirror throws on a diffuse surface from a lamp.
+ * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
+ * scenes by as much as a third of the indirect light (at 192 x 144 pixels); without light that a mirror throws on a
+ * diffuse surface from a lamp.
  */
 #include <math.h>
 #include <stdlib.h>
