@@ -58,9 +58,10 @@ static void PACKET(shade)(const embree *e, const starts *s, const koksma__hits *
         packet.mask[i] = ~0u;
         packet.id[i] = packet.flags[i] = 0;
         packet.time[i] = e->moves ? hits->time[start + i] : 0;
-        packet.dir_x[i] = shadows->dx[start + i];
-        packet.dir_y[i] = shadows->dy[start + i];
-        packet.dir_z[i] = shadows->dz[start + i];
+        /* from where it starts, off the triangle, to where it would have ended */
+        packet.dir_x[i] = shadows->dx[start + i] + (hits->px[start + i] - s->x[start + i]);
+        packet.dir_y[i] = shadows->dy[start + i] + (hits->py[start + i] - s->y[start + i]);
+        packet.dir_z[i] = shadows->dz[start + i] + (hits->pz[start + i] - s->z[start + i]);
         packet.org_x[i] = s->x[start + i];
         packet.org_y[i] = s->y[start + i];
         packet.org_z[i] = s->z[start + i];

@@ -50,12 +50,13 @@ typedef struct koksma__hits {
 } koksma__hits;
 
 /* Light that would come to the hits along d (from the hit at t = 0 to the luminaire at t = 1) were nothing between.
- */
+   aimed[i]: the shape that is the luminaire's own surface, which never shades it, or -1; NULL: no ray has one. */
 typedef struct koksma__shadows {
     KOKSMA__LANES(float, dx);
     KOKSMA__LANES(float, dy);
     KOKSMA__LANES(float, dz);
     KOKSMA__LANES(float, light);
+    const int32_t *aimed;
 } koksma__shadows;
 
 /* Direction of film place (x, y): base + x step_x + y step_y. */

@@ -272,8 +272,10 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     return hit;
 }
 
-INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *restrict h, int n,
-                          koksma__shadows *restrict r, bounds b)
+/* aimed: NULL, or the luminaire that each ray goes to and that can't stand in its way, as the shape that it starts on
+   can't. */
+INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
+                          int n, koksma__shadows *restrict r, bounds b)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
     const int32_t id = s->id;
@@ -287,12 +289,17 @@ INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int hit = (h->primitive[i] != id) & (t > 0) & (t < SHADOW_END) & within(s, u, v, b);
+        const int other = (h->primitive[i] != id) & (aimed ? aimed[i] != id : 1);
+        const int hit = other & (t > 0) & (t < SHADOW_END) & within(s, u, v, b);
         r->light[i] *= hit ? 0.0f : 1.0f;
     }
 }
 
-INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, int n,
+/* Has |e + t d|^2 = r^2 a root in (0, end)? Times a = d.d the equation is (a t + b)^2 = D with b = e.d and, by
+   Lagrange's identity, D = a r^2 - |e x d|^2: no difference of large squares, so that small spheres far away keep
+   their shadows. An end is inside where (a t + b)^2 < D; with both outside the line must cross the sphere between
+   them. On a ray that starts on the sphere D is exactly b^2. */
+INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                          koksma__shadows *restrict r, bool moves)
 {
     const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
@@ -302,15 +309,37 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
                     ez = h->pz[i] - AT(2, cz, h->time[i]);
         const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
         const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
+        const float x = ey * dz - ez * dy, y = ez * dx - ex * dz, z = ex * dy - ey * dx;
+        const float start = b * b, last = a * SHADOW_END + b, end = last * last;
         const float away = h->primitive[i] != id ? 1.0f : 0.0f;
-        const float c = away * (ex * ex + ey * ey + ez * ez - radius2);
-        /* Has f(t) = a t^2 + 2 b t + c a root in (0, end)? By signs, without dividing: f(0) = c and f(end) tell which
-           ends are inside; with both outside the vertex must lie between them and below 0. */
-        const float at_end = (a * SHADOW_END + 2 * b) * SHADOW_END + c;
-        const int enters = (c > 0) & (at_end < 0);
-        const int crosses = (c >= 0) & (at_end >= 0) & (b < 0) & (-b < a * SHADOW_END) & (b * b > a * c);
-        const int leaves = (c < 0) & (at_end > 0);
-        r->light[i] *= enters | crosses | leaves ? 0.0f : 1.0f;
+        const float reach = away * (a * radius2 - (x * x + y * y + z * z)) + (1 - away) * start;
+        const int enters = (start > reach) & (end < reach);
+        const int crosses = (start >= reach) & (end >= reach) & (b < 0) & (last > 0) & (reach > 0);
+        const int leaves = (start < reach) & (end > reach);
+        const int other = aimed ? aimed[i] != id : 1;
+        r->light[i] *= other & (enters | crosses | leaves) ? 0.0f : 1.0f;
+    }
+}
+
+INLINE void shade_shape(const koksma__batch_shape *s, const koksma__hits *hits, const int32_t *aimed, int n,
+                        koksma__shadows *shadows)
+{
+    switch (s->kind) {
+    case KOKSMA__SHAPE_SPHERE:
+        if (s->moves) {
+            shade_sphere(s, hits, aimed, n, shadows, true);
+        } else {
+            shade_sphere(s, hits, aimed, n, shadows, false);
+        }
+        return;
+    case KOKSMA__SHAPE_RECTANGLE:
+        shade_flat_in(s, hits, aimed, n, shadows, IN_RECTANGLE);
+        return;
+    case KOKSMA__SHAPE_DISK:
+        shade_flat_in(s, hits, aimed, n, shadows, IN_DISK);
+        return;
+    default:
+        shade_flat_in(s, hits, aimed, n, shadows, ENDLESS);
     }
 }
 
@@ -319,22 +348,10 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
 {
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
-        switch (s->kind) {
-        case KOKSMA__SHAPE_SPHERE:
-            if (s->moves) {
-                shade_sphere(s, hits, n, shadows, true);
-            } else {
-                shade_sphere(s, hits, n, shadows, false);
-            }
-            break;
-        case KOKSMA__SHAPE_RECTANGLE:
-            shade_flat_in(s, hits, n, shadows, IN_RECTANGLE);
-            break;
-        case KOKSMA__SHAPE_DISK:
-            shade_flat_in(s, hits, n, shadows, IN_DISK);
-            break;
-        default:
-            shade_flat_in(s, hits, n, shadows, ENDLESS);
+        if (shadows->aimed && s->material < 0) { /* a luminaire's surface */
+            shade_shape(s, hits, shadows->aimed, n, shadows);
+        } else {
+            shade_shape(s, hits, NULL, n, shadows);
         }
     }
 }

@@ -166,6 +166,7 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     for (int i = 0; i < n; i++) {
         sum[i] = (float)f->scene->ambient[0];
     }
+    shadows.aimed = NULL; /* no one sees the luminaires */
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
         const float *places = r->places + 2 * (l * r->capacity + start);

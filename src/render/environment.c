@@ -13,6 +13,7 @@
 #include "render/vector3.h"
 
 #define FLOOR 0.01f
+#define LARGEST 1e30f /* of a pixel */
 
 struct koksma__environment {
     float radiance[3]; /* scale of the image */
@@ -26,7 +27,7 @@ static void pixel(const koksma_image *image, size_t i, float rgb[3])
 {
     for (int k = 0; k < 3; k++) {
         const float value = image->pixels[i * (size_t)image->channels + (size_t)(image->channels == 3 ? k : 0)];
-        rgb[k] = value > 0 && value < 1e30f ? value : 0; /* no negative light, no NaN */
+        rgb[k] = value > 0 ? value : 0; /* no negative light */
     }
 }
 
@@ -48,6 +49,20 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     }
     cdf[n] = 1;
     return total;
+}
+
+/* A sun that is brighter than its file's numbers can say must not go dark without a word. */
+static koksma_status check(const koksma_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t i = 0; i < n * channels; i++) {
+        if (!(image->pixels[i] < LARGEST)) {
+            const size_t p = i / channels;
+            return koksma__fail(KOKSMA_MALFORMED, "the environment's image: pixel %zu,%zu has the value %g",
+                                p % (size_t)image->width, p / (size_t)image->width, (double)image->pixels[i]);
+        }
+    }
+    return KOKSMA_OK;
 }
 
 static koksma_status tabulate(koksma__environment *e)
@@ -90,7 +105,8 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
     e->image = light->image;
     e->turn = (float)(light->angle_rad / (2 * M_PI));
     e->mean = koksma__luminance3(e->radiance);
-    return e->image ? tabulate(e) : KOKSMA_OK;
+    const koksma_status status = e->image ? check(e->image) : KOKSMA_OK;
+    return status || !e->image ? status : tabulate(e);
 }
 
 void koksma__environment_close(koksma__environment *e)
@@ -131,11 +147,11 @@ static void way(const koksma__environment *e, float x, float y, float w[3])
 /* The place of w in the image, both in [0,1). */
 static void place(const koksma__environment *e, const float w[3], float *x, float *y)
 {
-    const float up = w[1] < -1 ? -1 : w[1] > 1 ? 1 : w[1];
     const float turns = atan2f(-w[0], w[2]) / (2 * KOKSMA__PI_F) + e->turn;
     *x = turns - floorf(turns);
     *x = *x < 1 ? *x : 0;
-    *y = acosf(up) / KOKSMA__PI_F;
+    *y =
+        atan2f(sqrtf(w[0] * w[0] + w[2] * w[2]), w[1]) / KOKSMA__PI_F; /* an arc cosine knows no angles below 2^-12 */
     *y = *y < 1 ? *y : 1 - 0x1p-24f;
 }
 

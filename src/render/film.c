@@ -2,8 +2,8 @@
 /*
  * A pixel is the mean of its samples; each sample weighs what the filter says (filters.h), and 1 with the box.
  * Splatted samples reach the pixels around: their sums are kept by task and added in the order of tasks, so that
- * threads change nothing. A pixel of an image-wide pattern that got no sample takes the mean of the pixels around
- * that have some; its count says 0.
+ * threads change nothing. A pixel of an image-wide pattern, or of splatted samples, that got none takes the mean of
+ * the pixels around that have some; its count says 0.
  */
 #include "render/film.h"
 
@@ -51,8 +51,8 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
     }
     koksma__splat *splat = &film->splats[task];
     const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * (size_t)(frame->channels + 1);
-    *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, calloc(n, sizeof(float))};
-    return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(float));
+    *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, calloc(n, sizeof(double))};
+    return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
 }
 
 void koksma__film_place(const koksma__frame *frame, const koksma__group *group, koksma__values *values)
@@ -75,11 +75,16 @@ void koksma__film_place(const koksma__frame *frame, const koksma__group *group, 
 
 /* ---- Sums ------------------------------------------------------------------------------------------------- */
 
+static double weight_of(const float *weights, size_t i)
+{
+    return weights ? (double)weights[i] : 1;
+}
+
 static double mean_of(const float *values, const float *weights, size_t first, size_t end, size_t stride, size_t k)
 {
     double sum = 0;
     for (size_t i = first; i < end; i++) {
-        sum += (weights ? (double)weights[i] : 1) * (double)values[i * stride + k];
+        sum += weight_of(weights, i) * (double)values[i * stride + k];
     }
     return sum / (double)(end - first);
 }
@@ -96,12 +101,12 @@ static void splat_sample(const koksma__frame *frame, const koksma__film *film, c
         }
         for (int x = x0 < 0 ? 0 : x0; x <= x0 + 2 * film->reach && x < width; x++) {
             const float weight = wy * koksma__filter_value(frame->filter, place[0] - ((float)x + 0.5f));
-            float *sum =
+            double *sum =
                 splat->sums + ((size_t)(y - splat->first_row) * (size_t)width + (size_t)x) * (size_t)(channels + 1);
             for (int k = 0; k < channels; k++) {
-                sum[k] += weight * rgb[k];
+                sum[k] += (double)weight * (double)rgb[k];
             }
-            sum[channels] += weight;
+            sum[channels] += (double)weight;
         }
     }
 }
@@ -111,8 +116,10 @@ static double luminance_of(const float *rgb, size_t channels)
     return channels == 1 ? (double)rgb[0] : (double)koksma__luminance3(rgb);
 }
 
-static void add_layers(koksma_layers *layers, const koksma__values *v, size_t channels, size_t pixel, size_t first,
-                       size_t end)
+/* weights: NULL, or of the filter; the variance is that of the pixel's value, which is the mean of weight x sample.
+ */
+static void add_layers(koksma_layers *layers, const koksma__values *v, const float *weights, size_t channels,
+                       size_t pixel, size_t first, size_t end)
 {
     double sum = 0, squares = 0, depth = 0;
     size_t hits = 0;
@@ -121,13 +128,13 @@ static void add_layers(koksma_layers *layers, const koksma__values *v, size_t ch
         layers->normal.pixels[3 * pixel + k] = (float)mean_of(v->normal, NULL, first, end, 3, k);
     }
     for (size_t i = first; i < end; i++) {
-        sum += luminance_of(v->rgb + channels * i, channels);
+        sum += weight_of(weights, i) * luminance_of(v->rgb + channels * i, channels);
         depth += (double)v->depth[i];
         hits += v->depth[i] > 0;
     }
     const double n = (double)(end - first), mean = sum / n;
     for (size_t i = first; i < end; i++) {
-        const double off = luminance_of(v->rgb + channels * i, channels) - mean;
+        const double off = weight_of(weights, i) * luminance_of(v->rgb + channels * i, channels) - mean;
         squares += off * off;
     }
     layers->depth.pixels[pixel] = hits ? (float)(depth / (double)hits) : 0;
@@ -157,36 +164,46 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
             }
         }
         if (film->all_layers) {
-            add_layers(film->layers, values, channels, pixel, first, end);
+            add_layers(film->layers, values, weights, channels, pixel, first, end);
         }
     }
 }
 
 /* ---- The end ---------------------------------------------------------------------------------------------- */
 
-static void merge_splats(const koksma__frame *frame, koksma__film *film, float *weights)
+static void merge_splats(const koksma__frame *frame, koksma__film *film, double *sums)
 {
-    const size_t width = (size_t)frame->options->width, channels = (size_t)frame->channels;
+    const size_t width = (size_t)frame->options->width, numbers = (size_t)frame->channels + 1;
     for (size_t s = 0; s < film->n_splats; s++) {
         const koksma__splat *splat = &film->splats[s];
         for (int r = 0; splat->sums && r < splat->rows; r++) {
             const int y = splat->first_row + r;
-            for (size_t x = 0; y >= 0 && y < frame->options->height && x < width; x++) {
-                const float *sum = splat->sums + ((size_t)r * width + x) * (channels + 1);
-                const size_t pixel = (size_t)y * width + x;
-                for (size_t k = 0; k < channels; k++) {
-                    film->layers->image.pixels[pixel * channels + k] += sum[k];
-                }
-                weights[pixel] += sum[channels];
+            for (size_t k = 0; y >= 0 && y < frame->options->height && k < width * numbers; k++) {
+                sums[(size_t)y * width * numbers + k] += splat->sums[(size_t)r * width * numbers + k];
             }
         }
     }
-    for (size_t i = 0; i < width * (size_t)frame->options->height; i++) {
+}
+
+/* The pixels' values, and the weights that they come from. */
+static koksma_status finish_splats(const koksma__frame *frame, koksma__film *film, float *weights)
+{
+    const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;
+    const size_t channels = (size_t)frame->channels;
+    double *sums = calloc(pixels * (channels + 1), sizeof *sums);
+    if (!sums) {
+        return koksma__fail_memory(pixels * (channels + 1) * sizeof *sums);
+    }
+    merge_splats(frame, film, sums);
+    for (size_t i = 0; i < pixels; i++) {
+        const double *sum = sums + i * (channels + 1), weight = sum[channels];
+        weights[i] = (float)weight;
         for (size_t k = 0; k < channels; k++) {
-            float *value = &film->layers->image.pixels[i * channels + k];
-            *value = weights[i] > 0 ? *value / weights[i] : 0;
+            film->layers->image.pixels[i * channels + k] = weight > 0 ? (float)(sum[k] / weight) : 0;
         }
     }
+    free(sums);
+    return KOKSMA_OK;
 }
 
 /* has: the number of samples, or the sum of weights; empty pixels take the mean of the nearest square ring with any.
@@ -231,9 +248,14 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
             return koksma__fail_memory(pixels * sizeof *summed);
         }
         weights = summed;
-        merge_splats(frame, film, weights);
+        const koksma_status status = finish_splats(frame, film, weights);
+        if (status) {
+            free(summed);
+            return status;
+        }
     }
-    for (size_t i = 0; i < pixels && frame->options->scope == KOKSMA_SCOPE_IMAGE; i++) {
+    const bool gaps = film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE;
+    for (size_t i = 0; gaps && i < pixels; i++) {
         if (!(weights[i] > 0)) {
             fill_pixel(image, weights, (int)(i % (size_t)image->width), (int)(i / (size_t)image->width));
         }

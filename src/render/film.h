@@ -6,10 +6,10 @@
 #include "render/frame.h"
 
 /* Rows of a task with those around them that its samples reach, when samples are splatted: channels + 1 numbers a
-   pixel, the last one the sum of the filter. */
+   pixel, the last one the sum of the filter. Doubles: a pixel may get millions. */
 typedef struct koksma__splat {
     int first_row, rows;
-    float *sums;
+    double *sums;
 } koksma__splat;
 
 typedef struct koksma__film {

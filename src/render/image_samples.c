@@ -35,10 +35,13 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
                           koksma__sample_room *room, float *pairs)
 {
     const image_samples *s = sampler->made;
-    const set *from = s->sets;
+    const set *from = s->sets, *const end = s->sets + s->n_sets;
     (void)room;
-    while (from->use != use) {
+    while (from < end && from->use != use) {
         from++;
+    }
+    if (from == end) {
+        return koksma__fail(KOKSMA_ARGUMENT, "the image's samples were drawn without use %u", (unsigned)use);
     }
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {

@@ -38,16 +38,15 @@ static koksma__lamp make_lamp(const koksma__light *from)
     const float bright = koksma__luminance3(l.radiance);
     switch (from->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
-        l.power = bright * l.area / KOKSMA__PI_F;
-        break;
     case KOKSMA__LIGHT_DISK:
+    case KOKSMA__LIGHT_SPHERE:
         l.power = bright * l.area / KOKSMA__PI_F;
         break;
-    case KOKSMA__LIGHT_SPHERE: /* seen as a disk from anywhere */
-        l.power = bright * l.half[0] * l.half[0];
+    case KOKSMA__LIGHT_POINT:
+        l.power = 4 * bright / KOKSMA__PI_F;
         break;
-    default:
-        l.power = bright;
+    default: /* of a directional one; meshes and environments are measured later */
+        l.power = bright / KOKSMA__PI_F;
     }
     return l;
 }
@@ -78,7 +77,9 @@ static void accumulate(koksma__lights *lights)
     lights->cdf[lights->n] = 1;
 }
 
-/* What choosing by place needs of luminaire i. */
+/* What choosing by place needs of luminaire i: with a place, power times the cosines over the distance's square is
+   the irradiance over pi. A sphere shows a quarter of its surface, as a disk, and any convex body does in the mean
+   (Cauchy); a point sends a quarter of its power over pi^2 as intensity over pi. */
 static void set_estimate(const koksma__lamp *l, int i, koksma__batch_lamps *to)
 {
     const bool rectangle = l->kind == KOKSMA__LIGHT_RECTANGLE, away = l->kind >= KOKSMA__LIGHT_DIRECTIONAL;
@@ -91,9 +92,9 @@ static void set_estimate(const koksma__lamp *l, int i, koksma__batch_lamps *to)
     to->flat[i] = rectangle || l->kind == KOKSMA__LIGHT_DISK;
     to->reach[i] = rectangle ? hypotf(l->half[0], l->half[1]) : l->half[0];
     to->reach[i] = to->reach[i] > 1e-6f ? to->reach[i] : 1e-6f;
-    to->power[i] = away ? 0 : l->power;
+    to->power[i] = away ? 0 : to->flat[i] > 0 ? l->power : l->power / 4;
     to->far[i] = l->kind == KOKSMA__LIGHT_DIRECTIONAL ? l->power : 0;
-    to->fixed[i] = l->kind == KOKSMA__LIGHT_ENVIRONMENT ? l->power * KOKSMA__PI_F : 0;
+    to->fixed[i] = l->kind == KOKSMA__LIGHT_ENVIRONMENT ? l->power : 0;
 }
 
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out)
@@ -200,8 +201,7 @@ static bool aim_sphere(const koksma__lamp *lamp, const float p[3], const float u
     const float cosine = 1 - off, sine = sqrtf(off * (2 - off)), turn = 2 * KOKSMA__PI_F * u[1];
     const float x = sine * cosf(turn), y = sine * sinf(turn);
     const float inside = radius * radius - square * sine * sine;
-    /* ends a little before the surface, which would else shade itself where it is seen at a grazing angle */
-    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0) - 1e-3f * radius;
+    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0);
     for (int k = 0; k < 3; k++) {
         out->w[k] = x * a[k] + y * b[k] + cosine * axis[k];
         out->d[k] = t * out->w[k];
@@ -278,7 +278,6 @@ bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float
 
 bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out)
 {
-    static const float middle[2] = {0.5f, 0.5f};
     switch (lamp->kind) {
     case KOKSMA__LIGHT_RECTANGLE:
     case KOKSMA__LIGHT_DISK:
@@ -298,13 +297,14 @@ bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__bea
             out->d[k] = rest * out->w[k] > 0 ? rest : 1e-3f * out->d[k];
         }
         return true;
-    default:
-        if (!koksma__lamp_sample(lamp, p, middle, out)) {
-            return false;
-        }
-        out->density = 0;
-        return true;
+    case KOKSMA__LIGHT_POINT:
+        return aim_point(lamp, p, 1, out);
+    case KOKSMA__LIGHT_DIRECTIONAL:
+        return aim_directional(lamp, out);
+    case KOKSMA__LIGHT_ENVIRONMENT: /* has none; ambient light stands for it */
+        return false;
     }
+    return false;
 }
 
 float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t, const float n[3])

@@ -19,7 +19,8 @@ typedef struct koksma__lamp {
     bool visible;
     float centre[3], axis_u[3], axis_v[3], normal[3], half[2], area;
     float radiance[3];
-    float power;     /* luminous, for choosing: of the whole surface, over pi */
+    float
+        power; /* luminous, for choosing: all that it emits, over pi^2; of one that is far away, irradiance over pi */
     int light_shape; /* id of its own surface, or -1 */
     const koksma__environment *environment;
     koksma__lamp_mesh *mesh; /* of a luminous mesh, or NULL */
@@ -35,7 +36,7 @@ typedef struct koksma__lights {
     int environment_lamp;             /* its number, or -1 */
 } koksma__lights;
 
-/* Errors: MEMORY. */
+/* Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
 koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
 void koksma__lights_fini(koksma__lights *lights);
 
@@ -50,7 +51,7 @@ typedef struct koksma__beam {
 /* False when nothing comes. */
 bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float u[2], koksma__beam *out);
 
-/* The luminaire as a point at its centre (Whitted's). */
+/* The luminaire as a point at its centre (Whitted's); false for an environment, which has none. */
 bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out);
 
 /* The density with which sample() would choose the way w (of length 1) from p, which meets the luminaire at distance
@@ -69,6 +70,7 @@ bool koksma__lamp_mesh_sample(const koksma__lamp *lamp, const float p[3], const 
 
 /* ---- environment.c ------------------------------------------------------------------------------------- */
 
+/* Errors: MALFORMED (a pixel that is infinite or no number), MEMORY. */
 koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out);
 void koksma__environment_close(koksma__environment *environment);
 /* A way by importance; its density. */

@@ -293,8 +293,8 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     const float clamp = (float)frame->scene->clamp;
     for (size_t i = 0; i < n; i++) {
         for (int k = 0; k < frame->channels; k++) {
-            const float value = sums[3 * i + (size_t)k];
-            values->rgb[i * (size_t)frame->channels + (size_t)k] = value < clamp ? value : clamp;
+            const float value = sums[3 * i + (size_t)k]; /* what is no number stays none */
+            values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
         }
     }
 }

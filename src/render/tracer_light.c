@@ -95,10 +95,13 @@ static void ask(const koksma__trace *trace, const koksma__vertices *v, const cho
 {
     const koksma__frame *frame = trace->frame;
     koksma__shadows shadows;
+    KOKSMA__LANES(int32_t, aimed);
     float light[KOKSMA__BLOCK][3];
     int asked = 0;
     memset(shadows.light, 0, sizeof shadows.light);
+    shadows.aimed = aimed;
     for (int i = 0; i < v->whole; i++) {
+        aimed[i] = -1;
         shadows.dx[i] = shadows.dy[i] = shadows.dz[i] = 1;
     }
     for (int i = 0; i < v->n; i++) {
@@ -118,6 +121,7 @@ static void ask(const koksma__trace *trace, const koksma__vertices *v, const cho
             shadows.dy[i] = beam.d[1];
             shadows.dz[i] = beam.d[2];
             shadows.light[i] = 1;
+            aimed[i] = lamp->light_shape;
             asked++;
         }
     }
@@ -170,7 +174,9 @@ koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__ver
         return ask_all(trace, v, base, values);
     }
     koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices);
-    status = status ? status : koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
+    if (!status && frame->rules->areas) {
+        status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
+    }
     for (int i = 0; !status && i < v->n; i++) {
         chosen[i] = v->lit[i] ? choose(frame, &v->surfaces[i], choices[2 * v->paths[i].sample]) : (choice){-1, 0};
     }

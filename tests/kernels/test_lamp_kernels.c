@@ -168,11 +168,61 @@ static void rays_from_moving_spheres(void **state)
     }
 }
 
+/* Shadow rays that pass a small sphere far away at 0.98 or 1.02 of its radius, or end before it: at distance D floats
+   know a place to some D / 10^7. */
+static void small_spheres_far_away_shade(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 300; round++) {
+        koksma__batch_shape sphere = {.kind = KOKSMA__SHAPE_SPHERE, .id = 7, .material = -1};
+        koksma__hits hits = {0};
+        koksma__shadows shadows[4];
+        KOKSMA__LANES(int32_t, aimed);
+        const float distance = powf(10, uniform(0, 3)), radius = distance * powf(10, uniform(-4.5, -1));
+        sphere.radius2 = radius * radius;
+        int dark[KOKSMA__BLOCK];
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            float n[3], m[3], *const to[3] = {&shadows[0].dx[i], &shadows[0].dy[i], &shadows[0].dz[i]};
+            float *const from[3] = {&hits.px[i], &hits.py[i], &hits.pz[i]};
+            unit_vector(n);
+            unit_vector(m);
+            const float along = m[0] * n[0] + m[1] * n[1] + m[2] * n[2], rest = sqrtf(1 - along * along);
+            const bool passes = i % 2, stops = i % 8 == 2;
+            const float far = stops ? distance * 0.9f - radius : powf(10, uniform(0, 3)) * distance + 2 * radius;
+            for (int k = 0; k < 3; k++) {
+                const float across = (m[k] - along * n[k]) / rest;
+                *from[k] = (passes ? 1.02f : 0.98f) * radius * across - distance * n[k];
+                *to[k] = far * n[k];
+            }
+            aimed[i] = i % 8 == 4 ? 7 : i % 8; /* to this luminaire; to another one */
+            dark[i] = !passes && !stops && aimed[i] != 7;
+            hits.primitive[i] = -1;
+        }
+        const koksma__batch_shapes shapes = {1, &sphere};
+        for (int isa = 0; isa < 4; isa++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+            if (!batch) {
+                continue;
+            }
+            shadows[isa] = shadows[0];
+            shadows[isa].aimed = aimed;
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                shadows[isa].light[i] = 1;
+            }
+            batch->occlude(&shapes, &hits, KOKSMA__BLOCK, &shadows[isa]);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                assert_int_equal(shadows[isa].light[i] == 0, dark[i]);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimates_equal_twin),
         cmocka_unit_test(rays_from_moving_spheres),
+        cmocka_unit_test(small_spheres_far_away_shade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

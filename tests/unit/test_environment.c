@@ -118,11 +118,12 @@ static void density_is_a_density(void **state)
     koksma_image_fini(&image);
 }
 
-/* Negative radiance, infinities and NaN give no light; an image without any is black and not NaN. */
-static void odd_pixels_are_dark(void **state)
+/* Negative radiance is dark, and an image without any light is black and not NaN; what has no value is refused. */
+static void odd_pixels_are_dark_or_refused(void **state)
 {
     (void)state;
-    static const float odd[] = {-1, NAN, INFINITY, -INFINITY, FLT_MAX, 0};
+    static const float odd[] = {-1, -INFINITY, 0, -0.0f, -FLT_MAX, 0};
+    static const float bad[] = {NAN, INFINITY, FLT_MAX};
     koksma_image image;
     assert_ok(koksma_image_init(&image, 6, 1, 1));
     memcpy(image.pixels, odd, sizeof odd);
@@ -141,7 +142,43 @@ static void odd_pixels_are_dark(void **state)
     e = opened(&image, 2, 0);
     assert_near((double)koksma__environment_mean(e), 3 * 2 / 6.0, 1e-6);
     koksma__environment_close(e);
+    for (size_t i = 0; i < 3; i++) {
+        const koksma__light light = {.kind = KOKSMA__LIGHT_ENVIRONMENT, .radiance = {1, 1, 1}, .image = &image};
+        image.pixels[4] = bad[i];
+        assert_int_equal(koksma__environment_open(&light, &e), KOKSMA_MALFORMED);
+        assert_non_null(strstr(koksma_error_text(), "pixel 4,0"));
+        koksma__environment_close(e);
+    }
     koksma_image_fini(&image);
+}
+
+/* Only the row at the zenith shines, however narrow it is: ways are chosen with their density, and met there. Its
+   light on a surface that faces it is the integral of the cosine, pi sin^2 of the row's angle. */
+static void a_row_at_the_pole_is_whole(void **state)
+{
+    (void)state;
+    enum { SIDE = 256 };
+    for (int height = 256; height <= 4096; height *= 4) {
+        for (int pole = 0; pole < 2; pole++) {
+            koksma_image image;
+            assert_ok(koksma_image_init(&image, 4, height, 1));
+            for (size_t x = 0; x < 4; x++) {
+                image.pixels[x + (pole ? 4 * (size_t)(height - 1) : 0)] = 1;
+            }
+            koksma__environment *e = opened(&image, 1, 0);
+            double sum = 0;
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                const float u[2] = {((float)(i % SIDE) + 0.5f) / SIDE, ((float)(i / SIDE) + 0.5f) / SIDE};
+                float w[3], rgb[3];
+                const float density = koksma__environment_sample(e, u, w);
+                koksma__environment_radiance(e, w, rgb);
+                sum += (double)rgb[0] * fabs((double)w[1]) / (double)density / (SIDE * SIDE);
+            }
+            assert_near(sum / (M_PI * pow(sin(M_PI / height), 2)), 1, 5e-3);
+            koksma__environment_close(e);
+            koksma_image_fini(&image);
+        }
+    }
 }
 
 /* A floor of albedo 0.9 under a sky of two halves: 0.9 times the mean of the radiances, by symmetry. */
@@ -179,7 +216,8 @@ int main(void)
         cmocka_unit_test(pixels_are_where_they_should_be),
         cmocka_unit_test(choosing_is_unbiased),
         cmocka_unit_test(density_is_a_density),
-        cmocka_unit_test(odd_pixels_are_dark),
+        cmocka_unit_test(odd_pixels_are_dark_or_refused),
+        cmocka_unit_test(a_row_at_the_pole_is_whole),
         cmocka_unit_test(floor_is_lit_by_an_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

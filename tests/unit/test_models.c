@@ -85,6 +85,32 @@ static void luminous_meshes_have_their_form_factor(void **state)
     unlink("lamp.obj");
 }
 
+/* Over a large mesh, and far from the origin: the numbers are large, and the lamp is near. */
+static void luminous_meshes_light_meshes(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_text("lamp.obj", "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nf 1 2 3 4\n");
+    write_text("floor.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 4 3 2 1\n");
+    const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
+    static const double cases[][2] = {{5, 0}, {50, 0}, {1000, 0}, {5, 1000}, {5, 10000}, {1000, 10000}};
+    for (size_t i = 0; i < 12; i++) {
+        const double half = cases[i / 2][0], x = cases[i / 2][1];
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [%.9g, 1, 9], \"target\": [%.9g, 0, 0], \"fov_deg\": 0.01},"
+            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
+            "{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [%.9g, 2, 0], \"emission\": 2},"
+            "{\"kind\": \"mesh\", \"file\": \"floor.obj\", \"translate\": [%.9g, 0, 0], \"scale\": [%.9g, 1, %.9g],"
+            "\"material\": \"m\"}]}",
+            x + 5, x + 0.01, x, x, half, half); /* not on the diagonal of the floor */
+        assert_near(mean(text, NULL, i % 2 ? "path" : "distribution", 1, 16384), full, 4e-3);
+    }
+    unlink("lamp.obj");
+    unlink("floor.obj");
+}
+
 static void images_are_albedos(void **state)
 {
     (void)state;
@@ -245,6 +271,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(luminous_meshes_have_their_form_factor),
+        cmocka_unit_test(luminous_meshes_light_meshes),
         cmocka_unit_test(images_are_albedos),
         cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
         cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),

@@ -122,6 +122,44 @@ static void lights_are_their_form_factors(void **state)
     }
 }
 
+/* A luminaire that is seen does not stand in its own light, be it small and far or all of it far from the origin,
+   where places are known to a thousandth. */
+static void seen_lights_do_not_shade_themselves(void **state)
+{
+    (void)state;
+    static const struct {
+        double x;
+        const char *light; /* for x, x */
+        double reflected, off;
+    } cases[] = {
+        {0, "\"kind\": \"sphere\", \"centre\": [%.9g, 8, 0], \"radius\": 0.1", 2e-4 * 0.8, 2e-4},
+        {0, "\"kind\": \"sphere\", \"centre\": [%.9g, 8, 0], \"radius\": 0.01", 2e-6 * 0.8, 2e-4},
+        {1000, "\"kind\": \"disk\", \"centre\": [%.9g, 8, 0], \"normal\": [0, -1, 0], \"radius\": 0.01", 2e-6 * 0.64,
+         2e-4},
+        {10000, "\"kind\": \"disk\", \"centre\": [%.9g, 8, 0], \"normal\": [0, -1, 0], \"radius\": 0.01", 2e-6 * 0.64,
+         2e-3},
+        {10000, "\"kind\": \"rectangle\", \"centre\": [%.9g, 8, 0], \"normal\": [0, -1, 0], \"half\": [0.01, 0.01]",
+         2e-6 * 0.64 * 4 / M_PI, 2e-3},
+    };
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        char text[1024], light[256];
+        const double x = cases[i / 2].x;
+        snprintf(light, sizeof light, cases[i / 2].light, x + 6); /* at distance 10, aslant */
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [%.9g, 2, 4], \"target\": [%.9g, 0, 0], \"fov_deg\": 0.01},"
+            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
+            "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
+            "\"lights\": [{%s, \"radiance\": 2, \"visible\": true}]}",
+            x, x, light);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "n-rooks", i % 2 ? "path" : "distribution", 64, 8);
+        const double mean = mean_of(scene, &options, NULL), expected = 0.9 * cases[i / 2].reflected;
+        assert_near(mean, expected, cases[i / 2].off * expected);
+        koksma_scene_close(scene);
+    }
+}
+
 /* A luminaire that is seen gives the same light, sampled, met by chance, or both, on a diffuse and on a glossy floor.
  */
 static void seen_lights_give_the_same(void **state)
@@ -197,6 +235,39 @@ static void paths_of_every_length_count(void **state)
     assert_near(closed_room("irradiance-cache", 4, &error), expected, 0.03 * expected);
 }
 
+/* A scene in other units, a power of two as large, is the same picture: no rounding is another one, and only records
+   are found in other cells, and so added in another order. */
+static void cache_knows_no_units(void **state)
+{
+    (void)state;
+    koksma_image images[3];
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        const double s = ldexp(1, i < 2 ? 17 * i : -13);
+        snprintf(text, sizeof text,
+                 "{\"camera\": {\"eye\": [0, 0, 0], \"target\": [%.9g, 0, 0], \"fov_deg\": 2},"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": ["
+                 "{\"kind\": \"box\", \"centre\": [0, 0, 0], \"half\": [%.9g, %.9g, %.9g], \"material\": \"m\"}], "
+                 "\"lights\": ["
+                 "{\"kind\": \"rectangle\", \"centre\": [0, %.9g, 0], \"normal\": [0, -1, 0], \"half\": [%.9g, %.9g],"
+                 "\"radiance\": 10}]}",
+                 s, s, s, s, s / 2, s / 4, s / 4);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "regular", "irradiance-cache", 1, 24);
+        options.depth = 2;
+        assert_ok(koksma_render(scene, &options, NULL, &images[i]));
+        koksma_scene_close(scene);
+    }
+    for (size_t p = 0; p < 24 * 24; p++) {
+        const double one = (double)images[0].pixels[p];
+        assert_near((double)images[1].pixels[p], one, 1e-4 * one);
+        assert_near((double)images[2].pixels[p], one, 1e-4 * one);
+    }
+    for (int i = 0; i < 3; i++) {
+        koksma_image_fini(&images[i]);
+    }
+}
+
 /* Records are computed by several threads and entered in order. */
 static void cache_is_the_same_for_any_number_of_threads(void **state)
 {
@@ -254,8 +325,10 @@ int main(void)
         cmocka_unit_test(pipelines_agree),
         cmocka_unit_test(furnace_shows_the_albedo),
         cmocka_unit_test(lights_are_their_form_factors),
+        cmocka_unit_test(seen_lights_do_not_shade_themselves),
         cmocka_unit_test(seen_lights_give_the_same),
         cmocka_unit_test(paths_of_every_length_count),
+        cmocka_unit_test(cache_knows_no_units),
         cmocka_unit_test(cache_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(one_light_stands_for_all),
     };

@@ -32,16 +32,17 @@ static void lights_are_points_at_their_centres(void **state)
         {"\"kind\": \"point\", \"centre\": [3, 4, 0], \"intensity\": 5", 0.9 / M_PI * 5 / 25 * 0.8},
         {"\"kind\": \"directional\", \"direction\": [3, -4, 0], \"irradiance\": 5", 0.9 / M_PI * 5 * 0.8},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < sizeof cases / sizeof *cases + 4; i++) {
+        const size_t c = i < sizeof cases / sizeof *cases ? i : i - sizeof cases / sizeof *cases;
         char text[1024];
         snprintf(
             text, sizeof text,
             "{\"camera\": {\"eye\": [0, 1, 4], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"
             "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
             "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}],"
-            "\"lights\": [{%s}]}",
-            cases[i].light);
-        assert_near(seen(text, 2), cases[i].reflected, 2e-4 * cases[i].reflected);
+            "\"lights\": [{%s%s}]}",
+            cases[c].light, c < i ? ", \"visible\": true" : ""); /* a surface of its own is no shadow */
+        assert_near(seen(text, 2), cases[c].reflected, 2e-4 * cases[c].reflected);
     }
 }
 
@@ -65,11 +66,65 @@ static void glass_sends_rays_both_ways(void **state)
     assert_near(seen(scene, 9), r + t * t * (1 + r + r * r), 1e-5); /* the next weighs less than 1/1000 */
 }
 
+/* A luminaire that is chosen stands for all of them, and has no place on it to draw. */
+static void one_light_stands_for_all(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of(
+        "{\"camera\": {\"eye\": [0, 3, 4], \"target\": [0, 0, 0], \"fov_deg\": 30},"
+        "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"
+        "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
+        "{\"kind\": \"sphere\", \"centre\": [0, 0.3, 0], \"radius\": 0.3, \"material\": \"m\"}],"
+        "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [-2, 2, 0], \"facing\": [0, 0, 0], \"half\": [0.5, 0.5],"
+        "\"radiance\": 3}, {\"kind\": \"disk\", \"centre\": [2, 3, 1], \"facing\": [0, 0, 0], \"radius\": 0.5,"
+        "\"radiance\": 9}]}");
+    for (size_t k = 0; k < 12; k++) {
+        double error;
+        koksma_render_options options = options_of(scene, "random", k % 2 ? "utah" : "whitted", 16, 24);
+        options.scope = KOKSMA_SCOPE_IMAGE;
+        const double all = mean_of(scene, &options, NULL);
+        options.pairing = k / 2 % 2 ? KOKSMA_PAIRING_NATIVE : KOKSMA_PAIRING_SHUFFLED;
+        options.lights = (koksma_light_selection)(KOKSMA_LIGHTS_ONE + (int)(k / 4));
+        options.depth = 0;
+        double sum = 0, squares = 0; /* over seeds: the pixels differ by what they show */
+        for (options.seed = 1; options.seed <= 8; options.seed++) {
+            const double mean = mean_of(scene, &options, NULL);
+            sum += mean / 8;
+            squares += mean * mean / 8;
+        }
+        error = sqrt(fmax(squares - sum * sum, 0) / 7);
+        assert_true(error < 0.01);
+        assert_near(sum, all, 6 * error + 2e-3);
+    }
+    koksma_scene_close(scene);
+}
+
+/* An environment has no centre: rays and mirrors see it, and no surface has light from it, whichever way it faces. */
+static void environments_are_seen_and_light_nothing(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"0, 1, 0", "1, 0, 0", "0, 0, 1", "0, 0, -1"};
+    for (size_t i = 0; i < 8; i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"camera\": {\"eye\": [%s], \"target\": [0, 0, 0], \"up\": [1, 1, 1], \"fov_deg\": 0.01},"
+            "\"materials\": [{\"name\": \"m\", %s}], \"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0],"
+            "\"normal\": [%s], \"material\": \"m\"}], \"lights\": [{\"kind\": \"environment\", \"radiance\": 2}]}",
+            ways[i / 2],
+            i % 2 ? "\"kind\": \"mirror\", \"reflectance\": 0.5" : "\"kind\": \"lambert\", \"albedo\": 0.9",
+            ways[i / 2]);
+        assert_near(seen(text, 2), i % 2 ? 1 : 0, 1e-6);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_light_stands_for_all),
         cmocka_unit_test(lights_are_points_at_their_centres),
         cmocka_unit_test(glass_sends_rays_both_ways),
+        cmocka_unit_test(environments_are_seen_and_light_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,8 +63,8 @@ static double pixel_error(const koksma__adaptive *run, int x, int y)
     const double n = (double)koksma__set_size(run), all = n * p->sets, half = n * ((p->sets + 1) / 2);
     double sum = 0, off = 0;
     for (int k = 0; k < run->frame->channels; k++) {
-        sum += p->sum[k] / all;
-        off += p->lo[k] < p->hi[k] ? fabs(p->sum[k] / all - p->half[k] / half) : 0;
+        sum += p->all[k] / all;
+        off += p->lo[k] < p->hi[k] ? fabs(p->all[k] / all - p->half[k] / half) : 0;
     }
     return off > 0 ? off / sqrt(fmax(sum, 1e-6)) : 0;
 }

@@ -32,7 +32,9 @@ typedef struct koksma__adaptive_rules {
     /* The pairs of this round's samples of a pixel. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_room *room, float *pairs);
-    void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb); /* their values, as many as it asked for */
+    /* Their values, as many as it asked for, and their weights in the pixel (NULL: all 1). Methods decide by the
+       values as they are; weights are the filter's. */
+    void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
     /* What it wants next; ask is zero. scratch has run->scratch bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
     void (*plan)(koksma__adaptive *run); /* NULL, or between rounds: looks at the whole image, may change asks */
@@ -71,10 +73,12 @@ typedef struct koksma__pixel_sets {
     uint32_t drawn;     /* all that were drawn */
     float lo[3], hi[3]; /* over the samples */
     float origin;
-    double sum[3];
-    double half[3];         /* of sets 0, 2, 4, … */
-    double sum_y, sum_yy;   /* of the samples' luminances */
-    double sum_mean_square; /* of the sets' mean luminances, squared */
+    double sum[3];  /* weighed */
+    double half[3]; /* of sets 0, 2, 4, …, not weighed; as `all` */
+    double all[3];
+    double sum_y, sum_yy;       /* of the samples' luminances */
+    double sum_mean_square;     /* of the sets' mean luminances, squared */
+    double shown, shown_square; /* as sum_y and sum_yy, of weighed luminances */
 } koksma__pixel_sets;
 
 /* Every such method's parameters begin with these two. */
@@ -89,7 +93,7 @@ koksma_status koksma__sets_open(koksma__adaptive *run);
 void koksma__sets_close(koksma__adaptive *run);
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                 koksma__sample_room *room, float *pairs);
-void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb);
+void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
 double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
 
 koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);

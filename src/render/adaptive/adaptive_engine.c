@@ -73,12 +73,8 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     const size_t pixel = group->first + p, first = group->start[p], end = group->start[p + 1];
     const size_t channels = (size_t)j->frame.channels;
     koksma__ask ask = {0};
-    for (size_t i = first; j->frame.filter && i < end; i++) {
-        for (size_t k = 0; k < channels; k++) {
-            r->pixels.values.rgb[channels * i + k] *= r->pixels.values.weights[i];
-        }
-    }
-    run->rules->take(run, pixel, r->pixels.values.rgb + channels * first);
+    const float *weights = j->frame.filter ? r->pixels.values.weights + first : NULL;
+    run->rules->take(run, pixel, r->pixels.values.rgb + channels * first, weights);
     if (run->probing) {
         return;
     }

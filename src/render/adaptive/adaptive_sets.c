@@ -165,23 +165,27 @@ static float luminance(size_t channels, const float *rgb)
     return channels == 1 ? rgb[0] : koksma__luminance3(rgb);
 }
 
-static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const float *rgb)
+static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const float *rgb, const float *weights)
 {
     double sum_y = 0;
     if (!p->sets) {
         p->origin = luminance(channels, rgb);
     }
     for (size_t i = 0; i < n; i++, rgb += channels) {
-        const double y = (double)luminance(channels, rgb) - (double)p->origin;
+        const double l = (double)luminance(channels, rgb), y = l - (double)p->origin;
+        const double weight = weights ? (double)weights[i] : 1, shown = weight * l - (double)p->origin;
         for (size_t k = 0; k < channels; k++) {
             const bool none = !p->sets && !i;
             p->lo[k] = none || rgb[k] < p->lo[k] ? rgb[k] : p->lo[k];
             p->hi[k] = none || rgb[k] > p->hi[k] ? rgb[k] : p->hi[k];
-            p->sum[k] += (double)rgb[k];
+            p->sum[k] += weight * (double)rgb[k];
+            p->all[k] += (double)rgb[k];
             p->half[k] += p->sets % 2 ? 0 : (double)rgb[k];
         }
         sum_y += y;
         p->sum_yy += y * y;
+        p->shown += shown;
+        p->shown_square += shown * shown;
     }
     p->sum_y += sum_y;
     p->sum_mean_square += sum_y * sum_y / ((double)n * (double)n);
@@ -189,11 +193,11 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
     p->drawn++;
 }
 
-void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb)
+void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
 {
     const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
     for (size_t k = 0; k < run->asks[pixel].now / n; k++) {
-        take_set(koksma__sets_of(run, pixel), n, channels, rgb + k * n * channels);
+        take_set(koksma__sets_of(run, pixel), n, channels, rgb + k * n * channels, weights ? weights + k * n : NULL);
     }
 }
 
@@ -216,10 +220,14 @@ double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *
     return (double)p->origin + p->sum_y / samples_of(run, p);
 }
 
+static double variance(double sum, double squares, double n)
+{
+    return n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : 0;
+}
+
 double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p)
 {
-    const double n = samples_of(run, p);
-    return n > 1 ? fmax(p->sum_yy - p->sum_y * p->sum_y / n, 0) / (n - 1) : 0;
+    return variance(p->sum_y, p->sum_yy, samples_of(run, p));
 }
 
 double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p)
@@ -234,5 +242,5 @@ double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb
     for (int k = 0; p->sets && k < 3; k++) {
         rgb[k] = p->sum[k] / samples_of(run, p);
     }
-    return p->sets ? koksma__sets_variance(run, p) / samples_of(run, p) : 0;
+    return p->sets ? variance(p->shown, p->shown_square, samples_of(run, p)) / samples_of(run, p) : 0;
 }

@@ -12,7 +12,7 @@
 #include "core/status.h"
 #include "render/vector3.h"
 
-/* Strata of all pixels: 2.5 GiB. */
+/* Strata of all pixels: 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
 
 const char *const koksma__reuse_names[] = {"kept", "renewed", "fresh", NULL};
@@ -267,7 +267,7 @@ static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const f
     }
 }
 
-void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb)
+void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
@@ -279,6 +279,7 @@ void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb)
     for (uint32_t i = 0; i < tree->n; i++) {
         if (tree->strata[i].pending) {
             memcpy(tree->strata[i].value, rgb, channels * sizeof *rgb);
+            tree->strata[i].weight = weights ? *weights++ : 1;
             tree->strata[i].pending = false;
             rgb += channels;
         }
@@ -310,7 +311,8 @@ double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double r
     double mean = 0, squares = 0;
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
-        const double volume = ldexp(1, -2 * tree->strata[i].level) / ((double)s->m * s->m);
+        const double volume =
+            (double)tree->strata[i].weight * ldexp(1, -2 * tree->strata[i].level) / ((double)s->m * s->m);
         for (int k = 0; k < 3; k++) {
             rgb[k] += volume * (double)v[k];
         }
@@ -319,7 +321,7 @@ double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double r
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
         const double volume = ldexp(1, -2 * tree->strata[i].level) / ((double)s->m * s->m);
-        const double off = (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
+        const double off = (double)tree->strata[i].weight * (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
         squares += volume * volume * off * off;
     }
     return squares;

@@ -41,7 +41,7 @@ typedef struct koksma__stratum {
     uint8_t level;   /* splits */
     bool pending;    /* its sample is to be drawn */
     bool marked;     /* to be split */
-    float value[3];
+    float value[3], weight;
 } koksma__stratum;
 
 typedef struct koksma__tree {
@@ -102,7 +102,7 @@ void koksma__strata_close(koksma__adaptive *run);
 koksma_status koksma__strata_serve(koksma__adaptive *run, size_t pixel);
 koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                   koksma__sample_room *room, float *pairs);
-void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb);
+void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
 void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
 void koksma__strata_last(koksma__adaptive *run);
 size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel);

@@ -22,6 +22,7 @@ struct koksma__filter_table {
     const koksma_filter *filter;
     double scale;          /* 1 / integral of f */
     double cdf[CELLS + 1]; /* of |f| */
+    float weights[CELLS];  /* of a place in each cell */
 };
 
 koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_table **out)
@@ -35,20 +36,23 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
     double sum = 0, integral = 0;
     t->filter = filter;
     for (int i = 0; i < CELLS; i++) {
-        double part = 0;
+        double part = 0, signed_part = 0;
         for (int k = 0; k < PARTS; k++) { /* by midpoints */
             const double f = filter->value(-filter->radius + width * (i + (k + 0.5) / PARTS));
             part += fabs(f);
-            integral += f * width / PARTS;
+            signed_part += f;
         }
         t->cdf[i] = sum;
-        sum += part * width / PARTS;
+        t->weights[i] = (float)(part > 0 ? signed_part / part : 0);
+        sum += part;
+        integral += signed_part;
     }
     for (int i = 0; i < CELLS; i++) {
         t->cdf[i] /= sum;
+        t->weights[i] *= (float)(sum / integral); /* 1 everywhere when f has one sign */
     }
     t->cdf[CELLS] = 1;
-    t->scale = 1 / integral;
+    t->scale = PARTS / (integral * width);
     return KOKSMA_OK;
 }
 
@@ -70,11 +74,12 @@ float koksma__filter_sample(const koksma__filter_table *t, float u, float *weigh
     }
     const double width = 2 * t->filter->radius / CELLS, share = t->cdf[low + 1] - t->cdf[low];
     const double x = -t->filter->radius + width * (low + (share > 0 ? ((double)u - t->cdf[low]) / share : 0.5));
-    *weight = (float)(t->scale * t->filter->value(x) * width / share);
+    *weight = t->weights[low];
     return (float)x;
 }
 
 float koksma__filter_value(const koksma__filter_table *t, float x)
 {
-    return fabs((double)x) < t->filter->radius ? (float)(t->scale * t->filter->value((double)x)) : 0;
+    const double r = t->filter->radius, at = (double)x;
+    return at >= -r && at < r ? (float)(t->scale * t->filter->value(at)) : 0;
 }

@@ -12,10 +12,12 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
 void koksma__filter_close(koksma__filter_table *table);
 
 /* u in [0,1) to a place x in [-radius, radius] with density in proportion to the cell's mean of |f|; the weight is
-   f(x) over that density, so that the mean of weight x value is the filtered value exactly. */
+   the cell's mean of f over that of |f|, scaled so that it is 1 everywhere where f has one sign and that a constant
+   keeps its value in the mean. What is filtered with is f in 1024 steps, each the mean over a cell. */
 float koksma__filter_sample(const koksma__filter_table *table, float u, float *weight);
 
-/* f(x), scaled to integrate to 1. */
+/* f(x), scaled to integrate to 1, for -radius <= x < radius: a place on the edge between two pixels is in one of
+ * them. */
 float koksma__filter_value(const koksma__filter_table *table, float x);
 
 #define FILTER(name) extern const koksma_filter koksma__filter_##name;

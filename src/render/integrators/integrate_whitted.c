@@ -6,8 +6,8 @@
  *
  *     L(x, out) = local light, as utah has it, with V   +   R L(y, mirrored)   +   (1 - R) L(z, refracted)
  *
- * with V = 1 where the centre of the luminaire is seen and R a mirror's reflectance or Fresnel's share. Source:
- * Whitted 1980.
+ * with V = 1 where the centre of the luminaire is seen and R a mirror's reflectance or Fresnel's share. An
+ * environment has no centre: as in utah, rays see it and no surface has light from it. Source: Whitted 1980.
  */
 #include "render/integrators/integrators.h"
 

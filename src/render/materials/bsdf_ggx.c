@@ -4,7 +4,12 @@
  * height-correlated shadowing; Schlick's reflectance from `reflectance` at normal incidence:
  *     value cos = F D G2 / (4 n.out)
  * Ways come from the facets that are seen (Heitz 2018): density D G1(out) / (4 n.out), so that a way weighs F G2 /
- * G1. It loses what bounces between facets: a white one reflects less than 1, at roughness 1 about a third less.
+ * G1. It loses what bounces between facets: a white one reflects less than 1, and at roughness 1 no more than 0.307
+ * straight on (1 - ln 2) and 0.379 at n.out = 0.7.
+ *
+ * D = a^2 / (pi t^2) with t = (n.h)^2 (a^2 - 1) + 1, which is (n.h)^2 a^2 + |n x h|^2: the first form is the
+ * difference of numbers near 1 where a is small, the second has D to 3e-5 at roughness 0.03 and to 3 % at 0.001,
+ * where directions in floats themselves are off by a tenth of a.
  */
 #include "render/materials/lobes.h"
 
@@ -14,10 +19,12 @@ static float lambda(float cosine, float a)
     return 0.5f * (sqrtf(1 + a * a * tangent2) - 1);
 }
 
-static float facets(float cosine, float a)
+/* D of the facet with the normal h. */
+static float facets(const float n[3], const float h[3], float a)
 {
-    const float t = cosine * cosine * (a * a - 1) + 1;
-    return a * a / (KOKSMA__PI_F * t * t);
+    const float x = n[1] * h[2] - n[2] * h[1], y = n[2] * h[0] - n[0] * h[2], z = n[0] * h[1] - n[1] * h[0];
+    const float cosine = koksma__dot3(n, h), part = (cosine * cosine + (x * x + y * y + z * z) / (a * a)) * a;
+    return 1 / (KOKSMA__PI_F * part * part);
 }
 
 /* The terms for light from w: D G1 / (4 n.out) is returned, G2 / G1 and the facet's n.h-independent cosine come out.
@@ -34,10 +41,10 @@ static float terms(const koksma__surface *s, const float w[3], float *ratio, flo
         h[k] = w[k] + s->out[k];
     }
     koksma__unit3(h);
-    const float cosine = koksma__dot3(s->n, h), l_to = lambda(to, a), l_from = lambda(from, a);
+    const float l_to = lambda(to, a), l_from = lambda(from, a);
     *at_facet = koksma__dot3(h, w);
     *ratio = (1 + l_to) / (1 + l_to + l_from);
-    return facets(cosine, a) / (1 + l_to) / (4 * to);
+    return facets(s->n, h, a) / (1 + l_to) / (4 * to);
 }
 
 static void add(const koksma__surface *s, float scale, float at_facet, float out[3])
