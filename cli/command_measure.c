@@ -288,11 +288,12 @@ const cli_command cli_command_measure = {
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
         "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
         "points\n"
-        "can have, powers of logarithms aside. With --time-limit, star, star-lower, extreme, edge and disk end in "
-        "time\n"
-        "and rows say lower and upper, bounds that hold for certain; those of trials say for how many of them the "
-        "value\n"
-        "is exact. The other measures have no bounds to give and take the time they need.",
+        "can have, powers of logarithms aside. With --time-limit, star-lower, extreme, edge, disk and, from 3 "
+        "dimensions\n"
+        "on, star end in time and rows say lower and upper, bounds that hold for certain; those of trials say for "
+        "how\n"
+        "many of them the value is exact. The others, and star of the line and the plane and extreme:grid, have no\n"
+        "bounds to give and take the time they need.",
     .options = options,
     .run = run,
 };
