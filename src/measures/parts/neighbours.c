@@ -188,7 +188,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {
         const double share = M_PI * width * width * (2 * (double)b + 1);
-        values[b] = pairs > 0 ? values[b] / (pairs * share) : 0;
+        values[b] = pairs > 0 ? values[b] / (pairs * share) : (double)NAN;
     }
     return status;
 }
