@@ -113,11 +113,11 @@ static void choose(search *s, int k, size_t count, double width, bool closed)
     const double *from = s->lists[k];
     double *to = s->lists[k - 1];
     for (size_t a = 0; a < s->n_levels[k] && !s->stopped && !s->late; a++) {
-        if (k == s->dim - 1) {
-            s->stopped = !koksma__keep_going(s->run, (double)a / (double)s->n_levels[k]);
-        }
-        s->late = koksma__now_s() > s->deadline_s;
-        for (size_t b = closed ? a : a + 1; b < s->n_levels[k]; b++) {
+        for (size_t b = closed ? a : a + 1; b < s->n_levels[k] && !s->stopped && !s->late; b++) {
+            if (k == s->dim - 1) {
+                s->stopped = !koksma__keep_going(s->run, (double)a / (double)s->n_levels[k]);
+                s->late = koksma__now_s() > s->deadline_s;
+            }
             const double lo = s->levels[k][a], hi = s->levels[k][b];
             size_t left = 0;
             for (size_t i = 0; i < count; i++) {
@@ -161,6 +161,9 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     const size_t n = points->n, dim = (size_t)points->dim;
     if (dim == 3 && n > MAX_N_3D) {
         return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
+    }
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
     }
     search s = {.n = n, .dim = points->dim, .run = run, .deadline_s = koksma__deadline_s(run, 0.95), .out = out};
     const size_t bytes = dim * (n * dim + n + 2) * sizeof(double);
