@@ -50,27 +50,6 @@ static void spectra_equal_the_definition(void **state)
     }
 }
 
-/* More points than a chunk has room for, and more rows than a band. */
-static void exact_spectra_of_many_chunks_and_bands(void **state)
-{
-    (void)state;
-    static const struct {
-        size_t n;
-        int half;
-    } sizes[] = {{300000, 7}, {4001, 1100}};
-    for (int t = 0; t < 2; t++) {
-        koksma_points p = test_points("random", sizes[t].n, 2, 1);
-        const int half = sizes[t].half;
-        koksma_spectrum exact = spectrum_of(&p, half, KOKSMA_SPECTRUM_EXACT, 2);
-        for (int i = 0; i <= 4; i++) {
-            const int kx = half * (i - 2) / 2, ky = half - half * i / 4;
-            assert_near(koksma_spectrum_power(&exact, kx, ky), direct_power(&p, kx, ky), 1e-11 * (double)p.n);
-        }
-        koksma_spectrum_fini(&exact);
-        koksma_points_fini(&p);
-    }
-}
-
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -402,7 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spectra_equal_the_definition),
-        cmocka_unit_test(exact_spectra_of_many_chunks_and_bands),
+
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(radial_means_have_known_values),
         cmocka_unit_test(distances_equal_all_pairs),
