@@ -91,7 +91,8 @@ static void line_equals_brute_force(void **state)
         for (size_t i = 0; i < p.n && s % 7 == 0; i += 3) {
             p.xs[i] = i % 2 ? 0x1p-1074 : 0x1p-1060 * p.xs[i];
         }
-        const koksma_value star = test_measure("star", &p), found = test_measure("star-lower:steps=400", &p);
+        const koksma_value star = test_measure("star", &p);
+        const koksma_value found = test_measure("star-lower:steps=100,restarts=2", &p);
         const double y = star.witness.hi[0], share = (double)star.witness.count / (double)p.n;
         assert_near(star.value, brute_1d(&p), 1e-15);
         assert_true(star.exact && star.value == (star.witness.closed ? share - y : y - share));
@@ -99,7 +100,7 @@ static void line_equals_brute_force(void **state)
         reached += found.value >= star.value - 1e-15;
         koksma_points_fini(&p);
     }
-    assert_true(reached > 1100);
+    assert_true(reached > 1000);
     koksma_points many = test_points("random", 50000, 1, 3);
     koksma_value cut = {0};
     const size_t sizes[] = {1, 300, 2500};
