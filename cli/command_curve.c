@@ -6,6 +6,7 @@
 #include <koksma/image.h>
 
 #include "curves.h"
+#include "source.h"
 
 typedef struct curve_job {
     cli_curves curves;
@@ -141,7 +142,7 @@ static int run(const cli_arguments *arguments)
     if (j.output && (strcmp(kind, "power") != 0 || arguments->n_operands > 2)) {
         return cli_usage_error(arguments, "--output: it takes power of one source");
     }
-    if (!cli_curves_begin(arguments, &j.curves)) {
+    if (!cli_curves_begin(arguments, &j.curves) || !cli_sources_check(arguments, 1, j.curves.trials, 0)) {
         return CLI_USAGE;
     }
     j.rows = cli_rows_open(cli_flag(arguments, "json"));

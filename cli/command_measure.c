@@ -135,6 +135,12 @@ static bool parse_prefixes(measuring *j)
                             MAX_PREFIXES);
             return false;
         }
+        for (size_t i = 0; i < j->n_prefixes; i++) {
+            if (j->prefixes[i] == k) {
+                cli_usage_error(j->arguments, "--prefixes: %llu stands twice", k);
+                return false;
+            }
+        }
         j->prefixes[j->n_prefixes++] = k;
         text = *end ? end + 1 : end;
     }
@@ -190,7 +196,8 @@ static bool parse_options(measuring *j)
     j->paired = cli_flag(j->arguments, "paired");
     if (!parse_warps(j) || !cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &j->seed) ||
         !cli_whole(j->arguments, "trials", 1, 1, 1000000000, &j->trials) ||
-        !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j)) {
+        !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) ||
+        !cli_sources_check(j->arguments, 0, j->trials, j->n_warps)) {
         return false;
     }
     const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);
@@ -267,7 +274,8 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'m', "measures", "MEASURE,..|all", "what is measured (default: star,l2-star,extreme; of --warp its domain's)"},
     {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
-    {'t', "trials", "T", "T sets with seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
+    {'t', "trials", "T",
+     "T sets of pattern: sources, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
      "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
@@ -288,11 +296,12 @@ const cli_command cli_command_measure = {
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
         "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
         "points\n"
-        "can have, powers of logarithms aside. With --time-limit, star, star-lower, extreme, edge and disk end in "
-        "time\n"
-        "and rows say lower and upper, bounds that hold for certain; those of trials say for how many of them the "
-        "value\n"
-        "is exact. The other measures have no bounds to give and take the time they need.",
+        "can have, powers of logarithms aside. With --time-limit, star-lower, extreme, edge, disk and, from 3 "
+        "dimensions\n"
+        "on, star end in time and rows say lower and upper, bounds that hold for certain; those of trials say for "
+        "how\n"
+        "many of them the value is exact. The others, and star of the line and the plane and extreme:grid, have no\n"
+        "bounds to give and take the time they need.",
     .options = options,
     .run = run,
 };

@@ -129,6 +129,10 @@ static int run(const cli_arguments *arguments)
     if (!cli_whole(arguments, "size", 0, 16, 8192, &j.size) || !cli_curves_begin(arguments, &j.curves)) {
         return CLI_USAGE;
     }
+    const bool one_set = !strcmp(j.curve, "points") || !strcmp(j.curve, "convergence"); /* of a file */
+    if (!cli_sources_check(arguments, 0, one_set ? 1 : j.curves.trials, 0)) {
+        return CLI_USAGE;
+    }
     const koksma_status status = koksma_plot_format_of(j.output, &j.format);
     if (status) {
         return cli_fail(arguments, status);

@@ -70,6 +70,15 @@ static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
     put_tail(j, n_exact, t->mean - koksma_tally_interval(t), t->mean + koksma_tally_interval(t), NAN, NAN);
 }
 
+/* Whether the first k points are such a set of the pattern as theory speaks of: those of a sequence, or independent
+   ones without cells. Of prefixes of others, and of mapped points, there is no theorem. */
+static bool prefixes_are_sets(const koksma_pattern *pattern)
+{
+    const bool independent =
+        pattern->claims & KOKSMA_CLAIM_INDEPENDENT && !(pattern->claims & KOKSMA_CLAIM_STRATIFIED);
+    return pattern->claims & KOKSMA_CLAIM_SEQUENCE || independent;
+}
+
 /* The slope of log value over log n, beside the exponents of theory. */
 static void put_slope(measuring *j, const char *source, size_t measure, int dim)
 {
@@ -86,7 +95,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
         return;
     }
     const koksma_measure *m = j->measures[measure].measure;
-    const bool known = parts.is_pattern && !j->warp; /* of mapped points there is no theorem */
+    const bool known = parts.is_pattern && !j->warp && prefixes_are_sets(parts.spec.pattern);
     koksma_spec_text(&j->measures[measure], text);
     snprintf(name, sizeof name, "slope of %s", text);
     put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);

@@ -77,3 +77,21 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
+
+bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps)
+{
+    size_t n_stdin = 0;
+    for (int i = first; i < arguments->n_operands; i++) {
+        const char *text = arguments->operands[i];
+        n_stdin += strcmp(text, "-") ? 0 : n_warps > 1 ? n_warps : 1;
+        if (n_stdin > 1) {
+            cli_usage_error(arguments, "-: stdin can be read once");
+            return false;
+        }
+        if (trials > 1 && strncmp(text, prefix, sizeof prefix - 1) != 0) {
+            cli_usage_error(arguments, "--trials: '%s' is one set; it takes pattern: sources", text);
+            return false;
+        }
+    }
+    return true;
+}

@@ -23,4 +23,8 @@ typedef struct cli_source {
 /* Reads no file. Returns the exit code, after an error on stderr unless it is 0. */
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
 
+/* Refuses what can't be read so often, from operand `first` on: stdin twice, also for two warps, and files for
+   several trials, as each is one set. False after an error on stderr. */
+bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps);
+
 #endif

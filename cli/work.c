@@ -11,8 +11,10 @@ static volatile sig_atomic_t interrupted;
 
 static void on_signal(int number)
 {
+    (void)number;
     interrupted = 1;
-    signal(number, SIG_DFL); /* the second one ends the program at once */
+    signal(SIGINT, SIG_DFL); /* the second one, of either kind, ends the program at once */
+    signal(SIGTERM, SIG_DFL);
 }
 
 bool cli_interrupted(void)

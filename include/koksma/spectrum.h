@@ -20,7 +20,7 @@ extern "C" {
 #endif
 
 /* EXACT sums over all points at each frequency (1e-13 of n). FAST spreads the points on a grid for an FFT: the
-   amplitudes are within 1e-10 of n, whatever the points. */
+   amplitudes are within 1e-9 of n, whatever the points. */
 typedef enum koksma_spectrum_method { KOKSMA_SPECTRUM_EXACT, KOKSMA_SPECTRUM_FAST } koksma_spectrum_method;
 
 /* Power at the frequencies (kx, ky), |kx|, |ky| <= half: (1/n) |sum_j exp(-2 pi i k.x_j)|^2, 1 in the mean for random
@@ -76,8 +76,9 @@ typedef struct koksma_spectrum_quality_values {
 KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out);
 
 /* Pair correlation on the unit torus: values[b] = the density of pairs at distances b .. b+1 (times r_max/bins) over
-   that of random points, n(n-1)/2 pairs in the ring's share of the area. r_max <= 1/2. Cell lists: O(n (1 + n
-   r_max^2)). Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]), MEMORY. */
+   that of random points, n(n-1)/2 pairs in the ring's share of the area; NaN for n = 1. r_max <= 1/2. Cell lists:
+   that of random points, n(n-1)/2 pairs in the ring's share of the area; NaN for n = 1. r_max <= 1/2. Cell lists:
+   O(n (1 + n r_max^2)). Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]), MEMORY. */
 KOKSMA_API koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins,
                                                  double *values);
 

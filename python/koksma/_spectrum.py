@@ -60,7 +60,7 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsInde
              exact: bool = False, threads: SupportsIndex = 0) -> Spectrum:
     """The power spectrum at the frequencies |kx|, |ky| <= half of one (n, 2) set, or the mean over several.
 
-    exact: sums over all points at each frequency, instead of an FFT within 1e-10 of n.
+    exact: sums over all points at each frequency, instead of an FFT within 1e-9 of n.
     """
     raw = s.Spectrum()
     check(core().koksma_spectrum_init(byref(raw), whole("half", half, 1, s.MAX_HALF)))

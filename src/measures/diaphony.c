@@ -7,7 +7,8 @@
  *              = (1/n^2) sum_ij prod_k (1 + 2 pi^2 (t^2 - t + 1/6)) - 1,  t = |x_ik - x_jk|.
  * Source: Zinterhof 1976. Known exactly: one point, F^2 = (1 + pi^2/3)^d - 1; m points i/m on the line, F = pi/(m
  * sqrt 3). Limits: the terms are near 1 and cancel: the square is good to about 1e-15, and from 1,024 points on in
- * one and two dimensions, where they are added up in 106 bits, to 1e-11 of itself.
+ * one and two dimensions, where they are added up in 106 bits, to 1e-11 of itself. In some 970 dimensions it is
+ * beyond the range of doubles: an error.
  */
 #include <math.h>
 
@@ -18,14 +19,14 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 {
     /* K = 1 + q (1/6 - t + t^2). Sorting takes 6 K / q with coefficients that are doubles: no digits cancel. */
     static const double q = 2 * M_PI * M_PI;
-    const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q};
+    const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
     const double one = (1 + 6 / q) - 1;
-    const koksma__l2_row divided = {12 * one, {24 * one, 0, 0, 0}, {(one + 1) / 2, 0, 0, 0}, -6, 6};
-    const bool sort = points->dim <= 2 && points->n >= 1024 && points->n < (size_t)1 << 28;
-    const koksma_status status = sort ? koksma__l2_by_sorting(&divided, points, args->run, &out->square)
-                                      : koksma__l2_by_pairs(&row, points, args->run, &out->square);
-    out->square *= sort ? pow(q / 6, points->dim) : 1;
-    out->square = fmax(out->square, 0);
+    const koksma__l2_row divided = {12 * one, {24 * one, 0, 0, 0}, {(one + 1) / 2, 0, 0, 0}, -6, 6, "diaphony"};
+    if (!(points->dim <= 2 && points->n >= 1024 && points->n < (size_t)1 << 28)) {
+        return koksma__l2_value_by_pairs(&row, points, args->run, out);
+    }
+    const koksma_status status = koksma__l2_by_sorting(&divided, points, args->run, &out->square);
+    out->square = koksma__not_below_0(out->square * pow(q / 6, points->dim));
     out->value = sqrt(out->square);
     return status;
 }

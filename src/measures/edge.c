@@ -10,10 +10,10 @@
  * area 2uv off a corner at distances u and v), or on a side. Closed half-planes for excess, open ones for deficit.
  * Source: Mitchell 1992, section 5; Dobkin and Eppstein 1993; Dobkin, Eppstein and Mitchell 1996. Here each point is
  * a pivot, about which a line turns past the others in order of angle: O(n^2 log n). Known exactly: one point
- * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact for
- * all doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half of it to the pivots and what
- * remains to bounds for intervals of directions (parts/edge_cover.c): the value is then a lower bound, with an upper
- * one beside it.
+ * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact,
+ * also of clusters down to the smallest doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half
+ * of it to the pivots and what remains to bounds for intervals of directions (parts/edge_cover.c): the value is then
+ * a lower bound, with an upper one beside it.
  */
 #include <math.h>
 

@@ -10,7 +10,8 @@
  * multiples of 1/20 only, half-open boxes. Inferred from his value for the regular grid, 0.3600 where the supremum
  * is 0.4375.
  * Known exactly: 4 x 4 cell centres T = 7/16, with grid=20 0.36; a single point T = 1; Hammersley 1024 0.006079674.
- * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16.
+ * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. A time limit leaves bounds; in 3D
+ * the upper one is 1.
  */
 #include "measures/parts/extreme.h"
 #include "core/status.h"
@@ -20,7 +21,7 @@
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     if (args->params[0] > 0) {
-        return koksma__extreme_grid(points, (int)args->params[0], out);
+        return koksma__extreme_grid(points, (int)args->params[0], args->run, out);
     }
     return (points->dim == 2 ? koksma__extreme_plane : koksma__extreme_small)(points, args->run, out);
 }

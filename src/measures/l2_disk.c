@@ -104,7 +104,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         koksma__sum_add(&total, koksma__disk_overlap(law, p.r, 0) / n);
         koksma__sum_add(&total, 2 * koksma__sum_value(&sum) / n / n);
         koksma__sum_add(&total, -koksma__disk_square(law, p.r));
-        out->square = fmax(koksma__sum_value(&total), 0);
+        out->square = koksma__not_below_0(koksma__sum_value(&total));
         out->value = sqrt(out->square);
     }
     free(p.blocks);

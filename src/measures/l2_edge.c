@@ -67,7 +67,7 @@ static double finish(const job *j, size_t n_blocks)
     koksma__sum_add(&square, koksma__sum_value(&potentials) / n);
     koksma__sum_add(&square, -koksma__sum_value(&pairs) / n / n);
     koksma__sum_add(&square, -koksma__line_constant(j->law) / 2);
-    return fmax(koksma__sum_value(&square), 0);
+    return koksma__not_below_0(koksma__sum_value(&square));
 }
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)

@@ -14,7 +14,7 @@
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    return koksma__min_distance(points, args->params[0] > 0, &out->value);
+    return koksma__min_distance(points, args->params[0] > 0, args->run, &out->value);
 }
 
 static const koksma_param params[] = {

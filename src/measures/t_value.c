@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
 
@@ -20,12 +21,18 @@ typedef struct net {
     const koksma_points *points;
     double powers[MAX_M + 1];
     uint32_t *counts;
+    const koksma_run *run;
+    bool stopped;
 } net;
 
-/* Whether all intervals of this shape hold the same number of points. */
-static bool is_even(const net *s, const int *digits, int total)
+/* Whether all intervals of this shape hold the same number of points; false also when told to stop. */
+static bool is_even(net *s, const int *digits, int total)
 {
     const size_t n = s->points->n, dim = (size_t)s->points->dim, cells = (size_t)s->powers[total];
+    s->stopped = !koksma__keep_going(s->run, 0);
+    if (s->stopped) {
+        return false;
+    }
     memset(s->counts, 0, cells * sizeof *s->counts);
     for (size_t i = 0; i < n; i++) {
         size_t cell = 0;
@@ -44,7 +51,7 @@ static bool is_even(const net *s, const int *digits, int total)
 }
 
 /* All ways to share `left` digits among coordinates k and later. */
-static bool all_even(const net *s, int *digits, int k, int left, int total)
+static bool all_even(net *s, int *digits, int k, int left, int total)
 {
     if (k + 1 == s->points->dim) {
         digits[k] = left;
@@ -62,7 +69,7 @@ static bool all_even(const net *s, int *digits, int k, int left, int total)
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    net s = {.points = points, .powers = {1}};
+    net s = {.points = points, .powers = {1}, .run = args->run};
     const double base = args->params[0], n = (double)points->n;
     int m = 0, digits[MAX_DIM] = {0};
     while (m < MAX_M && s.powers[m] < n) {
@@ -77,12 +84,12 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         return koksma__fail_memory(points->n * sizeof *s.counts);
     }
     int t = 0;
-    while (t < m && !all_even(&s, digits, 0, m - t, m - t)) {
+    while (t < m && !all_even(&s, digits, 0, m - t, m - t) && !s.stopped) {
         t++;
     }
     out->value = t;
     free(s.counts);
-    return KOKSMA_OK;
+    return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
 static const koksma_param params[] = {

@@ -410,18 +410,86 @@ static void dividing_keeps_digits(void **state)
     koksma_points_fini(&p);
 }
 
+static double diaphonys_kernel(double u, double v)
+{
+    const double t = fabs(u - v);
+    return 1 + 2 * M_PI * M_PI * (1.0 / 6 - t + t * t);
+}
+
+/* The square in numbers of a wider range; kind KOKSMA__L2_KINDS is diaphony. */
+static long double wide_square(int kind, const koksma_points *p)
+{
+    const long double n = (long double)p->n;
+    long double square = 1, linear = 0, pairs = 0;
+    const size_t dim = (size_t)p->dim;
+    for (size_t k = 0; k < dim && kind < KOKSMA__L2_KINDS; k++) {
+        square *= (long double)koksma__l2_rows[kind].c12 / 12;
+    }
+    for (size_t i = 0; i < p->n; i++) {
+        long double a = 1;
+        for (size_t k = 0; k < dim && kind < KOKSMA__L2_KINDS; k++) {
+            a *= integral_of_kernel(kind, p->xs[i * dim + k]);
+        }
+        linear += a;
+        for (size_t j = 0; j < p->n; j++) {
+            long double product = 1;
+            for (size_t k = 0; k < dim; k++) {
+                const double u = p->xs[i * dim + k], v = p->xs[j * dim + k];
+                product *= kind < KOKSMA__L2_KINDS ? kernel(kind, u, v) : diaphonys_kernel(u, v);
+            }
+            pairs += product;
+        }
+    }
+    return square - 2 * linear / n + pairs / n / n;
+}
+
+/* The dimensions are those about which a square, a value or a term leaves the range of doubles. */
+static void hundreds_of_dimensions(void **state)
+{
+    (void)state;
+    static const int dims[] = {150, 388, 389, 475, 900, 997, 1071, 1237, 1705, 2500, 3132, 4096};
+    int in_range = 0, beyond = 0;
+    for (int kind = 0; kind <= KOKSMA__L2_KINDS && sizeof(long double) > sizeof(double); kind++) {
+        const char *name = kind < KOKSMA__L2_KINDS ? names[kind] : "diaphony";
+        koksma_spec spec;
+        assert_ok(koksma_measure_spec(name, &spec));
+        for (int s = 0; s < 24; s++) {
+            koksma_points p = sets_points(7, dims[s / 2], s % 2 ? 2 : 0, (uint64_t)s);
+            const long double square = wide_square(kind, &p), value = sqrtl(square);
+            koksma_value got;
+            if (value > 0x1p-1022L && value < 0x1p1023L) {
+                assert_ok(koksma_evaluate(&spec, &p, NULL, &got));
+                assert_near(got.value / value, 1, 1e-11);
+                assert_true(isnan(got.square) || fabsl(got.square / square - 1) < 1e-11L);
+                assert_true(isnan(got.square) == (square < 0x1p-1022L || square >= 0x1p1024L));
+                in_range++;
+            } else {
+                assert_int_equal(koksma_evaluate(&spec, &p, NULL, &got), KOKSMA_DIM);
+                beyond++;
+            }
+            koksma_points_fini(&p);
+        }
+        koksma_points p = sets_points(3, 4096, 0, 1); /* products of the first half alone are beyond all doubles */
+        for (size_t c = 0; c < 3 * 4096; c++) {
+            p.xs[c] = c % 4096 < 2048 ? 0 : 1;
+        }
+        koksma_value got;
+        const long double value = sqrtl(wide_square(kind, &p));
+        const bool told = koksma_evaluate(&spec, &p, NULL, &got) == KOKSMA_DIM;
+        assert_true(told || fabsl(got.value / value - 1) < 1e-11L || (value == 0 && got.value == 0));
+        koksma_points_fini(&p);
+    }
+    assert_true(in_range > 100 && beyond > 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_is_consistent),
-        cmocka_unit_test(values_are_the_integrals),
-        cmocka_unit_test(pairs_and_merging_equal_the_formula),
-        cmocka_unit_test(centre_has_known_values),
-        cmocka_unit_test(hammersley_keeps_its_digits),
-        cmocka_unit_test(halton_keeps_its_digits),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(dividing_equals_pairs),
-        cmocka_unit_test(dividing_keeps_digits),
+        cmocka_unit_test(table_is_consistent),      cmocka_unit_test(hundreds_of_dimensions),
+        cmocka_unit_test(values_are_the_integrals), cmocka_unit_test(pairs_and_merging_equal_the_formula),
+        cmocka_unit_test(centre_has_known_values),  cmocka_unit_test(hammersley_keeps_its_digits),
+        cmocka_unit_test(halton_keeps_its_digits),  cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(dividing_equals_pairs),    cmocka_unit_test(dividing_keeps_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

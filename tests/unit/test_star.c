@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The ways to the star discrepancy against each other, against brute force in four dimensions and against closed
-   forms; bounds when time is short; threads. */
+/* The ways to the star discrepancy against each other, against brute force in one and four dimensions and against
+   closed forms; bounds when time is short; threads. */
 #include <string.h>
+
+#include <koksma/series.h>
 
 #include "measures/parts/star.h"
 #include "sets.h"
@@ -62,6 +64,56 @@ static void hammersley_has_de_clercks_value(void **state)
         assert_near(test_measure("star", &p).value, (m / 3.0 + 13.0 / 9 - (m % 2 ? -1 : 1) * 4 / (9 * n)) / n, 1e-15);
         koksma_points_fini(&p);
     }
+}
+
+/* Every interval [0,y) and [0,y] that ends at a point, at 0 or at 1. */
+static double brute_1d(const koksma_points *p)
+{
+    double best = 0;
+    for (size_t at = 0; at < p->n + 2; at++) {
+        const double y = at < p->n ? p->xs[at] : (double)(at - p->n);
+        size_t open = 0, closed = 0;
+        for (size_t i = 0; i < p->n; i++) {
+            open += p->xs[i] < y;
+            closed += p->xs[i] <= y;
+        }
+        best = fmax(best, fmax((double)closed / (double)p->n - y, y - (double)open / (double)p->n));
+    }
+    return best;
+}
+
+static void line_equals_brute_force(void **state)
+{
+    (void)state;
+    int reached = 0;
+    for (int s = 0; s < 1200; s++) {
+        koksma_points p = sets_points(1 + (size_t)(s / SETS_KINDS) % 40, 1, s % SETS_KINDS, (uint64_t)s);
+        for (size_t i = 0; i < p.n && s % 7 == 0; i += 3) {
+            p.xs[i] = i % 2 ? 0x1p-1074 : 0x1p-1060 * p.xs[i];
+        }
+        const koksma_value star = test_measure("star", &p);
+        const koksma_value found = test_measure("star-lower:steps=100,restarts=2", &p);
+        const double y = star.witness.hi[0], share = (double)star.witness.count / (double)p.n;
+        assert_near(star.value, brute_1d(&p), 1e-15);
+        assert_true(star.exact && star.value == (star.witness.closed ? share - y : y - share));
+        assert_true(found.value <= star.value);
+        reached += found.value >= star.value - 1e-15;
+        koksma_points_fini(&p);
+    }
+    assert_true(reached > 1000);
+    koksma_points many = test_points("random", 50000, 1, 3);
+    koksma_value cut = {0};
+    const size_t sizes[] = {1, 300, 2500};
+    koksma_value values[3];
+    koksma_spec spec;
+    assert_ok(koksma_measure_spec("star", &spec));
+    assert_ok(koksma_evaluate_prefixes(&spec, &many, sizes, 3, NULL, values));
+    for (int i = 0; i < 3; i++) {
+        assert_near(values[i].value, brute_1d(&(koksma_points){sizes[i], 1, many.xs}), 1e-15);
+    }
+    assert_ok(koksma_evaluate(&spec, &many, &(koksma_run){.threads = 2, .time_limit_s = 60}, &cut));
+    assert_true(cut.exact && cut.value > 1e-3 && cut.value < 1e-2);
+    koksma_points_fini(&many);
 }
 
 static double brute_4d(const koksma_points *p)
@@ -144,6 +196,26 @@ static void short_time_gives_bounds(void **state)
     koksma_points_fini(&p);
 }
 
+/* Even when there is no time for a first look at anything, the bounds are those of some box. */
+static void no_time_gives_bounds(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"star", "star-lower", "extreme"};
+    for (int m = 0; m < 3; m++) {
+        for (int s = 0; s < 40; s++) {
+            koksma_points p = sets_points(100, m == 2 ? 3 : 5, s % SETS_KINDS, (uint64_t)s);
+            koksma_spec spec;
+            koksma_value cut;
+            assert_ok(koksma_measure_spec(names[m], &spec));
+            assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 1e-9}, &cut));
+            const double share = (double)cut.witness.count / (double)p.n, volume = cut.witness.volume;
+            assert_true(cut.value >= 0 && cut.value == (cut.witness.closed ? share - volume : volume - share));
+            assert_true(!cut.exact && cut.lower == cut.value && cut.upper > cut.value && cut.upper <= 1);
+            koksma_points_fini(&p);
+        }
+    }
+}
+
 static void search_is_a_lower_bound(void **state)
 {
     (void)state;
@@ -162,12 +234,10 @@ static void search_is_a_lower_bound(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweep_equals_kinetic_tree),
-        cmocka_unit_test(hammersley_has_de_clercks_value),
-        cmocka_unit_test(four_dimensions_equal_brute_force),
-        cmocka_unit_test(partition_equals_sweep),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(short_time_gives_bounds),
+        cmocka_unit_test(sweep_equals_kinetic_tree), cmocka_unit_test(hammersley_has_de_clercks_value),
+        cmocka_unit_test(line_equals_brute_force),   cmocka_unit_test(four_dimensions_equal_brute_force),
+        cmocka_unit_test(partition_equals_sweep),    cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(short_time_gives_bounds),   cmocka_unit_test(no_time_gives_bounds),
         cmocka_unit_test(search_is_a_lower_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -223,7 +223,8 @@ static koksma_status try_block(void *context, size_t block)
 /* The half-plane a x + b y <= c on the left of the line. c is set so that comparing in doubles counts right. */
 static void make_witness(const pivots *job, const best_line *line, koksma_value *out)
 {
-    const double *p = job->xs + 2 * line->pivot, a = line->dy, b = -line->dx;
+    const double size = fmax(fabs(line->dx), fabs(line->dy)), scale = size < 0x1p-400 ? 0x1p600 : 1;
+    const double *p = job->xs + 2 * line->pivot, a = line->dy * scale, b = -line->dx * scale;
     koksma__chord chords[KOKSMA__MAX_CHORDS] = {0};
     job->domain->chords(p, chords);
     koksma_witness w = {.kind = KOKSMA_WITNESS_HALF_PLANE, .dim = 2, .closed = line->closed, .lo = {a, b}};

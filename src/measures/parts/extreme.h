@@ -5,7 +5,7 @@
 #include <koksma/koksma.h>
 
 /* The largest |#/n - volume| over all boxes, exactly, with its witness. Errors: N, MEMORY, INTERRUPTED.
-   small: 1 to 3 dimensions, O(n^(2d-1)). */
+   small: 1 to 3 dimensions, O(n^(2d-1)). With a time limit out may hold bounds. */
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
 /* plane: 2D, by bounds, O(n^2 log^2 n) at worst. With a time limit out may hold bounds. */

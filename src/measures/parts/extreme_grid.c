@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "core/parallel.h"
 #include "core/status.h"
 
 /* The cell of x: the largest c with c/grid <= x, as doubles; `grid` for x = 1, which no half-open box holds. */
@@ -34,7 +35,33 @@ static void keep(koksma_value *out, double value, size_t count, const int box[4]
     out->witness.volume = (double)(box[2] - box[0]) * (box[3] - box[1]) / ((double)grid * grid);
 }
 
-koksma_status koksma__extreme_grid(const koksma_points *points, int grid, koksma_value *out)
+/* The best box between columns a and b. */
+static void best_of_columns(const size_t *counts, int grid, double n, int a, int b, koksma_value *out)
+{
+    const size_t m = (size_t)grid;
+    const double cell_area = 1.0 / ((double)grid * grid);
+    size_t total = 0, low_total = 0, high_total = 0;
+    double low = 0, high = 0;
+    int low_row = 0, high_row = 0;
+    for (int r = 1; r <= grid; r++) {
+        total += counts[(size_t)b * m + (size_t)r - 1] - counts[(size_t)a * m + (size_t)r - 1];
+        const double f = (double)total / n - (double)(b - a) * r * cell_area;
+        keep(out, f - low, total - low_total, (int[]){a, low_row, b, r}, grid);
+        keep(out, high - f, total - high_total, (int[]){a, high_row, b, r}, grid);
+        if (f < low) {
+            low = f;
+            low_row = r;
+            low_total = total;
+        }
+        if (f > high) {
+            high = f;
+            high_row = r;
+            high_total = total;
+        }
+    }
+}
+
+koksma_status koksma__extreme_grid(const koksma_points *points, int grid, const koksma_run *run, koksma_value *out)
 {
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2", points->dim);
@@ -54,31 +81,15 @@ koksma_status koksma__extreme_grid(const koksma_points *points, int grid, koksma
     for (size_t c = m; c < m * (m + 1); c++) {
         counts[c] += counts[c - m];
     }
-    const double n = (double)points->n, cell_area = 1.0 / ((double)grid * grid);
+    const double n = (double)points->n;
     out->value = -1;
-    for (int a = 0; a < grid; a++) {
+    bool stopped = false;
+    for (int a = 0; a < grid && !stopped; a++) {
         for (int b = a + 1; b <= grid; b++) {
-            size_t total = 0, low_total = 0, high_total = 0;
-            double low = 0, high = 0;
-            int low_row = 0, high_row = 0;
-            for (int r = 1; r <= grid; r++) {
-                total += counts[(size_t)b * m + (size_t)r - 1] - counts[(size_t)a * m + (size_t)r - 1];
-                const double f = (double)total / n - (double)(b - a) * r * cell_area;
-                keep(out, f - low, total - low_total, (int[]){a, low_row, b, r}, grid);
-                keep(out, high - f, total - high_total, (int[]){a, high_row, b, r}, grid);
-                if (f < low) {
-                    low = f;
-                    low_row = r;
-                    low_total = total;
-                }
-                if (f > high) {
-                    high = f;
-                    high_row = r;
-                    high_total = total;
-                }
-            }
+            best_of_columns(counts, grid, n, a, b, out);
         }
+        stopped = !koksma__keep_going(run, (double)(a + 1) / grid);
     }
     free(counts);
-    return KOKSMA_OK;
+    return stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }

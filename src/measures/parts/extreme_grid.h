@@ -4,7 +4,8 @@
 
 #include <koksma/koksma.h>
 
-/* The largest |#/n - area| over half-open boxes with sides at multiples of 1/grid; 2D only. O(n + grid^3). */
-koksma_status koksma__extreme_grid(const koksma_points *points, int grid, koksma_value *out);
+/* The largest |#/n - area| over half-open boxes with sides at multiples of 1/grid; 2D only. O(n + grid^3). Errors:
+   DIM, MEMORY, INTERRUPTED. */
+koksma_status koksma__extreme_grid(const koksma_points *points, int grid, const koksma_run *run, koksma_value *out);
 
 #endif

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "measures/parts/clock.h"
 
 enum { MAX_N_3D = 128 };
 
@@ -20,7 +21,8 @@ typedef struct search {
     size_t n_levels[3];
     double lo[3], hi[3];
     const koksma_run *run;
-    bool stopped;
+    double deadline_s;
+    bool stopped, late;
     koksma_value *out;
 } search;
 
@@ -110,11 +112,12 @@ static void choose(search *s, int k, size_t count, double width, bool closed)
     const size_t dim = (size_t)s->dim;
     const double *from = s->lists[k];
     double *to = s->lists[k - 1];
-    for (size_t a = 0; a < s->n_levels[k] && !s->stopped; a++) {
-        if (k == s->dim - 1 && !koksma__keep_going(s->run, (double)a / (double)s->n_levels[k])) {
-            s->stopped = true;
-        }
-        for (size_t b = closed ? a : a + 1; b < s->n_levels[k]; b++) {
+    for (size_t a = 0; a < s->n_levels[k] && !s->stopped && !s->late; a++) {
+        for (size_t b = closed ? a : a + 1; b < s->n_levels[k] && !s->stopped && !s->late; b++) {
+            if (k == s->dim - 1) {
+                s->stopped = !koksma__keep_going(s->run, (double)a / (double)s->n_levels[k]);
+                s->late = koksma__now_s() > s->deadline_s;
+            }
             const double lo = s->levels[k][a], hi = s->levels[k][b];
             size_t left = 0;
             for (size_t i = 0; i < count; i++) {
@@ -159,7 +162,10 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     if (dim == 3 && n > MAX_N_3D) {
         return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
     }
-    search s = {.n = n, .dim = points->dim, .run = run, .out = out};
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
+    }
+    search s = {.n = n, .dim = points->dim, .run = run, .deadline_s = koksma__deadline_s(run, 0.95), .out = out};
     const size_t bytes = dim * (n * dim + n + 2) * sizeof(double);
     double *memory = malloc(bytes);
     if (!memory) {
@@ -172,10 +178,19 @@ koksma_status koksma__extreme_small(const koksma_points *points, const koksma_ru
     memcpy(s.lists[dim - 1], points->xs, n * dim * sizeof(double));
     qsort(s.lists[dim - 1], n, dim * sizeof(double), compare_first);
     out->value = -1;
+    for (size_t k = 0; k < dim; k++) {
+        s.hi[k] = 1;
+    }
+    keep(&s, 0, true, n, 1); /* the whole cube, to have a box in any case */
     for (int closed = 0; closed < 2; closed++) {
         fill_levels(&s, closed);
         choose(&s, points->dim - 1, n, 1, closed);
     }
     free(memory);
+    if (s.late) { /* of what was not looked at nothing is known */
+        out->exact = false;
+        out->lower = out->value;
+        out->upper = 1;
+    }
     return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }

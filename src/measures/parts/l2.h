@@ -36,6 +36,7 @@ typedef struct koksma__l2_row {
     double a24[4]; /* 24 a(u) = a24[0] + a24[1] z + a24[2] z^2 + a24[3] |z| */
     double g[4];   /* g(z) likewise */
     double q, r;
+    const char *name; /* for errors */
 } koksma__l2_row;
 
 enum { KOKSMA__L2_DIVIDE_DIM = 4 };
@@ -50,9 +51,13 @@ koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 10
 koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
 
 /* The value and its square into out: O(n log n) for d <= 2 and n not small, O(n log^(d-1) n)
-   for d = 3 and 4 and n large, else O(n^2 d).
-   Errors: MEMORY, INTERRUPTED. */
+   for d = 3 and 4 and n large, else O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
+
+/* The value by pairs, right also where terms of the square, or the square (which then is NaN), are beyond the range
+   of doubles. DIM: so is the value. */
+koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                        koksma_value *out);
 
 /* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
    coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.

@@ -7,6 +7,12 @@
 
 const char *const koksma__line_laws[] = {"isotropic", "mitchell", NULL};
 
+/* The triangle that a line cuts off at c/a and c/b from a corner. */
+static double triangle(double a, double b, double c)
+{
+    return a * b > 0x1p-900 ? c * c / (2 * a * b) : c / a * (c / b) / 2;
+}
+
 /* a, b >= 0 with a >= b, 0 <= c <= a + b */
 static double corner_area(double a, double b, double c)
 {
@@ -14,9 +20,9 @@ static double corner_area(double a, double b, double c)
         return 0;
     }
     if (c <= b) {
-        return c * c / (2 * a * b);
+        return triangle(a, b, c);
     }
-    return c <= a ? (c - b / 2) / a : c < a + b ? 1 - (a + b - c) * (a + b - c) / (2 * a * b) : 1;
+    return c <= a ? (c - b / 2) / a : c < a + b ? 1 - triangle(a, b, a + b - c) : 1;
 }
 
 static double positive_area(double a, double b, double c)
@@ -31,6 +37,10 @@ double koksma__area_below(double a, double b, double c)
 
 double koksma__area_below_through(double a, double b, const double p[2])
 {
+    if (fabs(a) < 0x1p-400 && fabs(b) < 0x1p-400) { /* the products below would lose digits */
+        a *= 0x1p600;
+        b *= 0x1p600;
+    }
     const double x = a < 0 ? 1 - p[0] : p[0], y = b < 0 ? 1 - p[1] : p[1];
     return positive_area(fabs(a), fabs(b), fabs(a) * x + fabs(b) * y);
 }

@@ -7,6 +7,7 @@
 
 #include <koksma/spectrum.h>
 
+#include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
 
@@ -56,54 +57,87 @@ static double distance2(const double *a, const double *b, bool torus)
     return dx * dx + dy * dy;
 }
 
-/* Points of cell c with those of cell d that come later. */
-static void pairs_of_cells(const grid *g, size_t c, size_t d, double r2, bool torus,
-                           void (*f)(void *context, double distance2), void *context)
+enum { PAIRS_PER_QUESTION = 1 << 16 };
+
+typedef struct visit {
+    const grid *g;
+    double r2;
+    bool torus;
+    const koksma_run *run;
+    koksma__near_pair_function f;
+    void *context;
+    size_t unasked; /* pairs since run was asked whether to go on */
+    bool stopped;   /* by run */
+} visit;
+
+/* Points of cell c with those of cell d that come later; false: no more are wanted. */
+static bool pairs_of_cells(visit *v, size_t c, size_t d)
 {
+    const grid *g = v->g;
     for (size_t i = g->first[c]; i < g->first[c + 1]; i++) {
         for (size_t j = d == c ? i + 1 : g->first[d]; j < g->first[d + 1]; j++) {
-            const double d2 = distance2(g->xs + 2 * i, g->xs + 2 * j, torus);
-            if (d2 < r2) {
-                f(context, d2);
+            const double d2 = distance2(g->xs + 2 * i, g->xs + 2 * j, v->torus);
+            if (d2 < v->r2 && !v->f(v->context, d2)) {
+                return false;
+            }
+        }
+        v->unasked += 1 + g->first[d + 1] - g->first[d];
+        if (v->unasked > PAIRS_PER_QUESTION) {
+            v->unasked = 0;
+            v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->m * g->m));
+            if (v->stopped) {
+                return false;
             }
         }
     }
+    return true;
 }
 
-koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus,
-                                 void (*f)(void *context, double distance2), void *context)
+/* Points of cell c with those of the neighbours, each once, that do not come before. */
+static bool pairs_of_cell(visit *v, size_t c)
+{
+    const size_t m = v->g->m;
+    size_t seen[9], n_seen = 0;
+    bool wanted = true;
+    for (int k = 0; k < 9 && wanted; k++) {
+        const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
+        const size_t d = y * m + x;
+        bool is_new = d >= c;
+        for (size_t i = 0; i < n_seen; i++) {
+            is_new = is_new && seen[i] != d;
+        }
+        if (is_new) {
+            seen[n_seen++] = d;
+            wanted = pairs_of_cells(v, c, d);
+        }
+    }
+    return wanted;
+}
+
+koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
+                                 koksma__near_pair_function f, void *context)
 {
     grid g;
     const koksma_status status = open_grid(points, r, &g);
-    const size_t m = status ? 0 : g.m;
-    for (size_t c = 0; c < m * m; c++) {
-        size_t seen[9], n_seen = 0;
-        for (int k = 0; k < 9; k++) { /* the neighbours, each once, that do not come before */
-            const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
-            const size_t d = y * m + x;
-            bool new = d >= c;
-            for (size_t i = 0; i < n_seen; i++) {
-                new = new &&seen[i] != d;
-            }
-            if (new) {
-                seen[n_seen++] = d;
-                pairs_of_cells(&g, c, d, r * r, torus, f, context);
-            }
-        }
+    if (status) {
+        return status;
     }
-    if (!status) {
-        free(g.first);
+    visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = f, .context = context};
+    for (size_t c = 0; c < g.m * g.m && pairs_of_cell(&v, c); c++) {
     }
-    return status;
+    free(g.first);
+    return v.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
-static void keep_least(void *context, double d2)
+/* No distance is below 0. */
+static bool keep_least(void *context, double d2)
 {
     double *least = context;
     *least = d2 < *least ? d2 : *least;
+    return *least > 0;
 }
 
-koksma_status koksma__min_distance(const koksma_points *points, bool torus, double *distance)
+koksma_status koksma__min_distance(const koksma_points *points, bool torus, const koksma_run *run, double *distance)
 {
     double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
     koksma_status status = KOKSMA_OK;
@@ -115,7 +149,7 @@ koksma_status koksma__min_distance(const koksma_points *points, bool torus, doub
         }
     } else {
         r = torus ? r : fmin(1.5 * r, 0.5);
-        status = koksma__near_pairs(points, r, torus, keep_least, &least);
+        status = koksma__near_pairs(points, r, torus, run, keep_least, &least);
     }
     *distance = sqrt(least);
     return status;
@@ -127,11 +161,12 @@ typedef struct histogram {
     double *counts;
 } histogram;
 
-static void count_pair(void *context, double d2)
+static bool count_pair(void *context, double d2)
 {
     const histogram *h = context;
     const size_t bin = (size_t)(sqrt(d2) * h->scale);
     h->counts[bin < h->bins ? bin : h->bins - 1] += 1;
+    return true;
 }
 
 koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, double *values)
@@ -149,11 +184,11 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     }
     histogram h = {(double)bins / r_max, bins, values};
     memset(values, 0, bins * sizeof *values);
-    const koksma_status status = koksma__near_pairs(points, r_max, true, count_pair, &h);
+    const koksma_status status = koksma__near_pairs(points, r_max, true, NULL, count_pair, &h);
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {
         const double share = M_PI * width * width * (2 * (double)b + 1);
-        values[b] = pairs > 0 ? values[b] / (pairs * share) : 0;
+        values[b] = pairs > 0 ? values[b] / (pairs * share) : (double)NAN;
     }
     return status;
 }

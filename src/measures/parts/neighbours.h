@@ -5,12 +5,15 @@
 
 #include <koksma/koksma.h>
 
-/* Calls f for every pair i < j at a distance below r <= 1/2, with the squared distance; on the unit torus or in the
-   plane. Errors: MEMORY. */
-koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus,
-                                 void (*f)(void *context, double distance2), void *context);
+/* Of a pair at this squared distance; false: no more pairs are wanted. */
+typedef bool (*koksma__near_pair_function)(void *context, double distance2);
 
-/* The smallest distance between two points; infinite for one point. Errors: MEMORY. */
-koksma_status koksma__min_distance(const koksma_points *points, bool torus, double *distance);
+/* Calls f for every pair i < j at a distance below r <= 1/2, on the unit torus or in the plane, as long as it wants
+   more. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
+                                 koksma__near_pair_function f, void *context);
+
+/* The smallest distance between two points; infinite for one point. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__min_distance(const koksma_points *points, bool torus, const koksma_run *run, double *distance);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* After Shewchuk 1997: in doubles with an error bound first; where that does not decide, the 16 exact products of the
-   exact differences are summed as an expansion, whose largest part has the sign. */
+   exact differences are summed as an expansion, whose largest part has the sign. That is done with the numbers times
+   a power of two, so that no part of a product is below the range of doubles. */
 #include "measures/parts/orientation.h"
 
 #include <math.h>
@@ -39,13 +40,22 @@ static void grow_product(double *parts, int *count, koksma__dd a, koksma__dd b, 
 int koksma__sign_of_cross(const double a[2], const double b[2], const double c[2], const double d[2])
 {
     const double left = (a[0] - a[1]) * (b[0] - b[1]), right = (c[0] - c[1]) * (d[0] - d[1]);
-    const double det = left - right, bound = 4.5e-16 * (fabs(left) + fabs(right));
-    if (det > bound || det < -bound) {
+    const double det = left - right, terms = fabs(left) + fabs(right), bound = 4.5e-16 * terms;
+    if (terms > 1e-290 && (det > bound || det < -bound)) {
         return det > 0 ? 1 : -1;
     }
-    double parts[PARTS];
+    const double *const pairs[4] = {a, b, c, d};
+    koksma__dd exact[4];
+    double most = 0, parts[PARTS];
     int count = 0;
-    grow_product(parts, &count, koksma__dd_sum(a[0], -a[1]), koksma__dd_sum(b[0], -b[1]), 1);
-    grow_product(parts, &count, koksma__dd_sum(c[0], -c[1]), koksma__dd_sum(d[0], -d[1]), -1);
+    for (int i = 0; i < 8; i++) {
+        most = fmax(most, fabs(pairs[i / 2][i % 2]));
+    }
+    const double scale = most < 0x1p-300 ? 0x1p600 : 0x1p500;
+    for (int i = 0; i < 4; i++) {
+        exact[i] = koksma__dd_sum(pairs[i][0] * scale, -pairs[i][1] * scale);
+    }
+    grow_product(parts, &count, exact[0], exact[1], 1);
+    grow_product(parts, &count, exact[2], exact[3], -1);
     return count == 0 ? 0 : parts[count - 1] > 0 ? 1 : -1;
 }

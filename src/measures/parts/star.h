@@ -7,8 +7,9 @@
 
 enum { KOKSMA__STAR_MAX_DIM = 64 };
 
-/* Two dimensions (one with y = 1): sweep in O(n^2) below the crossover, kinetic tree in about O(n log n) above;
-   n < 2^28. The last form has no crossover: tests compare the two. Errors: MEMORY, INTERRUPTED. */
+/* One dimension by sorting. Two: sweep in O(n^2) below the crossover, kinetic tree in about O(n log n) above; n <
+   2^28. The last form is for two dimensions and has no crossover: tests compare the two. Errors: MEMORY, INTERRUPTED.
+ */
 koksma_status koksma__star_2d(const koksma_points *points, const koksma_run *run, koksma_value *out);
 koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, const koksma_run *run, koksma_value *out);
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The star discrepancy of the plane: points are swept by x. For ranks j by y, the number of points so far of rank
-   below j is all that an excess (rank <= j) and a deficit (rank < j) at (x, y_j) need. Equal coordinates need no
-   special case: what is evaluated too early is too small, and the right box is visited as well. */
+/* The star discrepancy of the plane and of the line. In the plane points are swept by x. For ranks j by y, the number
+   of points so far of rank below j is all that an excess (rank <= j) and a deficit (rank < j) at (x, y_j) need. Equal
+   coordinates need no special case: what is evaluated too early is too small, and the right box is visited as well.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -86,10 +87,9 @@ static size_t end_of(const preparation *p, size_t block)
 static koksma_status take_ys(void *context, size_t block)
 {
     const preparation *p = context;
-    const size_t dim = (size_t)p->points->dim;
     for (size_t j = block * POINTS_PER_BLOCK; j < end_of(p, block); j++) {
-        const size_t i = dim == 2 ? p->s->order[j] : j;
-        p->s->y[j] = dim == 2 ? p->points->xs[i * dim + 1] : 1;
+        const size_t i = p->s->order[j];
+        p->s->y[j] = p->points->xs[2 * i + 1];
         ((uint32_t *)p->s->count)[i] = (uint32_t)j;
     }
     return KOKSMA_OK;
@@ -99,7 +99,7 @@ static koksma_status take_xs(void *context, size_t block)
 {
     const preparation *p = context;
     for (size_t i = block * POINTS_PER_BLOCK; i < end_of(p, block); i++) {
-        p->s->x[i] = p->points->xs[p->s->order[i] * (size_t)p->points->dim];
+        p->s->x[i] = p->points->xs[2 * (size_t)p->s->order[i]];
         p->s->rank[i] = ((uint32_t *)p->s->count)[p->s->order[i]];
     }
     return KOKSMA_OK;
@@ -107,12 +107,12 @@ static koksma_status take_xs(void *context, size_t block)
 
 static koksma_status prepare(const koksma_points *points, const koksma_run *run, sweep *s)
 {
-    const size_t n = points->n, dim = (size_t)points->dim, n_blocks = (n + POINTS_PER_BLOCK - 1) / POINTS_PER_BLOCK;
+    const size_t n = points->n, n_blocks = (n + POINTS_PER_BLOCK - 1) / POINTS_PER_BLOCK;
     preparation p = {points, s};
-    koksma_status status = dim == 2 ? koksma__order(run, n, points->xs + 1, dim, s->order) : KOKSMA_OK;
+    koksma_status status = koksma__order(run, n, points->xs + 1, 2, s->order);
     status = status ? status : koksma__parallel(run, n_blocks, take_ys, &p);
     s->y[n] = 1;
-    status = status ? status : koksma__order(run, n, points->xs, dim, s->order);
+    status = status ? status : koksma__order(run, n, points->xs, 2, s->order);
     return status ? status : koksma__parallel(run, n_blocks, take_xs, &p);
 }
 
@@ -142,10 +142,40 @@ koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, cons
     return status;
 }
 
+/* On the line, with x_0 <= x_1 <= ..: the best excess is max (i + 1)/n - x_i, the best deficit max x_i - i/n, and 0
+   at x = 1 (Niederreiter 1992, theorem 2.6). Of equal points the last and the first count, whose values are larger.
+ */
+static koksma_status star_line(const koksma_points *points, const koksma_run *run, koksma_value *out)
+{
+    const size_t n = points->n;
+    uint32_t *order = malloc(n * sizeof *order);
+    if (!order) {
+        return koksma__fail_memory(n * sizeof *order);
+    }
+    const koksma_status status = koksma__order(run, n, points->xs, 1, order);
+    double best[2] = {-INFINITY, -INFINITY}, ends[2] = {0};
+    for (size_t i = 0; i < n && !status; i++) {
+        const double x = points->xs[order[i]];
+        const double values[2] = {x - (double)i / (double)n, (double)(i + 1) / (double)n - x};
+        for (int closed = 0; closed < 2; closed++) {
+            if (values[closed] > best[closed]) {
+                best[closed] = values[closed];
+                ends[closed] = x;
+            }
+        }
+    }
+    for (int closed = 0; closed < 2 && !status; closed++) {
+        koksma__star_keep(points, &ends[closed], closed, out);
+    }
+    free(order);
+    return status;
+}
+
 koksma_status koksma__star_2d(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     if (!koksma__keep_going(run, 0)) {
         return koksma__fail_interrupted();
     }
-    return koksma__star_2d_by(points->n > CROSSOVER, points, run, out);
+    return points->dim == 1 ? star_line(points, run, out)
+                            : koksma__star_2d_by(points->n > CROSSOVER, points, run, out);
 }

@@ -189,6 +189,13 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         }
         w.levels[k * (n + 1) + n] = 1;
     }
+    if (!status) { /* the whole cube, to have a box in any case */
+        double ones[KOKSMA__STAR_MAX_DIM];
+        for (size_t k = 0; k < dim; k++) {
+            ones[k] = 1;
+        }
+        koksma__star_keep(points, ones, true, out);
+    }
     for (size_t r = 0; r < 2 * restarts && !status && !w.late; r++) {
         w.lane = (uint32_t)r;
         w.index = 0;

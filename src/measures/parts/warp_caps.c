@@ -74,7 +74,7 @@ koksma_status koksma__warp_caps(size_t n, const double *xs, bool cosine, const k
             koksma__sum_add(&total, -koksma__sum_value(&r.pairs[b]) / count / count);
         }
         koksma__sum_add(&total, -koksma__cap_constant(cosine) / 2);
-        out->square = fmax(koksma__sum_value(&total) / 4, 0);
+        out->square = koksma__not_below_0(koksma__sum_value(&total) / 4);
         out->value = sqrt(out->square);
     }
     free(r.pairs);

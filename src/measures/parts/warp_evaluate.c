@@ -58,7 +58,7 @@ static koksma_status l2_edge(job *j, const koksma_run *run, koksma_value *out)
         koksma__sum_add(&square, koksma__sum_value(&j->sums[2 * block + 1]) / n);
     }
     koksma__sum_add(&square, -koksma__domain_constant(j->kind) / 2);
-    out->square = fmax(koksma__sum_value(&square), 0);
+    out->square = koksma__not_below_0(koksma__sum_value(&square));
     out->value = sqrt(out->square);
     free(j->sums);
     return status;

@@ -105,7 +105,7 @@ static void add_up(const rows *t, size_t n_blocks, koksma_value *out)
     koksma__sum_add(&total, 2 * koksma__sum_value(&pairs) / n / n);
     koksma__sum_add(&total, -2 * koksma__sum_value(&linear) / n);
     koksma__sum_add(&total, in_pieces(square_of_share, &g, 0, 1 + r));
-    out->square = fmax(koksma__sum_value(&total) / (M_PI * (1 + r) * (1 + r)), 0);
+    out->square = koksma__not_below_0(koksma__sum_value(&total) / (M_PI * (1 + r) * (1 + r)));
     out->value = sqrt(out->square);
 }
 

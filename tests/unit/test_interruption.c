@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every measure asks whether to go on, also where the points lie so that one cell or shape holds all the work; and
+   sooner than after a second. */
+#include <string.h>
+#include <time.h>
+
+#include <koksma/spectrum.h>
+
+#include "sets.h"
+
+enum { N = 2048 };
+
+static bool stop_at_once(void *context, double fraction)
+{
+    assert_true(fraction >= 0 && fraction <= 1);
+    ++*(int *)context;
+    return false;
+}
+
+/* A cluster, whose points are in one cell of any grid. */
+static koksma_points cluster(size_t n, int dim)
+{
+    koksma_points p = sets_points(n, dim, 0, 3);
+    for (size_t c = 0; c < n * (size_t)dim; c++) {
+        p.xs[c] = 0.3 + 1e-5 * p.xs[c];
+    }
+    return p;
+}
+
+static void every_measure_asks(void **state)
+{
+    (void)state;
+    for (size_t i = 0; koksma_measure_at(i); i++) {
+        const koksma_measure *m = koksma_measure_at(i);
+        const int last = m->max_dim < 4 ? m->max_dim : 4;
+        for (int dim = m->min_dim; dim <= last; dim++) {
+            koksma_points p = cluster(!strcmp(m->name, "extreme") && dim > 2 ? 64 : N, dim);
+            koksma_spec spec;
+            koksma_value v;
+            int asked = 0;
+            assert_ok(koksma_measure_spec(m->name, &spec));
+            const koksma_run run = {.threads = 1, .keep_going = stop_at_once, .context = &asked};
+            const koksma_status status = koksma_evaluate(&spec, &p, &run, &v);
+            if (status != KOKSMA_INTERRUPTED || asked == 0) {
+                fail_msg("%s in %d dimensions: status %d, asked %d times", m->name, dim, (int)status, asked);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+}
+
+/* Asks for the processor time that has passed since it was asked last. */
+typedef struct watch {
+    clock_t last;
+    double longest_s;
+    int asked;
+} watch;
+
+static bool look(void *context, double fraction)
+{
+    watch *w = context;
+    (void)fraction;
+    const clock_t now = clock();
+    w->longest_s = fmax(w->longest_s, w->asked++ ? (double)(now - w->last) / CLOCKS_PER_SEC : 0);
+    w->last = now;
+    return w->asked < 20;
+}
+
+/* Measures that would take seconds to minutes, told to stop at the 20th question. */
+static void questions_are_near(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *measure;
+        size_t n;
+        int dim;
+    } cases[] = {{"t-value", 4096, 12},         {"min-distance", 200000, 2}, {"relative-radius:torus=0", 200000, 2},
+                 {"extreme:grid=1024", 100, 2}, {"extreme", 128, 3},         {"star-lower:steps=1000000", 2000, 5}};
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        const bool net = !strcmp(cases[c].measure, "t-value");
+        koksma_points p = net ? test_points("sobol", cases[c].n, cases[c].dim, 0) : cluster(cases[c].n, cases[c].dim);
+        koksma_spec spec;
+        koksma_value v;
+        watch w = {.asked = 0};
+        assert_ok(koksma_measure_spec(cases[c].measure, &spec));
+        const koksma_run run = {.threads = 1, .keep_going = look, .context = &w};
+        assert_int_equal(koksma_evaluate(&spec, &p, &run, &v), KOKSMA_INTERRUPTED);
+        assert_true(w.asked == 20 && w.longest_s < 1);
+        koksma_points_fini(&p);
+    }
+    koksma_points p = test_points("random", 20000, 2, 1);
+    koksma_spectrum s;
+    watch w = {.asked = 0};
+    assert_ok(koksma_spectrum_init(&s, 280));
+    const koksma_run run = {.threads = 1, .keep_going = look, .context = &w};
+    assert_int_equal(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_EXACT, &run), KOKSMA_INTERRUPTED);
+    assert_true(w.longest_s < 1);
+    koksma_spectrum_fini(&s);
+    koksma_points_fini(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_measure_asks),
+        cmocka_unit_test(questions_are_near),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
