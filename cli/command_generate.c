@@ -74,8 +74,9 @@ const cli_command cli_command_generate = {
     .synopsis = "PATTERN -n N [-d DIM] [-s S] [-o FILE]",
     .details =
         "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
-        "Equal arguments give equal bits, on any number of threads. Poisson disks, best candidates and eliminated\n"
-        "samples take one: each point depends on those before it.",
+        "Equal arguments give equal bits, on any number of threads. Poisson disks, best candidates, eliminated\n"
+        "samples, pmj02bn and scan-time take one, for each point depends on those before it; so do uniform-jittered\n"
+        "and most of orthogonal-array.",
     .options = options,
     .run = run,
 };

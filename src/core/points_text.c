@@ -303,9 +303,12 @@ void koksma__points_write_text(FILE *stream, const koksma_points *points, const 
 {
     fprintf(stream, "# koksma %s\n", koksma_version());
     while (comment && *comment) {
-        const int length = (int)strcspn(comment, "\n");
-        fprintf(stream, "# %.*s\n", length, comment);
-        comment += length + (comment[length] == '\n');
+        fputs("# ", stream);
+        for (; *comment && *comment != '\n'; comment++) { /* a reader takes control characters for another format */
+            putc((unsigned char)*comment >= 0x20 ? *comment : '?', stream);
+        }
+        putc('\n', stream);
+        comment += *comment == '\n';
     }
     fprintf(stream, "# n %zu\n# dim %d\n", points->n, points->dim);
     write_rows(stream, points, ' ');
