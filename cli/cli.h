@@ -13,9 +13,9 @@ enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2 };
 typedef struct cli_option {
     char letter;      /* 0: none */
     const char *name; /* tables end at a NULL name */
-    const char
-        *argument; /* NULL: a flag. Its choices, "csv|json|npy", or a noun; "MEASURE,.." is a list. What ends in
-                      "..." may be given again: lines of one text. Completions know the nouns by their names */
+    /* NULL: a flag. Its choices, "csv|json|npy", or a noun; "MEASURE,.." is a list. What ends in "..." may be given
+       again: lines of one text. Completions know the nouns by their names. */
+    const char *argument;
     const char *help;
 } cli_option;
 
@@ -93,6 +93,9 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 void cli_work_end(cli_work *work); /* clears the progress line */
 bool cli_interrupted(void);
+
+/* Says that a study in this folder can go on; NULL: one of several ranks, of which another says it. The exit code. */
+int cli_study_interrupted(const cli_arguments *arguments, const char *folder);
 
 /* ---- Rows: aligned text, or a JSON object a line ------------------------------------------------------- */
 

@@ -100,12 +100,7 @@ static int run(const cli_arguments *arguments)
     const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : 0;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {
-        if (folder) {
-            fprintf(stderr,
-                    "koksma reproduce: interrupted; what is done is kept in %s, and the same command goes on there\n",
-                    folder);
-        }
-        return koksma_status_exit_code(status);
+        return cli_study_interrupted(arguments, folder);
     }
     if (failed) {
         return failed;

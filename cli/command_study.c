@@ -64,15 +64,6 @@ static int new_plan(const cli_arguments *arguments)
 
 /* ---- run ----------------------------------------------------------------------------------------------- */
 
-static int say_interrupted(const cli_arguments *arguments, koksma_status status, const char *folder)
-{
-    if (folder) { /* one rank of several says it */
-        fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
-                arguments->command->name, folder);
-    }
-    return koksma_status_exit_code(status);
-}
-
 static double percent(double part, double of)
 {
     return of > 0 ? 100 * part / of : 0;
@@ -95,7 +86,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     if (status == KOKSMA_INTERRUPTED) {
-        return say_interrupted(arguments, status, options->folder);
+        return cli_study_interrupted(arguments, options->folder);
     }
     if (status) {
         return cli_fail(arguments, status);

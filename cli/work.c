@@ -22,6 +22,15 @@ bool cli_interrupted(void)
     return interrupted != 0;
 }
 
+int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
+{
+    if (folder) {
+        fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
+                arguments->command->name, folder);
+    }
+    return koksma_status_exit_code(KOKSMA_INTERRUPTED);
+}
+
 static double now_s(void)
 {
     struct timespec t;

@@ -22,13 +22,20 @@ extern "C" {
    latin
        subject: a coordinate: one point in each of n strata. value: empty strata
    distance-square, distance-torus
-       value: the smallest distance; detail: as a fraction of the densest packing's (squares of 30
-   points or fewer exactly, else of an upper bound, which on the torus many points in 2D come near). Holds when above
-   0 repeated value: points that are equal to another. Holds when 0 origin-repeated value: points at the origin. Holds
-   when at most 1 origin-missing value: points at the origin. Holds unless all points lie on a grid of 2^-m with 2^m >
-   n, as an unscrambled sequence does, and none is the origin rounds-to-one value: coordinates that become 1 as a
-   float. Holds when 0 progressive value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of
-   as many random points (root mean square). Holds when at most 2 */
+       value: the smallest distance; detail: as a fraction of the densest packing's (exact for squares of 30 points
+       or fewer, else of an upper bound, which many points on the torus in 2D come near). Holds when above 0
+   repeated
+       value: points that are equal to another. Holds when 0
+   origin-repeated
+       value: points at the origin. Holds when at most 1
+   origin-missing
+       value: points at the origin. Holds unless all points lie on a grid of 2^-m with 2^m > n, as an unscrambled
+       sequence does, and none is the origin
+   rounds-to-one
+       value: coordinates that become 1 as a float. Holds when 0
+   progressive
+       value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of as many random points (root
+       mean square). Holds when at most 2 */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];
