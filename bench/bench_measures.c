@@ -123,7 +123,7 @@ static void time_curves(void)
             if (method < 2) {
                 koksma_spectrum_add(&spectrum, &points, (koksma_spectrum_method)method, &one_thread);
             } else {
-                koksma_pair_correlation(&points, 0.1, 200, values);
+                koksma_pair_correlation(&points, 0.1, 200, NULL, values);
             }
             times[method][i] = now_ms() - start;
             koksma_spectrum_fini(&spectrum);

@@ -20,7 +20,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, uin
             !koksma_smallest_distance(points, true, run, &distance)) {
             snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
         }
-        status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment);
+        status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment, run);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }

@@ -72,7 +72,7 @@ static koksma_status add_pairs(cli_curves *c, const koksma_points *points, void 
     if (!(s->r_max > 0)) {
         s->r_max = fmin(4 / sqrt((double)points->n), 0.5);
     }
-    const koksma_status status = koksma_pair_correlation(points, s->r_max, c->bins, s->values);
+    const koksma_status status = koksma_pair_correlation(points, s->r_max, c->bins, &c->work.run, s->values);
     for (uint64_t b = 0; b < c->bins && !status; b++) {
         koksma_tally_add(&s->tallies[b], s->values[b]);
     }

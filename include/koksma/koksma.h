@@ -69,6 +69,17 @@ KOKSMA_API const char *koksma_instruction_set(void);
 /* The library's version, equal to KOKSMA_VERSION of the header it was built with. */
 KOKSMA_API const char *koksma_version(void);
 
+/* ---- Long calls --------------------------------------------------------------------------------------- */
+
+/* How to run a call that may be long. NULL wherever it is taken means: all threads, no limit, no questions. */
+typedef struct koksma_run {
+    int threads;         /* 0: as many as there are processors */
+    double time_limit_s; /* 0: none. A measure that is cut short gives bounds, and says so */
+    bool (*keep_going)(void *context, double fraction_done); /* may be NULL; false stops: INTERRUPTED.
+                                                                 Called from the calling thread only */
+    void *context;
+} koksma_run;
+
 /* ---- Points ------------------------------------------------------------------------------------------- */
 
 /* n points of dim coordinates; point i is xs[i*dim] .. xs[i*dim + dim-1]. Generators give coordinates in [0,1);
@@ -99,8 +110,10 @@ KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *poi
 
 /* Writes by the ending of the path: .csv, .npy, anything else text; "-" is text on standard output. Files are
    written whole or not at all. comment (may be NULL) becomes `# ` lines of text files. Numbers are %.17g: they
-   read back to the same bits. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, IO. */
-KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment);
+   read back to the same bits. One thread; run (may be NULL) is asked whether to go on. Errors: ARGUMENT (no points, a
+   coordinate outside [0,1]), DIM, IO, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
+                                             const koksma_run *run);
 
 /* ---- Parameters and specs ----------------------------------------------------------------------------- */
 
@@ -113,15 +126,6 @@ typedef struct koksma_param {
 } koksma_param;
 
 enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_SPEC = 512 };
-
-/* How to run a call that may be long. NULL wherever it is taken means: all threads, no limit, no questions. */
-typedef struct koksma_run {
-    int threads;         /* 0: as many as there are processors */
-    double time_limit_s; /* 0: none. A measure that is cut short gives bounds, and says so */
-    bool (*keep_going)(void *context, double fraction_done); /* may be NULL; false stops: INTERRUPTED.
-                                                                 Called from the calling thread only */
-    void *context;
-} koksma_run;
 
 /* What a table member's function gets beside its points: its parameters in table order, and how to run. */
 typedef struct koksma_args {

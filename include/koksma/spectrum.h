@@ -77,9 +77,10 @@ KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_
 
 /* Pair correlation on the unit torus: values[b] = the density of pairs at distances b .. b+1 (times r_max/bins) over
    that of random points, n(n-1)/2 pairs in the ring's share of the area; NaN for n = 1. r_max <= 1/2. Cell lists:
-   O(n (1 + n r_max^2)). Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]), MEMORY. */
+   O(n (1 + n r_max^2)); run may be NULL. Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]),
+   INTERRUPTED, MEMORY. */
 KOKSMA_API koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins,
-                                                 double *values);
+                                                 const koksma_run *run, double *values);
 
 #ifdef __cplusplus
 }

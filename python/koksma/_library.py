@@ -96,7 +96,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
     _declare(library, None, "koksma_points_fini", points)
     _declare(library, c_int, "koksma_points_read", c_char_p, points)
-    _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p)
+    _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p, run)
     _declare(library, c_int, "koksma_evaluate", spec, points, run, POINTER(s.Value))
     _declare(library, c_void_p, "koksma_warp_find", c_char_p)
     _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))

@@ -214,7 +214,7 @@ def write(path: Union[str, "os.PathLike[str]"], points: npt.ArrayLike, comment: 
     array = as_points(points)
     c_points = view(array)
     raw = None if comment is None else without_zero("a comment", comment.encode())
-    check(core().koksma_points_write(text(os.fspath(path)), byref(c_points), raw))
+    call(core().koksma_points_write, text(os.fspath(path)), byref(c_points), raw, run_at=3)
 
 
 def is_sequence(pattern: str) -> bool:

@@ -39,25 +39,28 @@ static bool ends_with(const char *text, const char *end)
     return n >= m && !strcmp(text + n - m, end);
 }
 
-koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment)
+koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
+                                  const koksma_run *run)
 {
     const koksma_status status = koksma__points_check(points);
-    return status ? status : koksma__numbers_write(path, points, comment);
+    return status ? status : koksma__numbers_write(path, points, comment, run);
 }
 
-koksma_status koksma__numbers_write(const char *path, const koksma_points *points, const char *comment)
+koksma_status koksma__numbers_write(const char *path, const koksma_points *points, const char *comment,
+                                    const koksma_run *run)
 {
     koksma__atomic_file file;
-    const koksma_status status = koksma__atomic_open(path, &file);
+    koksma_status status = koksma__atomic_open(path, &file);
     if (status) {
         return status;
     }
     if (ends_with(path, ".npy")) {
-        koksma__points_write_npy(file.stream, points);
+        status = koksma__points_write_npy(file.stream, points, run);
     } else if (ends_with(path, ".csv")) {
-        koksma__points_write_csv(file.stream, points);
+        status = koksma__points_write_csv(file.stream, points, run);
     } else {
-        koksma__points_write_text(file.stream, points, comment);
+        status = koksma__points_write_text(file.stream, points, comment, run);
     }
-    return koksma__atomic_close(&file, true);
+    const koksma_status closed = koksma__atomic_close(&file, !status);
+    return status ? status : closed;
 }

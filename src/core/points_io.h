@@ -16,12 +16,15 @@ koksma_status koksma__points_fit(size_t n, int dim);
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
 
 /* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. Writers take
-   any numbers; koksma__numbers_write is koksma_points_write without its check. */
+   any numbers, and stop when run says so (INTERRUPTED) or when the stream has failed, which its closing tells;
+   koksma__numbers_write is koksma_points_write without its check. */
 koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
-koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment);
-void koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment);
-void koksma__points_write_csv(FILE *stream, const koksma_points *points);
-void koksma__points_write_npy(FILE *stream, const koksma_points *points);
+koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment,
+                                    const koksma_run *run);
+koksma_status koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment,
+                                        const koksma_run *run);
+koksma_status koksma__points_write_csv(FILE *stream, const koksma_points *points, const koksma_run *run);
+koksma_status koksma__points_write_npy(FILE *stream, const koksma_points *points, const koksma_run *run);
 
 #endif

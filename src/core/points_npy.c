@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
 
@@ -195,7 +196,7 @@ koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_poi
     return status;
 }
 
-void koksma__points_write_npy(FILE *stream, const koksma_points *points)
+koksma_status koksma__points_write_npy(FILE *stream, const koksma_points *points, const koksma_run *run)
 {
     char header[128];
     const int used = snprintf(header, sizeof header, "{'descr': '<f8', 'fortran_order': False, 'shape': (%zu, %d), }",
@@ -205,13 +206,21 @@ void koksma__points_write_npy(FILE *stream, const koksma_points *points)
         0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, (unsigned char)(length & 255), (unsigned char)(length >> 8)};
     fwrite(start, 1, sizeof start, stream);
     fprintf(stream, "%-*s\n", (int)length - 1, header);
-    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
-        uint64_t bits;
-        unsigned char bytes[8];
-        memcpy(&bits, &points->xs[i], sizeof bits);
-        for (int b = 0; b < 8; b++) {
-            bytes[b] = (unsigned char)(bits >> (8 * b));
+    const size_t count = points->n * (size_t)points->dim;
+    for (size_t i = 0; i < count && !ferror(stream); i += ITEMS_AT_ONCE) {
+        unsigned char bytes[8 * ITEMS_AT_ONCE];
+        const size_t n = count - i < ITEMS_AT_ONCE ? count - i : ITEMS_AT_ONCE;
+        if (!koksma__keep_going(run, (double)i / (double)count)) {
+            return koksma__fail_interrupted();
         }
-        fwrite(bytes, 1, sizeof bytes, stream);
+        for (size_t j = 0; j < n; j++) {
+            uint64_t bits;
+            memcpy(&bits, &points->xs[i + j], sizeof bits);
+            for (int b = 0; b < 8; b++) {
+                bytes[8 * j + (size_t)b] = (unsigned char)(bits >> (8 * b));
+            }
+        }
+        fwrite(bytes, 8, n, stream);
     }
+    return KOKSMA_OK;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
 
@@ -289,17 +290,22 @@ koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_po
     return status;
 }
 
-static void write_rows(FILE *stream, const koksma_points *points, char separator)
+static koksma_status write_rows(FILE *stream, const koksma_points *points, char separator, const koksma_run *run)
 {
-    for (size_t i = 0; i < points->n; i++) {
+    for (size_t i = 0; i < points->n && !ferror(stream); i++) {
+        if (i % 256 == 0 && !koksma__keep_going(run, (double)i / (double)points->n)) {
+            return koksma__fail_interrupted();
+        }
         for (int k = 0; k < points->dim; k++) {
             koksma__fprintf(stream, "%.17g%c", points->xs[i * (size_t)points->dim + (size_t)k],
                             k + 1 < points->dim ? separator : '\n');
         }
     }
+    return KOKSMA_OK;
 }
 
-void koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment)
+koksma_status koksma__points_write_text(FILE *stream, const koksma_points *points, const char *comment,
+                                        const koksma_run *run)
 {
     fprintf(stream, "# koksma %s\n", koksma_version());
     while (comment && *comment) {
@@ -311,13 +317,13 @@ void koksma__points_write_text(FILE *stream, const koksma_points *points, const 
         comment += *comment == '\n';
     }
     fprintf(stream, "# n %zu\n# dim %d\n", points->n, points->dim);
-    write_rows(stream, points, ' ');
+    return write_rows(stream, points, ' ', run);
 }
 
-void koksma__points_write_csv(FILE *stream, const koksma_points *points)
+koksma_status koksma__points_write_csv(FILE *stream, const koksma_points *points, const koksma_run *run)
 {
     for (int k = 0; k < points->dim; k++) {
         fprintf(stream, "x%d%c", k, k + 1 < points->dim ? ',' : '\n');
     }
-    write_rows(stream, points, ',');
+    return write_rows(stream, points, ',', run);
 }

@@ -108,6 +108,9 @@ koksma_status koksma__params_parse(const char *owner, const koksma_param *params
 
 static koksma_status split(const char *text, char *name, const char **rest)
 {
+    if (!text) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there is no text of a spec, such as name or name:key=value,key=value");
+    }
     const size_t length = strcspn(text, ":");
     if (length == 0 || length >= 64) {
         return koksma__fail(KOKSMA_ARGUMENT, "'%.64s' is not of the form name or name:key=value,key=value", text);

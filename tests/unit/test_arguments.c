@@ -30,10 +30,10 @@ static void all_refuse(const koksma_points *p, const char *reason)
                                      : call == 3 ? koksma_verify(p, NULL, &findings)
                                      : call == 4 ? koksma_spectrum_add(&spectrum, p, KOKSMA_SPECTRUM_FAST, NULL)
                                      : call == 5 ? koksma_spectrum_add(&spectrum, p, KOKSMA_SPECTRUM_EXACT, NULL)
-                                     : call == 6 ? koksma_pair_correlation(p, 0.25, 3, bins)
+                                     : call == 6 ? koksma_pair_correlation(p, 0.25, 3, NULL, bins)
                                      : call == 7 ? koksma_smallest_distance(p, true, NULL, &distance)
                                      : call == 8 ? koksma_smallest_distance(p, false, NULL, &distance)
-                                                 : koksma_points_write("test_arguments.txt", p, NULL);
+                                                 : koksma_points_write("test_arguments.txt", p, NULL, NULL);
         if (status != KOKSMA_ARGUMENT || !strstr(koksma_error_text(), reason)) {
             fail_msg("call %d: status %d, \"%s\", not %s", call, (int)status, koksma_error_text(), reason);
         }
@@ -115,6 +115,8 @@ static void specs_of_nothing(void **state)
     assert_int_equal(koksma_evaluate(&none, &p, NULL, &value), KOKSMA_ARGUMENT);
     koksma_points_fini(&p);
     assert_int_equal(koksma_generate_whole(&none, 1, NULL, 2, &p), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_pattern_spec(NULL, &none), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_measure_spec(NULL, &none), KOKSMA_ARGUMENT);
     /* A choice that its table has not: the text is of the number. */
     assert_ok(koksma_pattern_spec("sobol:scramble=owen", &sobol));
     int choice = 0;

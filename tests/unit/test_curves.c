@@ -236,7 +236,7 @@ static void distances_equal_all_pairs(void **state)
                 }
             }
         }
-        assert_ok(koksma_pair_correlation(&p, r_max, BINS, values));
+        assert_ok(koksma_pair_correlation(&p, r_max, BINS, NULL, values));
         double total = 0, expected = 0;
         for (int b = 0; b < BINS; b++) {
             if (p.n == 1) { /* there are no pairs */

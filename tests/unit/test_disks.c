@@ -186,7 +186,7 @@ static void files_are_patterns(void **state)
         koksma_spec spec;
         snprintf(path, sizeof path, "test_disks_points.%s", endings[e]);
         snprintf(spec_text, sizeof spec_text, "file:%s", path);
-        assert_ok(koksma_points_write(path, &p, NULL));
+        assert_ok(koksma_points_write(path, &p, NULL, NULL));
         koksma_points some = test_points(spec_text, 12, 3, 7), all;
         assert_memory_equal(some.xs, p.xs, 12 * 3 * sizeof *p.xs);
         koksma_points_fini(&some);
@@ -217,7 +217,7 @@ static void files_are_patterns(void **state)
         koksma_points_fini(&some);
     }
     p.xs[4] = 1;
-    assert_ok(koksma_points_write("test_disks_points.txt", &p, NULL));
+    assert_ok(koksma_points_write("test_disks_points.txt", &p, NULL, NULL));
     koksma_spec spec;
     koksma_points some;
     assert_ok(koksma_pattern_spec("file:test_disks_points.txt", &spec));

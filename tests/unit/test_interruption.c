@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Every measure asks whether to go on, also where the points lie so that one cell or shape holds all the work; and
-   sooner than after a second. */
+   sooner than after a second. A file whose writing is stopped is as it was. */
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <koksma/spectrum.h>
 
@@ -95,7 +98,44 @@ static void questions_are_near(void **state)
     const koksma_run run = {.threads = 1, .keep_going = look, .context = &w};
     assert_int_equal(koksma_spectrum_add(&s, &p, KOKSMA_SPECTRUM_EXACT, &run), KOKSMA_INTERRUPTED);
     assert_true(w.longest_s < 1);
+    double values[10];
+    w = (watch){.asked = 0};
+    assert_int_equal(koksma_pair_correlation(&p, 0.5, 10, &run, values), KOKSMA_INTERRUPTED);
+    assert_true(w.asked == 20 && w.longest_s < 1);
     koksma_spectrum_fini(&s);
+    koksma_points_fini(&p);
+}
+
+static bool stop_at_third(void *context, double fraction)
+{
+    assert_true(fraction >= 0 && fraction < 1);
+    return ++*(int *)context < 3;
+}
+
+static void a_file_that_is_stopped_is_as_before(void **state)
+{
+    (void)state;
+    static const char *const endings[] = {"txt", "csv", "npy"};
+    koksma_points p = test_points("random", 20000, 2, 1), few = test_points("random", 3, 2, 1), back;
+    for (int e = 0; e < 3; e++) {
+        char folder[] = "interruption-XXXXXX", path[sizeof folder + 16];
+        int asked = 0;
+        const koksma_run run = {.keep_going = stop_at_third, .context = &asked};
+        assert_non_null(mkdtemp(folder));
+        snprintf(path, sizeof path, "%s/points.%s", folder, endings[e]);
+        assert_int_equal(koksma_points_write(path, &p, NULL, &run), KOKSMA_INTERRUPTED);
+        assert_int_equal(asked, 3);
+        assert_int_equal(koksma_points_read(path, &back), KOKSMA_MISSING);
+        assert_ok(koksma_points_write(path, &few, NULL, NULL));
+        asked = 0;
+        assert_int_equal(koksma_points_write(path, &p, NULL, &run), KOKSMA_INTERRUPTED);
+        assert_ok(koksma_points_read(path, &back));
+        assert_int_equal(back.n, 3);
+        koksma_points_fini(&back);
+        assert_int_equal(remove(path), 0);
+        assert_int_equal(rmdir(folder), 0); /* nothing else was left in it */
+    }
+    koksma_points_fini(&few);
     koksma_points_fini(&p);
 }
 
@@ -104,6 +144,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_measure_asks),
         cmocka_unit_test(questions_are_near),
+        cmocka_unit_test(a_file_that_is_stopped_is_as_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@ static void make_points(FILE *out)
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         char path[64];
         snprintf(path, sizeof path, "%s/points.%s", test_folder, endings[i]);
-        assert_ok(koksma_points_write(path, &points, NULL));
+        assert_ok(koksma_points_write(path, &points, NULL, NULL));
         test_take_file(out, path);
         assert_ok(koksma_points_read(path, &again));
         assert_true(again.n == 5 && again.dim == 3);

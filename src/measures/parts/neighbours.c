@@ -169,7 +169,8 @@ static bool count_pair(void *context, double d2)
     return true;
 }
 
-koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, double *values)
+koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, const koksma_run *run,
+                                      double *values)
 {
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2", points->dim);
@@ -184,7 +185,7 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     }
     histogram h = {(double)bins / r_max, bins, values};
     memset(values, 0, bins * sizeof *values);
-    const koksma_status status = koksma__near_pairs(points, r_max, true, NULL, count_pair, &h);
+    const koksma_status status = koksma__near_pairs(points, r_max, true, run, count_pair, &h);
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {
         const double share = M_PI * width * width * (2 * (double)b + 1);

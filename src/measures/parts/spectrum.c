@@ -134,7 +134,8 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
         }
     }
     const koksma_points rows = {side, (int)side, grid};
-    const koksma_status written = koksma__numbers_write(path, &rows, "power, rows of ky from below, columns of kx");
+    const koksma_status written =
+        koksma__numbers_write(path, &rows, "power, rows of ky from below, columns of kx", NULL);
     free(grid);
     return written;
 }
