@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include <koksma/plot.h>
 #include <koksma/study.h>
@@ -48,6 +49,10 @@ static int new_plan(const cli_arguments *arguments)
     const char *path = cli_text(arguments, "output", arguments->n_operands > 1 ? arguments->operands[1] : "-");
     if (arguments->n_operands > 2) {
         return cli_usage_error(arguments, "new takes one file, as in new plan.json");
+    }
+    struct stat info;
+    if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* somebody's work */
+        return cli_usage_error(arguments, "%s: it is there already, and new writes over no file", path);
     }
     const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     int length = (int)strcspn(base, ".");
@@ -329,11 +334,11 @@ const cli_command cli_command_study = {
                 "       koksma study report DIR\n"
                 "       koksma study images 'PLACES' --reference FILE [--json]",
     .details =
-        "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, 'estimate' says what\n"
-        "it would cost on one thread. Results go to DIR/results.sqlite as they are made. Stopped in any way and\n"
-        "started again, a run goes on where it was. 'export' writes all rows sorted by their keys: the same\n"
-        "bytes for any number of threads and interruptions. 'images' makes such tables for pictures that another\n"
-        "renderer made: PLACES is a path with {spp}, {trial} and other names in braces.",
+        "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, over no other file,\n"
+        "and 'estimate' says what it would cost on one thread. Results go to DIR/results.sqlite as they are made.\n"
+        "Stopped in any way and started again, a run goes on where it was. 'export' writes all rows sorted by their\n"
+        "keys: the same bytes for any number of threads and interruptions. 'images' makes such tables for pictures\n"
+        "that another renderer made: PLACES is a path with {spp}, {trial} and other names in braces.",
     .options = options,
     .run = run,
 };
