@@ -60,4 +60,16 @@ static inline void sets_print(const koksma_points *points)
     }
 }
 
+/* The power of a set of the plane at a frequency, by its definition. */
+static inline double sets_power(const koksma_points *p, int kx, int ky)
+{
+    long double c = 0, s = 0;
+    for (size_t i = 0; i < p->n; i++) {
+        const long double turns = (long double)kx * p->xs[2 * i] + (long double)ky * p->xs[2 * i + 1];
+        c += cosl(2 * acosl(-1) * turns);
+        s += sinl(2 * acosl(-1) * turns);
+    }
+    return (double)((c * c + s * s) / (long double)p->n);
+}
+
 #endif

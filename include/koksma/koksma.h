@@ -63,7 +63,8 @@ KOKSMA_API const char *koksma_error_text(void);
 
 /* The instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref", the reference
    twins. It is the first of these that the machine has; or the one that KOKSMA_KERNELS names in the environment of
-   the first call that computes, unless it names none that the machine has. Results don't depend on it. */
+   the first call that computes, unless it names none that the machine has. The first three give the same bits; of a
+   few measures "ref" may give other last digits. */
 KOKSMA_API const char *koksma_instruction_set(void);
 
 /* The library's version, equal to KOKSMA_VERSION of the header it was built with. */

@@ -9,17 +9,6 @@
 #include "kernels/kernels.h"
 #include "sets.h"
 
-static double direct_power(const koksma_points *p, int kx, int ky)
-{
-    long double c = 0, s = 0;
-    for (size_t i = 0; i < p->n; i++) {
-        const long double turns = (long double)kx * p->xs[2 * i] + (long double)ky * p->xs[2 * i + 1];
-        c += cosl(2 * acosl(-1) * turns);
-        s += sinl(2 * acosl(-1) * turns);
-    }
-    return (double)((c * c + s * s) / (long double)p->n);
-}
-
 static koksma_spectrum spectrum_of(const koksma_points *p, int half, koksma_spectrum_method method, int threads)
 {
     koksma_spectrum s;
@@ -39,7 +28,7 @@ static void spectra_equal_the_definition(void **state)
         koksma_spectrum fast = spectrum_of(&p, half, KOKSMA_SPECTRUM_FAST, 1);
         for (int kx = -half; kx <= half; kx += 1 + half / 4) {
             for (int ky = -half; ky <= half; ky += 1 + half / 5) {
-                const double power = direct_power(&p, kx, ky), n = (double)p.n;
+                const double power = sets_power(&p, kx, ky), n = (double)p.n;
                 assert_near(koksma_spectrum_power(&exact, kx, ky), power, 1e-12 * n);
                 assert_near(koksma_spectrum_power(&fast, kx, ky), power, 2e-10 * n);
             }
@@ -130,7 +119,7 @@ static void rings_equal_the_definition(void **state)
                     const int norm = kx * kx + ky * ky; /* r - 1/2 <= |k| < r + 1/2 in whole numbers */
                     if (4 * norm >= (2 * r - 1) * (2 * r - 1) && 4 * norm < (2 * r + 1) * (2 * r + 1)) {
                         for (int t = 0; t < SETS; t++) {
-                            powers[t][count] = direct_power(&p[t], kx, ky);
+                            powers[t][count] = sets_power(&p[t], kx, ky);
                         }
                         count++;
                     }
