@@ -91,7 +91,9 @@ static void advise(const koksma_rank_options *options, const koksma_rank_row *ro
     }
     fprintf(stderr, ". %lld trials of %d x %d pixels in %.1f s; the reference's own error is %.1g%s.\n",
             ranking->trials, ranking->width, ranking->height, ranking->seconds, ranking->reference_error,
-            ranking->clear ? "" : "; not every place is settled, more time would tell");
+            ranking->clear       ? ""
+            : ranking->cut_short ? "; not every place is settled, more time would tell"
+                                 : "; not every place is settled, and a ranking takes no more trials");
 }
 
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
@@ -185,9 +187,10 @@ const cli_command cli_command_rank = {
     .summary = "which pattern leaves the least error in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--time-limit S] [--json]",
     .details =
-        "Renders the scene again and again with every pattern until the ranking is clear or the time is up: each\n"
-        "pattern's mean absolute error with its 95 % interval; patterns that can't be told apart share a place.\n"
-        "'behind' is the relative difference to the best, paired by trial. The advice goes to stderr.\n"
+        "Renders the scene again and again with every pattern until the ranking is clear or the time is up, 4,096\n"
+        "times at most: each pattern's mean absolute error with its 95 % interval; patterns that can't be told\n"
+        "apart share a place. 'behind' is the relative difference to the best, paired by trial. The advice goes to\n"
+        "stderr.\n"
         "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
     .options = options,
     .run = run,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -44,13 +45,19 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     if (status) {
         return status;
     }
-    status = koksma_study_run(study, &work->run, summary);
+    const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
+    const bool wanted = options->folder && table && strcmp(table, "none") != 0;
+    if (wanted) { /* a table that there is not is told before hours of work */
+        koksma_study_row row;
+        bool found;
+        status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
+    }
+    status = status ? status : koksma_study_run(study, &work->run, summary);
     cli_work_end(work);
     if (!status && options->folder) {
         status = koksma_study_report(study, &work->run);
     }
-    const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
-    if (!status && options->folder && table && strcmp(table, "none") != 0) {
+    if (!status && wanted) {
         status = put_table(study, table, rows);
     }
     const koksma_status closed = koksma_study_close(study);

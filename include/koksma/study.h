@@ -134,7 +134,7 @@ typedef struct koksma_rank_options {
     int spp;
     int width, height;    /* of the picture; 0: the scene's, halved until a ranking fits into the time limit */
     double time_limit_s;  /* 0: until the ranking is clear, or max_trials */
-    long long max_trials; /* 0: 1024 */
+    long long max_trials; /* at least 8; 0: 4096 */
 } koksma_rank_options;
 
 /* One pattern of a ranking. */
@@ -152,6 +152,7 @@ typedef struct koksma_ranking {
     int width, height;      /* of the picture that was ranked by */
     double reference_error; /* the reference's own mean absolute error */
     bool clear;             /* every neighbours in the ranking are different, or equal to 2 % */
+    bool cut_short;         /* not clear, and the time limit is why: else all max_trials were made */
     double seconds;
 } koksma_ranking;
 

@@ -52,12 +52,10 @@ static koksma_status compare(koksma__grid *g, const side *base, const side *othe
     if (status) {
         return status;
     }
-    const double mean = koksma__summarize(values, n, 1).mean;
-    koksma__summary d = koksma__paired(values + n, values, n, 1);
-    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) {
-        d = koksma__exactly(d.mean);
+    koksma__estimate e = koksma__relative_change(values + n, values, n);
+    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) { /* they don't vary */
+        e.low = e.high = e.value;
     }
-    koksma__estimate e = {d.mean / mean, d.low / mean, d.high / mean};
     koksma__grid_interval(g, e, 3);
     if (!isnan(e.value)) {
         t->cases++;

@@ -3,8 +3,8 @@
  * Which pattern leaves the least error in a scene. Trials come in rounds of 8, 16, 32, …; after each the patterns are
  * ordered by their mean error and neighbours compared, paired by trial. A pair is settled when the interval of its
  * difference excludes 0, or lies within 2 % of the better's mean: equal for all purposes. Looking again and again
- * would make 95 % intervals err too often, so the rounds are judged at 99.5 %: at most ten looks keep the chance of a
- * wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95 %.
+ * would make 95 % intervals err too often, so the rounds are judged at 99.5 %: ten looks, and there are no more, keep
+ * the chance of a wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95 %.
  */
 #include <math.h>
 #include <stdatomic.h>
@@ -24,7 +24,7 @@ static const double EQUAL = 0.02;
 
 /* A reference's error adds in squares to those that are measured: 1/10 of them changes them by 1/200. */
 static const double REFERENCE_SHARE = 0.1;
-enum { FIRST_ROUND = 8, MOST_TRIALS = 1024, REFERENCE_SPP = 1024, LEAST_REPLICATES = 4, MOST_REPLICATES = 64 };
+enum { FIRST_ROUND = 8, MOST_TRIALS = 4096, REFERENCE_SPP = 1024, LEAST_REPLICATES = 4, MOST_REPLICATES = 64 };
 
 typedef struct ranking {
     const koksma_rank_options *options;
@@ -182,18 +182,18 @@ static bool is_clear(const ranking *r, size_t trials, const size_t *order)
         const koksma__summary d = difference(r, order[i + 1], order[i], trials);
         const double half = koksma__student_quantile(0.9975, (double)(trials - 1)) * d.sd / sqrt((double)trials);
         const double mean = koksma__summarize(r->errors + order[i] * r->room, trials, 1).mean;
-        clear &= d.mean - half > 0 || d.mean + half < EQUAL * mean;
+        clear &= d.mean - half > 0 || d.mean + half <= EQUAL * mean;
     }
     return clear;
 }
 
 static void fill_rows(const ranking *r, size_t trials, const size_t *order, koksma_rank_row *rows)
 {
-    const double best = koksma__summarize(r->errors + order[0] * r->room, trials, 1).mean;
     size_t leader = 0;
     for (size_t i = 0; i < r->n; i++) {
         const koksma__summary s = koksma__summarize(r->errors + order[i] * r->room, trials, 1);
-        const koksma__summary d = difference(r, order[i], order[0], trials);
+        const koksma__estimate behind =
+            koksma__relative_change(r->errors + order[i] * r->room, r->errors + order[0] * r->room, trials);
         if (i && difference(r, order[i], order[leader], trials).low > 0) {
             leader = i;
         }
@@ -202,9 +202,9 @@ static void fill_rows(const ranking *r, size_t trials, const size_t *order, koks
                                     .mean = s.mean,
                                     .low = s.low,
                                     .high = s.high,
-                                    .behind = d.mean / best,
-                                    .behind_low = d.low / best,
-                                    .behind_high = d.high / best};
+                                    .behind = behind.value,
+                                    .behind_low = behind.low,
+                                    .behind_high = behind.high};
     }
 }
 
@@ -244,6 +244,7 @@ static koksma_status run_rounds(ranking *r, size_t *order, koksma_ranking *out)
                 order_patterns(r, whole, order);
             }
             trials = whole;
+            out->cut_short = true;
             status = whole > 1 ? KOKSMA_OK : KOKSMA_INTERRUPTED;
             break;
         }

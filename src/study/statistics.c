@@ -41,6 +41,25 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
     return s;
 }
 
+/* The quotient q of the means errs by about the mean of a - q base over the mean of base (Cochran 1977, section 6.3):
+   that base varies, too, is in it. */
+koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
+{
+    const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;
+    const double quotient = mean_a == mean ? 1 : mean_a / mean;
+    koksma__sum squares = {0};
+    for (size_t i = 0; i < n; i++) {
+        const double t = a[i] - quotient * base[i];
+        koksma__sum_add(&squares, t * t);
+    }
+    if (n < 2) {
+        return (koksma__estimate){quotient - 1, NAN, NAN};
+    }
+    const double error = sqrt(koksma__sum_value(&squares) / ((double)(n - 1) * (double)n));
+    const double half = error > 0 ? koksma_student_975(n - 1) * error / fabs(mean) : 0;
+    return (koksma__estimate){quotient - 1, quotient - 1 - half, quotient - 1 + half};
+}
+
 koksma__summary koksma__exactly(double value)
 {
     return (koksma__summary){1, value, 0, value, value, value};

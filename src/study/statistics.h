@@ -33,6 +33,10 @@ typedef struct koksma__estimate {
     double value, low, high;
 } koksma__estimate;
 
+/* How much larger the mean of a is than that of base, over that of base, of n pairs: mean a / mean base - 1. 0 where
+   both are 0; no interval (NaN) for n = 1. */
+koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n);
+
 /* ---- Slopes -------------------------------------------------------------------------------------------- */
 
 /* A line y = intercept + slope x by weighted least squares. */

@@ -181,6 +181,40 @@ static void paired_differences(void **state)
     assert_near(koksma__student_quantile(0.9975, 20), 3.153400, 1e-6);
 }
 
+/* How often in 2000 cases of 8 pairs the interval covers a change by the factor `change`; the values vary by a tenth,
+   `common` of which both of a pair have. */
+static int changes_covered(double change, double common)
+{
+    int covered = 0;
+    for (uint64_t t = 0; t < 2000; t++) {
+        double a[8], base[8];
+        for (size_t i = 0; i < 8; i++) {
+            const double shared = common * normal(t, 3 * i);
+            a[i] = change * (1 + 0.1 * (shared + sqrt(1 - common * common) * normal(t, 3 * i + 1)));
+            base[i] = 1 + 0.1 * (shared + sqrt(1 - common * common) * normal(t, 3 * i + 2));
+        }
+        const koksma__estimate e = koksma__relative_change(a, base, 8);
+        covered += e.low <= change - 1 && change - 1 <= e.high;
+    }
+    return covered;
+}
+
+static void relative_changes(void **state)
+{
+    (void)state;
+    const double a[] = {3, 5, 8}, b[] = {1, 2, 4}, none[] = {0, 0, 0};
+    const koksma__estimate e = koksma__relative_change(a, b, 3); /* 16/7; what is left of a: 5/7, 3/7, -8/7 */
+    assert_near(e.value, 9.0 / 7, 1e-15);
+    assert_near(e.high - e.value, 4.302652729749464 * sqrt(98.0 / 49 / 2 / 3) / (7.0 / 3), 1e-12);
+    assert_near(e.high - e.value, e.value - e.low, 1e-12);
+    const koksma__estimate one = koksma__relative_change(a, b, 1), same = koksma__relative_change(none, none, 3);
+    assert_true(one.value == 2 && isnan(one.low) && isnan(one.high));
+    assert_true(same.value == 0 && same.low == 0 && same.high == 0);
+    assert_in_range(changes_covered(1, 0), 1860, 1940); /* 1900 are due */
+    assert_in_range(changes_covered(3, 0), 1860, 1940);
+    assert_in_range(changes_covered(3, 0.9), 1860, 1940);
+}
+
 /* Errors 1 / sqrt n: 0.25 is reached by 16. */
 static void samples_for_an_error(void **state)
 {
@@ -211,6 +245,7 @@ int main(void)
         cmocka_unit_test(bootstrap_intervals),
         cmocka_unit_test(bootstrap_covers),
         cmocka_unit_test(paired_differences),
+        cmocka_unit_test(relative_changes),
         cmocka_unit_test(samples_for_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
