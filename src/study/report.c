@@ -79,7 +79,8 @@ static koksma_status add_body(koksma_study *study, koksma__html *h, const koksma
     koksma__html_text(h, study->plan.name);
     koksma__html_add(
         h, "</code>. The rows are in <code>results.sqlite</code> beside this file; every one can be made again "
-           "from its key. Results do not depend on the number of threads or on interruptions.</p>\n");
+           "from its key. Results do not depend on the number of threads or on interruptions. A run that was "
+           "killed left its rows there, and no line below.</p>\n");
     status = status ? status : koksma__report_runs(study, h);
     koksma__html_add(h, "</main>\n</body>\n</html>\n");
     return status;
