@@ -55,8 +55,9 @@ static const char *misspelt(const char *list, char *name, size_t size)
     return NULL;
 }
 
-/* Whether a property of the list fails, or was not looked at. */
-static bool disappoints(const char *list, const koksma_findings *findings)
+/* Whether a property of the list fails, or was not looked at, which is told. */
+static bool disappoints(const char *list, const char *source, const koksma_points *points,
+                        const koksma_findings *findings)
 {
     char name[64];
     for (size_t i = 0; cli_list_item(list, i, name, sizeof name); i++) {
@@ -70,6 +71,13 @@ static bool disappoints(const char *list, const koksma_findings *findings)
             }
         }
         if (!seen) {
+            fprintf(stderr, "koksma verify: %s: %s was not looked at: it isn't for %zu points in %d dimensions\n",
+                    source, name, points->n, points->dim);
+            return true;
+        }
+        if (!strncmp(name, "net-", 4) && points->dim > KOKSMA_VERIFY_NET_DIM) {
+            fprintf(stderr, "koksma verify: %s: %s was looked at in the first %d coordinates alone\n", source, name,
+                    KOKSMA_VERIFY_NET_DIM);
             return true;
         }
     }
@@ -105,7 +113,7 @@ static int run(const cli_arguments *arguments)
         }
         if (!code) {
             put_rows(rows, arguments->operands[i], &points, &findings);
-            missed = missed || (expect && disappoints(expect, &findings));
+            missed = missed || (expect && disappoints(expect, arguments->operands[i], &points, &findings));
         }
         koksma_findings_fini(&findings);
         koksma_points_fini(&points);

@@ -98,7 +98,7 @@ enum { KOKSMA_MAX_DIM = 4096 };
 #define KOKSMA_MAX_COORDINATES ((size_t)1 << (sizeof(size_t) > 4 ? 28 : 24))
 
 /* Room for n points of dim coordinates, all zero. n = 0 is an error, as is more than KOKSMA_MAX_COORDINATES.
-   Errors: ARGUMENT, MEMORY. */
+   Errors: ARGUMENT, DIM, MEMORY. */
 KOKSMA_API koksma_status koksma_points_init(koksma_points *points, size_t n, int dim);
 
 /* Frees what init or read allocated; takes a zeroed struct and NULL. */
@@ -111,8 +111,8 @@ KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *poi
 
 /* Writes by the ending of the path: .csv, .npy, anything else text; "-" is text on standard output. Files are
    written whole or not at all. comment (may be NULL) becomes `# ` lines of text files. Numbers are %.17g: they
-   read back to the same bits. One thread; run (may be NULL) is asked whether to go on. Errors: ARGUMENT (no points, a
-   coordinate outside [0,1]), DIM, IO, INTERRUPTED. */
+   read back to the same bits (-0 as 0). One thread; run (may be NULL) is asked whether to go on. Errors: ARGUMENT
+   (no points, a coordinate outside [0,1]), DIM, IO, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
                                              const koksma_run *run);
 
@@ -235,7 +235,8 @@ typedef enum koksma_witness_kind {
 /* The region where a supremum is reached, so that anyone can check it by counting: in doubles, boxes by comparing
    coordinates, half-planes by lo[0] x + lo[1] y, disks by a a + b b against hi[0] hi[0], where a = dx - round(dx) and
    likewise b are the way from the centre on the torus. Bounds are rounded so that points on the boundary fall on the
-   side that count has them on; volume is that of the region before. */
+   side that count has them on; volume is that of the region before. Sides of an anchored box (star) at 0 are no
+   boundary: points on them are in. */
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;

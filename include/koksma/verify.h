@@ -35,7 +35,8 @@ extern "C" {
        value: coordinates that become 1 as a float. Holds when 0
    progressive
        value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of as many random points (root
-       mean square). Holds when at most 2 */
+       mean square). Holds when at most 2. The longest prefix is of 2^22 points, in three dimensions 2^18, in four to
+       twelve 4,096 */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];
@@ -49,12 +50,14 @@ typedef struct koksma_findings {
     koksma_finding *items;
 } koksma_findings;
 
+enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are of pairs of the first so many coordinates */
+
 /* The name of property i, NULL past the end. */
 KOKSMA_API const char *koksma_property_name_at(size_t i);
 
-/* Looks for all of them; the findings are freed by koksma_findings_fini. Projections are of the first 32 coordinates.
-   What would take too long for so many points or dimensions is left out. run may be NULL. Errors: ARGUMENT (no
-   points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
+/* Looks for all of them; the findings are freed by koksma_findings_fini. What would take too long for so many points
+   or dimensions is left out. run may be NULL. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,
+   INTERRUPTED. */
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 

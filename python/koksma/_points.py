@@ -226,4 +226,4 @@ def canonical(pattern: str) -> str:
     """The canonical text of a pattern's spec, under which results are stored."""
     parsed, room = spec("pattern", pattern), ctypes.create_string_buffer(s.MAX_SPEC)
     core().koksma_spec_text(byref(parsed), room)
-    return room.value.decode()
+    return os.fsdecode(room.value)  # it may have a path

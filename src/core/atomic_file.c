@@ -28,10 +28,43 @@ static char *temporary_name(const char *path)
     return temporary;
 }
 
+/* The stream that the process has open under such a path already, "/dev/stdout" or "/dev/fd/3": where it leads to a
+   file, that has what others wrote, and what they write next goes on behind. -1: another path. */
+static int descriptor_of(const char *path)
+{
+    int number = -1, used = 0;
+    if (!strcmp(path, "/dev/stdout") || !strcmp(path, "/dev/stderr")) {
+        return path[8] == 'o' ? STDOUT_FILENO : STDERR_FILENO;
+    }
+    const bool numbered = sscanf(path, "/dev/fd/%9d%n", &number, &used) == 1 ||
+                          sscanf(path, "/proc/self/fd/%9d%n", &number, &used) == 1;
+    return numbered && used > 0 && !path[used] ? number : -1;
+}
+
+/* Where a link leads that leads to no file yet; NULL for what is no such link. */
+static char *new_target(const char *path)
+{
+    char to[4096];
+    const ssize_t length = readlink(path, to, sizeof to - 1);
+    if (length < 0) {
+        return NULL;
+    }
+    to[length] = '\0';
+    const char *slash = strrchr(path, '/');
+    const int folder = slash && to[0] != '/' ? (int)(slash + 1 - path) : 0;
+    const size_t size = (size_t)folder + (size_t)length + 1;
+    char *target = malloc(size);
+    if (target) {
+        snprintf(target, size, "%.*s%s", folder, path, to);
+    }
+    return target;
+}
+
 koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
 {
     *file = (koksma__atomic_file){0};
-    if (!strcmp(path, "-")) {
+    const int descriptor = descriptor_of(path);
+    if (!strcmp(path, "-") || descriptor == STDOUT_FILENO) {
         file->stream = stdout;
         return KOKSMA_OK;
     }
@@ -40,16 +73,17 @@ koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
         return koksma__fail(KOKSMA_IO, "%s: can't be written: it is a directory", path);
     }
     /* A device or a pipe is written directly: renaming over it would replace it. */
-    const bool special = !stat(path, &info) && !S_ISREG(info.st_mode);
+    const bool special = descriptor >= 0 || (!stat(path, &info) && !S_ISREG(info.st_mode));
     /* What a link leads to is replaced, not the link. */
     char *target = special ? NULL : realpath(path, NULL);
-    file->path = target ? target : strdup(path);
+    file->path = target ? target : special ? strdup(path) : new_target(path);
+    file->path = file->path ? file->path : strdup(path);
     file->temporary = special || !file->path ? strdup(path) : temporary_name(file->path);
     if (!file->path || !file->temporary) {
         koksma__atomic_close(file, false);
         return koksma__fail_memory(strlen(path));
     }
-    file->stream = fopen(file->temporary, "wb");
+    file->stream = descriptor >= 0 ? fdopen(dup(descriptor), "wb") : fopen(file->temporary, "wb");
     if (!file->stream) {
         const int reason = errno;
         free(file->path);

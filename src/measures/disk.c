@@ -68,7 +68,7 @@ static int compare_points(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* The points without repeats, 1 written as 0. */
+/* The points without repeats, 1 written as 0, and so is what is too near to 0 for squares of differences. */
 static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points)
 {
     const size_t n = points->n;
@@ -81,7 +81,7 @@ static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points
     }
     set->ys = set->xs + n;
     for (size_t c = 0; c < 2 * n; c++) {
-        sorted[c] = points->xs[c] < 1 ? points->xs[c] : 0;
+        sorted[c] = points->xs[c] < 1 && points->xs[c] > 0x1p-400 ? points->xs[c] : 0;
     }
     qsort(sorted, n, 2 * sizeof(double), compare_points);
     for (size_t i = 0; i < n; i++) {

@@ -53,15 +53,15 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
     while (!is_prime(high) || high < least) {
         high++;
     }
-    if (low < 2 || low < least || low == s) {
-        low = low == s && (size_t)dim <= columns ? s : high;
+    if (low < 2 || low < least) {
+        low = high;
     }
     if (power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim) {
         return koksma__fail(KOKSMA_DIM, "orthogonal-array: dim = %d: of strength %d no set that fits has so many",
                             dim, strength);
     }
     char other[32] = "";
-    if (low != high) {
+    if (low != high && power(high, strength) <= KOKSMA_MAX_COORDINATES / (size_t)dim) {
         snprintf(other, sizeof other, " or %zu", power(high, strength));
     }
     return koksma__fail(

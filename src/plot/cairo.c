@@ -135,17 +135,49 @@ bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double widt
     return data != NULL;
 }
 
+/* Of the character that begins here, in bytes; 0: no UTF-8. */
+static size_t utf8_length(const unsigned char *s)
+{
+    const size_t length = s[0] < 0x80 ? 1 : s[0] < 0xc2 ? 0 : s[0] < 0xe0 ? 2 : s[0] < 0xf0 ? 3 : s[0] < 0xf5 ? 4 : 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((s[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool wrong = (s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || /* long, or half a pair */
+                       (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] > 0x8f);
+    return wrong ? 0 : length;
+}
+
+/* A text that Cairo takes: bytes that are no UTF-8, as a file's name may have, are '?'. */
+static char *as_utf8(const char *text)
+{
+    char *out = strdup(text);
+    for (size_t i = 0; out && out[i];) {
+        const size_t length = utf8_length((const unsigned char *)out + i);
+        out[i] = length ? out[i] : '?';
+        i += length ? length : 1;
+    }
+    return out;
+}
+
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                          koksma__colour colour)
 {
     cairo_text_extents_t extents;
+    char *shown = as_utf8(text);
+    if (!shown) {
+        canvas->failed = true;
+        return;
+    }
     cairo_select_font_face(canvas->cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(canvas->cairo, height);
-    cairo_text_extents(canvas->cairo, text, &extents);
+    cairo_text_extents(canvas->cairo, shown, &extents);
     cairo_set_source_rgba(canvas->cairo, colour.r, colour.g, colour.b, colour.a);
     cairo_move_to(canvas->cairo, x - anchor * extents.x_advance, y);
-    cairo_show_text(canvas->cairo, text);
+    cairo_show_text(canvas->cairo, shown);
     cairo_new_path(canvas->cairo);
+    free(shown);
 }
 
 koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)

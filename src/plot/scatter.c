@@ -15,7 +15,7 @@
 static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, guide = {0.75, 0.78, 0.85, 1},
                             mark = {0.85, 0.25, 0.1, 0.9}, wash = {0.95, 0.5, 0.3, 0.25};
 
-enum { MARGIN = 6, LINE = 20 };
+enum { MARGIN = 6, LINE = 20, FAR = 100 };
 
 typedef struct plot {
     koksma__canvas *canvas;
@@ -149,6 +149,11 @@ static koksma_status check_panel(const koksma_panel *panel)
     if (o->columns > KOKSMA_PLOT_MAX_CELLS || o->rows > KOKSMA_PLOT_MAX_CELLS) {
         return koksma__fail(KOKSMA_ARGUMENT, "a grid of %zu columns and %zu rows: each is up to %d", o->columns,
                             o->rows, KOKSMA_PLOT_MAX_CELLS);
+    }
+    for (int k = 0; o->witness && k < 2; k++) {
+        if (!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "a witness whose bounds are not within %d of 0", FAR);
+        }
     }
     return koksma__points_check(panel->points);
 }

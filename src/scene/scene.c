@@ -68,6 +68,9 @@ static bool is_path(const char *text)
 koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
 {
     *out = NULL;
+    if (!name_or_path) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there is no name of a scene");
+    }
     for (size_t i = 0; i < N_SHIPPED; i++) {
         if (!strcmp(embedded_texts[i].name, name_or_path)) {
             return koksma__scene_open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);

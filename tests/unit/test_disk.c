@@ -175,6 +175,20 @@ static void witness_shows_the_value(void **state)
     }
 }
 
+/* Squares of their differences are 0. */
+static void points_too_near_to_0(void **state)
+{
+    (void)state;
+    double xs[] = {0, 0, 1e-170, 0, 0, 1e-300, 0.5, 0.5};
+    koksma_points p = {4, 2, xs};
+    koksma_spec spec;
+    koksma_value v;
+    assert_ok(koksma_measure_spec("disk:r=0.05", &spec));
+    assert_ok(koksma_evaluate(&spec, &p, NULL, &v));
+    assert_true(v.exact && v.witness.count == 3);
+    assert_near(v.value, 0.75, 1e-15);
+}
+
 static void lattices(void **state)
 {
     (void)state;
@@ -232,6 +246,7 @@ int main(void)
         cmocka_unit_test(equals_brute_force),
         cmocka_unit_test(agrees_with_a_dense_search),
         cmocka_unit_test(witness_shows_the_value),
+        cmocka_unit_test(points_too_near_to_0),
         cmocka_unit_test(lattices),
         cmocka_unit_test(branch_and_bound_agrees_with_all_pairs),
         cmocka_unit_test(bounds_when_cut_short),

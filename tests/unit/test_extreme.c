@@ -107,6 +107,30 @@ static void strips_equal_reference(void **state)
     }
 }
 
+/* What the witness of a grid holds, counted in doubles as everywhere. */
+static void witness_of_a_grid(void **state)
+{
+    (void)state;
+    for (int s = 0; s < 200; s++) {
+        koksma_points p = sets_points(1 + (size_t)s % 37, 2, s % SETS_KINDS, (uint64_t)s);
+        char text[32];
+        koksma_spec spec;
+        koksma_value v;
+        size_t count = 0;
+        snprintf(text, sizeof text, "extreme:grid=%d", 2 + s % 19);
+        assert_ok(koksma_measure_spec(text, &spec));
+        assert_ok(koksma_evaluate(&spec, &p, NULL, &v));
+        assert_true(v.witness.closed);
+        for (size_t i = 0; i < p.n; i++) {
+            const double *x = p.xs + 2 * i, *lo = v.witness.lo, *hi = v.witness.hi;
+            count += x[0] >= lo[0] && x[0] <= hi[0] && x[1] >= lo[1] && x[1] <= hi[1];
+        }
+        assert_int_equal(count, v.witness.count);
+        assert_near(fabs((double)count / (double)p.n - v.witness.volume), v.value, 1e-15);
+        koksma_points_fini(&p);
+    }
+}
+
 static void short_time_gives_bounds(void **state)
 {
     (void)state;
@@ -172,6 +196,7 @@ int main(void)
         cmocka_unit_test(sweep_equals_plain_search), cmocka_unit_test(sweep_equals_bounding),
         cmocka_unit_test(strips_equal_reference),    cmocka_unit_test(short_time_gives_bounds),
         cmocka_unit_test(threads_change_no_bit),     cmocka_unit_test(large_sets_obey_the_time_limit),
+        cmocka_unit_test(witness_of_a_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

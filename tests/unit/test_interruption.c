@@ -106,6 +106,26 @@ static void questions_are_near(void **state)
     koksma_points_fini(&p);
 }
 
+/* One false is enough: what is asked later is not whether to go on after all. */
+static bool stop_once(void *context, double fraction)
+{
+    (void)fraction;
+    return ++*(int *)context != 2;
+}
+
+static void one_false_stops(void **state)
+{
+    (void)state;
+    koksma_points p;
+    koksma_spec spec;
+    int asked = 0;
+    const koksma_run run = {.threads = 1, .keep_going = stop_once, .context = &asked};
+    assert_ok(koksma_points_init(&p, 2000, 2));
+    assert_ok(koksma_pattern_spec("poisson-disk:d=0.01", &spec));
+    assert_int_equal(koksma_generate(&spec, 0, &run, &p), KOKSMA_INTERRUPTED);
+    koksma_points_fini(&p);
+}
+
 static bool stop_at_third(void *context, double fraction)
 {
     assert_true(fraction >= 0 && fraction < 1);
@@ -144,6 +164,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_measure_asks),
         cmocka_unit_test(questions_are_near),
+        cmocka_unit_test(one_false_stops),
         cmocka_unit_test(a_file_that_is_stopped_is_as_before),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

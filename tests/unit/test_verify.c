@@ -120,6 +120,18 @@ static void two_rooks_in_a_row(void **state)
     koksma_points_fini(&p);
 }
 
+static void the_last_of_many_coordinates(void **state)
+{
+    (void)state;
+    koksma_points p = test_points("n-rooks", 16, 40, 3);
+    assert_true(one(&p, "latin", "39").holds);
+    for (size_t i = 0; i < p.n; i++) {
+        p.xs[40 * i + 39] = 0.5;
+    }
+    assert_near(one(&p, "latin", "39").value, 15, 0);
+    koksma_points_fini(&p);
+}
+
 static void two_close_points_and_only_across_the_side(void **state)
 {
     (void)state;
@@ -137,12 +149,28 @@ static void two_close_points_and_only_across_the_side(void **state)
     koksma_points_fini(&p);
 }
 
+/* Uniform points, and in the plane such that lie on one line, in one corner, in opposite corners, on a lattice. */
+static koksma_points places(int kind, size_t n, int dim, uint64_t seed)
+{
+    koksma_points p = test_points("random", n, dim, seed);
+    for (size_t i = 0; i < n && dim == 2; i++) {
+        double *x = p.xs + 2 * i;
+        x[0] = kind == 1 ? 0.5 : kind == 2 ? 1e-5 * x[0] : kind == 3 ? (double)(i % 2) : x[0];
+        x[1] = kind == 2 ? 1e-5 * x[1] : kind == 3 ? fabs((double)(i / 2 % 2) - 1e-9 * x[1]) : x[1];
+        if (kind == 4) {
+            x[0] = floor(16 * x[0]) / 16;
+            x[1] = (double)i / (double)n;
+        }
+    }
+    return p;
+}
+
 static void distances_by_brute_force(void **state)
 {
     (void)state;
     for (int dim = 1; dim <= 4; dim++) {
-        for (uint64_t seed = 0; seed < 5; seed++) {
-            koksma_points p = test_points("random", 60, dim, seed);
+        for (uint64_t seed = 0; seed < 40; seed++) {
+            koksma_points p = places((int)seed % 5, 2 + 3 * seed, dim, seed);
             double best[2] = {10, 10}, found;
             for (size_t i = 0; i < p.n; i++) {
                 for (size_t j = 0; j < i; j++) {
@@ -163,6 +191,18 @@ static void distances_by_brute_force(void **state)
             koksma_points_fini(&p);
         }
     }
+}
+
+/* All pairs would be 8e10. */
+static void distances_in_a_corner(void **state)
+{
+    (void)state;
+    koksma_points p = places(2, 400000, 2, 1);
+    double square, torus;
+    assert_ok(koksma_smallest_distance(&p, false, NULL, &square));
+    assert_ok(koksma_smallest_distance(&p, true, NULL, &torus));
+    assert_true(square > 0 && square < 1e-9 && torus == square);
+    koksma_points_fini(&p);
 }
 
 static void a_repeated_point(void **state)
@@ -213,6 +253,13 @@ static void an_order_that_is_not_progressive(void **state)
     p = test_points("pmj02", 256, 2, 0);
     assert_true(one(&p, "progressive", "-").holds);
     koksma_points_fini(&p);
+    p = test_points("sobol:scramble=owen", 16384, 2, 0);
+    assert_true(one(&p, "progressive", "-").holds);
+    for (size_t c = 2 * 8192; c < 2 * 16384; c++) { /* the last doubling is bad */
+        p.xs[c] /= 2;
+    }
+    assert_false(one(&p, "progressive", "-").holds);
+    koksma_points_fini(&p);
 }
 
 static void zero_and_minus_zero_are_one_place(void **state)
@@ -248,7 +295,9 @@ int main(void)
         cmocka_unit_test(two_rooks_in_a_row),
         cmocka_unit_test(two_close_points_and_only_across_the_side),
         cmocka_unit_test(distances_by_brute_force),
+        cmocka_unit_test(distances_in_a_corner),
         cmocka_unit_test(a_repeated_point),
+        cmocka_unit_test(the_last_of_many_coordinates),
         cmocka_unit_test(the_origin),
         cmocka_unit_test(a_coordinate_that_rounds_to_one),
         cmocka_unit_test(an_order_that_is_not_progressive),

@@ -3,6 +3,7 @@
    #points so far / n - area so far; the best box that ends here is the difference to them. */
 #include "measures/parts/extreme_grid.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
@@ -27,10 +28,10 @@ static void keep(koksma_value *out, double value, size_t count, const int box[4]
         return;
     }
     out->value = value;
-    out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_BOX, .dim = 2, .count = count};
+    out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_BOX, .dim = 2, .count = count, .closed = true};
     for (int k = 0; k < 2; k++) {
         out->witness.lo[k] = (double)box[k] / grid;
-        out->witness.hi[k] = (double)box[2 + k] / grid;
+        out->witness.hi[k] = nextafter((double)box[2 + k] / grid, 0); /* boxes are half-open */
     }
     out->witness.volume = (double)(box[2] - box[0]) * (box[3] - box[1]) / ((double)grid * grid);
 }

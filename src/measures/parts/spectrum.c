@@ -112,8 +112,11 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
 
 double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
 {
-    const int half = spectrum->half, x = ky < 0 ? -kx : kx, y = abs(ky);
-    return abs(kx) > half || y > half ? (double)NAN : power_at(half, spectrum->power, x, y);
+    const int half = spectrum->half;
+    if (!spectrum->power || kx < -half || kx > half || ky < -half || ky > half) {
+        return NAN;
+    }
+    return power_at(half, spectrum->power, ky < 0 ? -kx : kx, abs(ky));
 }
 
 koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum)

@@ -11,7 +11,7 @@
 #include "measures/parts/clock.h"
 #include "measures/parts/star.h"
 
-enum { MAX_BOXES = 1 << 19, CUTS_PER_CHECK = 64 };
+enum { MAX_BOXES = 1 << 19, POINTS_PER_CHECK = 1 << 16 };
 
 typedef struct cover {
     const koksma_points *points;
@@ -116,8 +116,9 @@ koksma_status koksma__star_cover(const koksma_points *points, const koksma_run *
     }
     set_bound(&c, c.boxes);
     koksma_status status = KOKSMA_OK;
+    const size_t cuts_per_check = 1 + POINTS_PER_CHECK / points->n;
     for (size_t i = 0; c.count < c.room && c.heap[0][0] > lower && !status; i++) {
-        if (i % CUTS_PER_CHECK == 0) {
+        if (i % cuts_per_check == 0) {
             if (koksma__now_s() > deadline_s) {
                 break;
             }

@@ -52,7 +52,7 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
     }
     const size_t next = power(m + 1, out->dim);
     char more[64] = "";
-    if (next <= KOKSMA_MAX_COORDINATES) {
+    if (next <= KOKSMA_MAX_COORDINATES / (size_t)out->dim) {
         snprintf(more, sizeof more, " or %zu", next);
     }
     return koksma__fail(KOKSMA_N, "%s: n = %zu is not m^%d; n = %zu%s would do%s", name, n, out->dim,

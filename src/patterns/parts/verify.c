@@ -10,7 +10,7 @@
 #include "core/room.h"
 #include "core/status.h"
 
-enum { MOST = 32, PREFIX_MOST = 4096 };
+enum { PREFIX_LEAST = 16, PREFIX_MOST_DIM = 12 };
 
 static const char *const names[KOKSMA__N_PROPERTIES] = {
 #define PROPERTY(id, name) name,
@@ -68,7 +68,7 @@ koksma_status koksma__verify_strata(const koksma_points *points, uint32_t *count
     const size_t n = points->n;
     char subject[48];
     koksma_status status = KOKSMA_OK;
-    for (int k = 0; k < points->dim && k < MOST && !status; k++) {
+    for (int k = 0; k < points->dim && !status; k++) {
         snprintf(subject, sizeof subject, "%d", k);
         status = add_strata(points, &k, &n, 1, subject, counts, findings);
     }
@@ -166,13 +166,25 @@ static koksma_status verify_floats(const koksma_points *points, koksma_findings 
     return KOKSMA_OK;
 }
 
+/* The longest prefix that is measured, in a second or so. */
+static size_t longest_prefix(const koksma_points *points)
+{
+    const size_t most = points->dim <= 2 ? (size_t)1 << 22 : points->dim == 3 ? (size_t)1 << 18 : (size_t)1 << 12;
+    size_t n = PREFIX_LEAST;
+    while (n <= points->n / 2 && n < most) {
+        n *= 2;
+    }
+    return n;
+}
+
 static koksma_status verify_progress(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
     size_t worst = 0;
     double value = 0;
     koksma_spec l2_star;
     koksma_status status = koksma_measure_spec("l2-star", &l2_star);
-    for (size_t n = 16; n <= points->n && n <= PREFIX_MOST && points->dim <= 12 && !status; n *= 2) {
+    const size_t last = longest_prefix(points);
+    for (size_t n = PREFIX_LEAST; n <= points->n && n <= last && points->dim <= PREFIX_MOST_DIM && !status; n *= 2) {
         const koksma_points prefix = {n, points->dim, points->xs};
         const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
         koksma_value found;
@@ -192,7 +204,7 @@ static koksma_status verify_progress(const koksma_points *points, const koksma_r
     }
     f->value = value;
     f->holds = value <= 2;
-    snprintf(f->detail, sizeof f->detail, "the worst prefix has %zu points", worst);
+    snprintf(f->detail, sizeof f->detail, "the worst of the prefixes up to %zu points has %zu", last, worst);
     return KOKSMA_OK;
 }
 

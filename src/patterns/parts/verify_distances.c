@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smallest distances, by a grid on the torus in 2D (of the square: of points half as far apart, where no way around
- * is shorter) and by a sweep along the first coordinate in other dimensions; and equal points. */
+/* Smallest distances, by halving in 2D and by a sweep along the first coordinate in other dimensions; and equal
+ * points. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
+#include "patterns/parts/closest_pair.h"
 #include "patterns/parts/packing.h"
 #include "patterns/parts/torus_grid.h"
 #include "patterns/parts/verify.h"
@@ -73,45 +74,6 @@ static koksma_status sweep(const point *sorted, size_t n, bool torus, const koks
     return KOKSMA_OK;
 }
 
-static koksma_status grid_distance(size_t n, const double *xs, const koksma_run *run, double *distance)
-{
-    koksma__torus_grid grid;
-    koksma_status status = koksma__torus_grid_init(&grid, n, xs);
-    if (status) {
-        return status;
-    }
-    for (size_t i = 0; i < n; i++) {
-        koksma__torus_grid_add(&grid, (uint32_t)i);
-    }
-    double best = 1;
-    for (size_t i = 0; i < n && !status; i++) {
-        const double *x = xs + 2 * i;
-        best = fmin(best, koksma__torus_grid_nearest(&grid, x[0], x[1], (uint32_t)i, 0));
-        if (i % 1024 == 1023 && !koksma__keep_going(run, (double)i / (double)n)) {
-            status = koksma__fail_interrupted();
-        }
-    }
-    *distance = sqrt(best);
-    koksma__torus_grid_fini(&grid);
-    return status;
-}
-
-/* In the square, not on the torus. */
-static koksma_status square_distance(const koksma_points *points, const koksma_run *run, double *distance)
-{
-    double *half = malloc(2 * points->n * sizeof *half);
-    if (!half) {
-        return koksma__fail_memory(2 * points->n * sizeof *half);
-    }
-    for (size_t i = 0; i < 2 * points->n; i++) {
-        half[i] = points->xs[i] / 2;
-    }
-    const koksma_status status = grid_distance(points->n, half, run, distance);
-    *distance *= 2;
-    free(half);
-    return status;
-}
-
 static koksma_status add_distance(const koksma_points *points, bool torus, double distance, koksma_findings *findings)
 {
     koksma_finding *f =
@@ -152,7 +114,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
         return KOKSMA_OK;
     }
     if (points->dim == 2) {
-        return torus ? grid_distance(points->n, points->xs, run, distance) : square_distance(points, run, distance);
+        return koksma__closest_pair(points, torus, run, distance);
     }
     point *sorted = sort_points(points);
     if (!sorted) {

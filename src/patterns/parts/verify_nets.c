@@ -10,7 +10,7 @@
 #include "core/status.h"
 #include "patterns/parts/verify.h"
 
-enum { MOST = 32, MAX_NET_DIM = 8 };
+enum { MAX_NET_DIM = 8 };
 
 #define WORK 4e8 /* point visits for one value of t */
 
@@ -123,7 +123,7 @@ static koksma_status verify_net(search *s, koksma__property property, const char
 static koksma_status verify_base(const koksma_points *points, const koksma_run *run, size_t base,
                                  koksma__property property, uint32_t *counts, koksma_findings *findings)
 {
-    const int dim = points->dim < MOST ? points->dim : MOST;
+    const int dim = points->dim < KOKSMA_VERIFY_NET_DIM ? points->dim : KOKSMA_VERIFY_NET_DIM;
     int use[MAX_NET_DIM];
     search s = {.points = points, .base = base, .use = use, .dim = 2, .counts = counts};
     koksma_status status = KOKSMA_OK;

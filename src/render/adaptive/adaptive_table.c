@@ -19,8 +19,11 @@ KOKSMA__LOOKUP(koksma_adaptive, table)
 koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
 {
     char name[64];
-    const size_t length = strcspn(text, ":");
     *out = (koksma_adaptive_options){0};
+    if (!text) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there is no name of an adaptive method");
+    }
+    const size_t length = strcspn(text, ":");
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
     out->method = koksma_adaptive_find(name);
     if (!out->method) {
