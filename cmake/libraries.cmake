@@ -116,6 +116,9 @@ list(REMOVE_DUPLICATES KOKSMA_LAB_LINKS)
 
 # Studies on many machines. The sanitizers and MPI's own libraries don't go together.
 koksma_switch(MPI "Studies under mpirun")
+if(KOKSMA_MPI STREQUAL ON AND (KOKSMA_SANITIZE OR KOKSMA_THREAD_SANITIZER))
+  message(FATAL_ERROR "KOKSMA_MPI=ON, and the sanitizers leave MPI out")
+endif()
 if(NOT KOKSMA_MPI STREQUAL OFF AND NOT KOKSMA_SANITIZE AND NOT KOKSMA_THREAD_SANITIZER)
   find_package(MPI COMPONENTS C QUIET)
   if(MPI_C_FOUND)

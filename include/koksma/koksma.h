@@ -223,7 +223,7 @@ KOKSMA_API koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t
 
 /* ---- Measures ----------------------------------------------------------------------------------------- */
 
-enum { KOKSMA_WITNESS_DIM = 16 };
+enum { KOKSMA_WITNESS_DIM = 16 }; /* regions of more dimensions aren't told: their witness is of the kind NONE */
 
 typedef enum koksma_witness_kind {
     KOKSMA_WITNESS_NONE,

@@ -6,7 +6,8 @@
  * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds over anchored boxes, see star.
  * Source: Gnewuch, Wahlstrom and Winzen 2012. Known exactly: it never exceeds star, and in practice reaches it for
  * a few hundred points in up to 5 dimensions.
- * Limits: the witness proves the bound; how far below the supremum it is, is not known: upper is 1.
+ * Limits: the witness, which is told up to 16 dimensions, proves the bound; how far below the supremum it is, is not
+ * known: upper is 1.
  */
 #include "measures/measures.h"
 #include "measures/parts/clock.h"
