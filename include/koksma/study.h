@@ -100,7 +100,8 @@ typedef struct koksma_study_row {
     size_t trials;
 } koksma_study_row;
 
-/* Row i of the published table `id` ("5.1"), from what the store has. *found is false past the end. */
+/* Row i of the published table `id` ("5.1"), from what the store has; where several plans have one of that id, of the
+   first that does. *found is false past the end. */
 KOKSMA_API koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                                 bool *found);
 

@@ -109,22 +109,29 @@ static bool is_asked(const char *wanted, const char *id)
     return wanted && id && !strcmp(id, wanted);
 }
 
+/* A part's blocks, those that the question (NULL: all) names. */
+static void choose_blocks(const koksma__plan *plan, const koksma__plan_part *part, const koksma__question *q,
+                          koksma__topic *topic)
+{
+    for (size_t b = part->discrepancies[0]; b < part->discrepancies[1]; b++) {
+        if (!q || is_asked(q->discrepancies, plan->discrepancies[b].id)) {
+            topic->discrepancies[topic->n_discrepancies++] = &plan->discrepancies[b];
+        }
+    }
+    for (size_t b = part->images[0]; b < part->images[1]; b++) {
+        if (!q || is_asked(q->images, plan->images[b].id)) {
+            topic->images[topic->n_images++] = &plan->images[b];
+        }
+    }
+}
+
 static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__question *q)
 {
     const koksma__plan *plan = &study->plan;
     koksma__topic topic;
     koksma_status status = topic_init(plan, q->id, &topic);
-    for (size_t b = 0; !status && b < plan->n_discrepancies; b++) {
-        if (is_asked(q->discrepancies, plan->discrepancies[b].id)) {
-            topic.discrepancies[topic.n_discrepancies++] = &plan->discrepancies[b];
-        }
-    }
-    for (size_t b = 0; !status && b < plan->n_images; b++) {
-        if (is_asked(q->images, plan->images[b].id)) {
-            topic.images[topic.n_images++] = &plan->images[b];
-        }
-    }
     if (!status) {
+        choose_blocks(plan, &plan->parts[q->part], q, &topic);
         koksma__html_add(html, "<h3");
         koksma__html_id(html, "question", q->id);
         koksma__html_add(html, ">(%s) ", q->id);
@@ -137,7 +144,7 @@ static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__
 }
 
 /* A plan that asks nothing gets what its blocks can answer. */
-static koksma_status ask_all(koksma_study *study, koksma__html *html)
+static koksma_status ask_all(koksma_study *study, koksma__html *html, size_t part)
 {
     static const char *const titles[KOKSMA__ASK_KINDS] = {"Which measure orders the patterns as the error does?",
                                                           "How fast does it fall?", "How many samples are as good?",
@@ -147,18 +154,13 @@ static koksma_status ask_all(koksma_study *study, koksma__html *html)
     const koksma__plan *plan = &study->plan;
     koksma__topic topic;
     koksma_status status = topic_init(plan, "", &topic);
-    while (!status && topic.n_discrepancies < plan->n_discrepancies) {
-        topic.discrepancies[topic.n_discrepancies] = &plan->discrepancies[topic.n_discrepancies];
-        topic.n_discrepancies++;
-    }
-    while (!status && topic.n_images < plan->n_images) {
-        topic.images[topic.n_images] = &plan->images[topic.n_images];
-        topic.n_images++;
+    if (!status) {
+        choose_blocks(plan, &plan->parts[part], NULL, &topic);
     }
     for (size_t k = 0; !status && k < sizeof order / sizeof *order; k++) {
-        char id[16];
-        snprintf(id, sizeof id, "%zu", k + 1);
-        topic.id = id;
+        char id[48]; /* in the CSV files' names: "2", and "1.2" of the first of several plans */
+        snprintf(id, sizeof id, "%zu.%zu", part + 1, k + 1);
+        topic.id = plan->n_parts > 1 ? id : strchr(id, '.') + 1;
         const size_t before = html->size;
         koksma__html_add(html, "<h3>%s</h3>\n", titles[order[k]]);
         const size_t heading = html->size;
@@ -172,18 +174,33 @@ static koksma_status ask_all(koksma_study *study, koksma__html *html)
     return status;
 }
 
+/* Those of a plan that is one of several say of which. */
+static void add_heading(koksma__html *html, const koksma__plan *plan, size_t part)
+{
+    if (plan->n_parts == 1) {
+        koksma__html_add(html, "<h2 id=\"results\">Results</h2>\n");
+        return;
+    }
+    koksma__html_add(html, "<h2 id=\"results-%zu\">Results: ", part + 1);
+    koksma__html_text(html, plan->parts[part].title);
+    koksma__html_add(html, "</h2>\n");
+}
+
 koksma_status koksma__report_questions(koksma_study *study, koksma__html *html)
 {
     const koksma__plan *plan = &study->plan;
     koksma_status status = KOKSMA_OK;
     if (plan->n_questions) {
         koksma__html_add(html, "<h2 id=\"questions\">Questions that the papers leave open</h2>\n");
-    } else if (!plan->n_tables) {
-        koksma__html_add(html, "<h2 id=\"results\">Results</h2>\n");
-        return ask_all(study, html);
     }
     for (size_t i = 0; !status && i < plan->n_questions; i++) {
         status = ask(study, html, &plan->questions[i]);
+    }
+    for (size_t i = 0; !status && i < plan->n_parts; i++) {
+        if (!plan->parts[i].asks) {
+            add_heading(html, plan, i);
+            status = ask_all(study, html, i);
+        }
     }
     return status;
 }

@@ -348,7 +348,8 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     if (!status && p->n_discrepancies + p->n_images == 0) {
         return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
     }
-    return status ? status : check_tables(root, p);
+    status = status ? status : check_tables(root, p);
+    return status ? status : koksma__plan_own(p);
 }
 
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,

@@ -61,6 +61,7 @@ typedef struct koksma__note {
 
 typedef struct koksma__table {
     char *id, *title;
+    size_t part;          /* whose table it is */
     char *scene;          /* an image table */
     char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
     long long n, dim;     /* dim: of a discrepancy table */
@@ -95,13 +96,23 @@ typedef enum koksma__question_kind {
 
 typedef struct koksma__question {
     char *id, *title;
+    size_t part; /* whose question it is */
     koksma__question_kind kind;
     char *discrepancies, *images; /* ids of blocks; NULL: none */
 } koksma__question;
 
+/* One of the plans that became one: its tables and questions speak of its own blocks, whatever others have. */
+typedef struct koksma__plan_part {
+    char *title;
+    bool asks;               /* it has tables or questions */
+    size_t discrepancies[2]; /* its blocks: the first, and behind the last */
+    size_t images[2];
+} koksma__plan_part;
+
 typedef struct koksma__plan {
     char *name, *title, *about;
-    size_t n_discrepancies, n_images, n_tables, n_figures, n_questions;
+    size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
+    koksma__plan_part *parts;
     koksma__question *questions;
     koksma__discrepancy_block *discrepancies;
     koksma__image_block *images;
@@ -119,6 +130,9 @@ typedef struct koksma__plan_trials {
    not fail in the middle. trials NULL: as the plan says. */
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
+
+/* Makes a plan that was read one part of its own. Errors: MEMORY. */
+koksma_status koksma__plan_own(koksma__plan *plan);
 
 /* Appends what `from` has to `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
 koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);

@@ -26,8 +26,13 @@ static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, siz
     return KOKSMA_OK;
 }
 
+/* *to may be NULL: then it becomes a copy. */
 static koksma_status join_text(char **to, const char *between, const char *from)
 {
+    if (!*to) {
+        *to = strdup(from);
+        return *to ? KOKSMA_OK : koksma__fail_memory(strlen(from));
+    }
     const size_t size = strlen(*to) + strlen(between) + strlen(from) + 1;
     char *text = malloc(size);
     if (!text) {
@@ -39,19 +44,54 @@ static koksma_status join_text(char **to, const char *between, const char *from)
     return KOKSMA_OK;
 }
 
+koksma_status koksma__plan_own(koksma__plan *p)
+{
+    koksma__plan_part *part = calloc(1, sizeof *part);
+    char *title = strdup(p->title);
+    if (!part || !title) {
+        free(part);
+        free(title);
+        return koksma__fail_memory(sizeof *part + strlen(p->title));
+    }
+    *part = (koksma__plan_part){.title = title,
+                                .asks = p->n_tables || p->n_questions,
+                                .discrepancies = {0, p->n_discrepancies},
+                                .images = {0, p->n_images}};
+    p->parts = part;
+    p->n_parts = 1;
+    return KOKSMA_OK;
+}
+
+/* The numbers of q's blocks and parts, once they stand behind p's. */
+static void shift(const koksma__plan *p, koksma__plan *q)
+{
+    for (size_t i = 0; i < q->n_parts; i++) {
+        for (int end = 0; end < 2; end++) {
+            q->parts[i].discrepancies[end] += p->n_discrepancies;
+            q->parts[i].images[end] += p->n_images;
+        }
+    }
+    for (size_t t = 0; t < q->n_tables; t++) {
+        q->tables[t].images += p->n_images;
+        q->tables[t].part += p->n_parts;
+    }
+    for (size_t i = 0; i < q->n_questions; i++) {
+        q->questions[i].part += p->n_parts;
+    }
+}
+
 koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
 {
     koksma_status status = join_text(&p->name, "+", q->name);
     status = status ? status : join_text(&p->title, "; ", q->title);
-    for (size_t t = 0; t < q->n_tables; t++) {
-        q->tables[t].images += p->n_images;
-    }
+    shift(p, q);
     if (!status && q->about) {
-        status = p->about ? join_text(&p->about, " ", q->about) : KOKSMA_OK;
+        status = join_text(&p->about, " ", q->about);
     }
 #define JOIN(items)                                                                                                  \
     status = status ? status                                                                                         \
                     : join((void **)&p->items, &p->n_##items, (void **)&q->items, &q->n_##items, sizeof *p->items)
+    JOIN(parts);
     JOIN(discrepancies);
     JOIN(images);
     JOIN(tables);
@@ -134,6 +174,10 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->questions[i].discrepancies);
         free(p->questions[i].images);
     }
+    for (size_t i = 0; i < p->n_parts; i++) {
+        free(p->parts[i].title);
+    }
+    free(p->parts);
     free(p->questions);
     free(p->discrepancies);
     free(p->images);

@@ -150,8 +150,20 @@ void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table
 
 /* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
 
+/* A mean and, where the rows differ in it, of how many sets. */
+static void add_set_mean(koksma__html *h, const koksma__summary *mean, bool differ)
+{
+    koksma__html_add(h, "<td>");
+    koksma__table_add_mean(h, mean, 4, false);
+    if (differ && mean->n) {
+        koksma__html_add(h, " <span class=\"pm\">(%zu set%s)</span>", mean->n, mean->n > 1 ? "s" : "");
+    }
+    koksma__html_add(h, "</td>");
+}
+
 static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
-                                         koksma__tally *tally, const koksma__table *t, const koksma__table_row *row)
+                                         koksma__tally *tally, const koksma__table *t, const koksma__table_row *row,
+                                         bool differ)
 {
     koksma__cell cell, also = {0};
     koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, &cell);
@@ -163,9 +175,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     }
     koksma__table_begin_row(h, csv, t, row);
     koksma__table_csv_cell(csv, &cell);
-    koksma__html_add(h, "<td>");
-    koksma__table_add_mean(h, &cell.mean, 4, false);
-    koksma__html_add(h, "</td>");
+    add_set_mean(h, &cell.mean, differ);
     koksma__table_add_number(h, cell.sd, 3, false);
     koksma__html_add(h, isnan(cell.max) ? "<td>&#8211;" : "<td>%.3g", cell.max);
     if (!isnan(cell.max_sd)) {
@@ -180,10 +190,8 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     koksma__snprintf(text, sizeof text, "z = %+.1f", z);
     koksma__table_judge(h, tally, t, row, isnan(z) ? 0 : cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
     if (t->also) {
-        koksma__html_add(h, "<td>");
-        koksma__table_add_mean(h, &also.mean, 4, false);
+        add_set_mean(h, &also.mean, differ);
         koksma__table_csv_cell(csv, &also);
-        koksma__html_add(h, "</td>");
     }
     koksma__html_add(h, "</tr>\n");
     return KOKSMA_OK;
@@ -193,7 +201,8 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
                                                const koksma__table *t)
 {
     size_t sets;
-    koksma_status status = koksma__table_sets(study, t, &sets);
+    bool differ;
+    koksma_status status = koksma__table_sets(study, t, &sets, &differ);
     if (status) {
         return status;
     }
@@ -205,7 +214,8 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "<tr><th></th><th colspan=\"3\">published (100 sets)</th><th colspan=\"3\">");
     koksma__html_text(h, t->measure);
-    koksma__html_add(h, ", %zu sets</th><th></th>%s</tr>\n", sets, t->also ? "<th>exact</th>" : "");
+    koksma__html_add(h, ", %s%zu sets</th><th></th>%s</tr>\n", differ ? "up to " : "", sets,
+                     t->also ? "<th>exact</th>" : "");
     koksma__html_add(
         h,
         "<tr><th>pattern</th><th>ave</th><th>SD</th><th>max</th><th>mean <span class=\"pm\">95 %%</span></th>"
@@ -218,7 +228,7 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "</tr></thead>\n<tbody>\n");
     for (size_t r = 0; !status && r < t->n_rows; r++) {
-        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r]);
+        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r], differ);
     }
     koksma__table_end(h, &csv, t);
     return status;

@@ -36,15 +36,20 @@ const koksma__image_block *koksma__table_images(const koksma_study *study, const
     return &study->plan.images[table->images];
 }
 
+/* The block of the table's own plan that makes a row; of several the one with the most sets. */
 static const koksma__discrepancy_block *discrepancies_of(const koksma_study *study, const koksma__table *table,
                                                          const char *measure, const char *pattern)
 {
-    for (size_t b = 0; b < study->plan.n_discrepancies; b++) {
-        if (koksma__plan_block_makes(&study->plan.discrepancies[b], measure, pattern, table->n, table->dim)) {
-            return &study->plan.discrepancies[b];
+    const koksma__plan_part *part = &study->plan.parts[table->part];
+    const koksma__discrepancy_block *most = NULL;
+    for (size_t b = part->discrepancies[0]; b < part->discrepancies[1]; b++) {
+        const koksma__discrepancy_block *block = &study->plan.discrepancies[b];
+        if (koksma__plan_block_makes(block, measure, pattern, table->n, table->dim) &&
+            (!most || block->trials > most->trials)) {
+            most = block;
         }
     }
-    return NULL;
+    return most;
 }
 
 koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table *table, const char *measure,
@@ -127,10 +132,8 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     if (!study->store) {
         return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no results");
     }
-    for (size_t t = 0; t < study->plan.n_tables; t++) {
-        if (!strcmp(study->plan.tables[t].id, id)) {
-            table = &study->plan.tables[t];
-        }
+    for (size_t t = 0; !table && t < study->plan.n_tables; t++) {
+        table = strcmp(study->plan.tables[t].id, id) ? NULL : &study->plan.tables[t];
     }
     if (!table) {
         return koksma__fail(KOKSMA_UNKNOWN, "plan '%s' has no table '%s'", study->plan.name, id);
@@ -167,14 +170,26 @@ koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t
     return KOKSMA_OK;
 }
 
-koksma_status koksma__table_sets(koksma_study *study, const koksma__table *table, size_t *sets)
+koksma_status koksma__table_sets(koksma_study *study, const koksma__table *table, size_t *most, bool *differ)
 {
+    const char *const measures[] = {table->measure, table->also};
     koksma_status status = KOKSMA_OK;
-    *sets = 0;
-    for (size_t r = 0; !status && r < table->n_rows; r++) {
+    size_t least = SIZE_MAX, most_of_all = 0;
+    *most = 0;
+    for (size_t i = 0; !status && i < 2 * table->n_rows; i++) {
+        const char *pattern = table->rows[i / 2].pattern;
         koksma__cell cell;
-        status = koksma__table_discrepancy(study, table, table->measure, table->rows[r].pattern, &cell);
-        *sets = !status && cell.mean.n > *sets ? cell.mean.n : *sets;
+        if (!measures[i % 2]) {
+            continue;
+        }
+        status = koksma__table_discrepancy(study, table, measures[i % 2], pattern, &cell);
+        const size_t sets = cell.mean.n;
+        *most = !status && i % 2 == 0 && sets > *most ? sets : *most;
+        if (!koksma__has_one_set(pattern)) {
+            least = sets < least ? sets : least;
+            most_of_all = sets > most_of_all ? sets : most_of_all;
+        }
     }
+    *differ = least < most_of_all;
     return status;
 }

@@ -27,7 +27,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
 koksma_status koksma__table_image(koksma_study *study, const koksma__table *table, const koksma__reference *reference,
                                   const char *pattern, koksma__cell *cell);
 
-/* The most sets that a pattern of the table has; deterministic ones have one. */
-koksma_status koksma__table_sets(koksma_study *study, const koksma__table *table, size_t *sets);
+/* The most sets that a pattern of the table has, and whether those that have more than one set differ in it. */
+koksma_status koksma__table_sets(koksma_study *study, const koksma__table *table, size_t *most, bool *differ);
 
 #endif
