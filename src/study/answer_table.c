@@ -15,7 +15,8 @@ enum { EQUAL_TO = 16 };
 typedef struct columns {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
-    const char *scene, *variant;
+    const char *scene, *variant; /* of images */
+    const char *warp;            /* of points; "": none */
     size_t n;
 } columns;
 
@@ -26,7 +27,7 @@ static koksma_status cell_of(koksma_study *study, const columns *c, const char *
         return koksma__image_mean(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], NULL, mean);
     }
     const size_t sizes = c->discrepancy->n.n;
-    return koksma__discrepancy_mean(study, c->discrepancy, "", pattern, c->discrepancy->n.at[k % sizes],
+    return koksma__discrepancy_mean(study, c->discrepancy, c->warp, pattern, c->discrepancy->n.at[k % sizes],
                                     c->discrepancy->measures.at[k / sizes], NULL, mean);
 }
 
@@ -86,9 +87,6 @@ static koksma_status add_table(koksma_study *study, koksma__html *h, const char 
                                const columns *c, const koksma__texts *patterns)
 {
     koksma__grid grid;
-    if (c->n == 0) {
-        return KOKSMA_OK;
-    }
     double *means = malloc(patterns->n * sizeof *means);
     size_t *by = malloc(patterns->n * sizeof *by);
     koksma_status status = means && by ? order(study, c, patterns, means, by)
@@ -107,28 +105,53 @@ static koksma_status add_table(koksma_study *study, koksma__html *h, const char 
     return status;
 }
 
-koksma_status koksma__answer_table(koksma_study *study, koksma__html *h, const koksma__topic *topic)
+/* Means of a block's points, by warp where it has some. */
+static koksma_status add_points(koksma_study *study, koksma__html *h, const char *id,
+                                const koksma__discrepancy_block *d, size_t *number)
+{
+    koksma_status status = KOKSMA_OK;
+    char file[64], title[96];
+    for (size_t w = 0; !status && w < (d->warps.n ? d->warps.n : 1); w++) {
+        const columns c = {.discrepancy = d, .warp = d->warps.n ? d->warps.at[w] : "", .n = d->n.n * d->measures.n};
+        int length = snprintf(title, sizeof title, "Measures of the points");
+        if (d->dim != 2) {
+            snprintf(title + length, sizeof title - (size_t)length, ", %dD", d->dim);
+        } else if (c.warp[0]) {
+            snprintf(title + length, sizeof title - (size_t)length, " through %.40s", c.warp);
+        }
+        snprintf(file, sizeof file, "means-%.32s-%zu", id, ++*number);
+        status = add_table(study, h, file, title, &c, &d->patterns);
+    }
+    return status;
+}
+
+/* Means of a block's images, by scene and options. */
+static koksma_status add_images(koksma_study *study, koksma__html *h, const char *id, const koksma__image_block *i,
+                                size_t *number)
 {
     koksma_status status = KOKSMA_OK;
     char file[64], title[KOKSMA__VARIANT_TEXT + 64];
+    for (size_t k = 0; !status && k < i->scenes.n * i->variants.n; k++) {
+        const columns c = {.image = i,
+                           .scene = i->scenes.at[k / i->variants.n],
+                           .variant = i->variants.at[k % i->variants.n],
+                           .n = i->spp.n};
+        koksma__case_name(c.scene, c.variant, title, sizeof title);
+        snprintf(file, sizeof file, "means-%.32s-%zu", id, ++*number);
+        status = add_table(study, h, file, title, &c, &i->patterns);
+    }
+    return status;
+}
+
+koksma_status koksma__answer_table(koksma_study *study, koksma__html *h, const koksma__topic *topic)
+{
+    koksma_status status = KOKSMA_OK;
     size_t number = 0;
     for (size_t b = 0; !status && b < topic->n_discrepancies; b++) {
-        const koksma__discrepancy_block *d = topic->discrepancies[b];
-        const columns c = {.discrepancy = d, .n = d->warps.n ? 0 : d->n.n * d->measures.n};
-        snprintf(file, sizeof file, "means-%.32s-%zu", topic->id, ++number);
-        status = add_table(study, h, file, "Measures of the points", &c, &d->patterns);
+        status = add_points(study, h, topic->id, topic->discrepancies[b], &number);
     }
-    for (size_t b = 0; b < topic->n_images; b++) {
-        const koksma__image_block *i = topic->images[b];
-        for (size_t k = 0; !status && k < i->scenes.n * i->variants.n; k++) {
-            const columns c = {.image = i,
-                               .scene = i->scenes.at[k / i->variants.n],
-                               .variant = i->variants.at[k % i->variants.n],
-                               .n = i->spp.n};
-            koksma__case_name(c.scene, c.variant, title, sizeof title);
-            snprintf(file, sizeof file, "means-%.32s-%zu", topic->id, ++number);
-            status = add_table(study, h, file, title, &c, &i->patterns);
-        }
+    for (size_t b = 0; !status && b < topic->n_images; b++) {
+        status = add_images(study, h, topic->id, topic->images[b], &number);
     }
     return status;
 }
