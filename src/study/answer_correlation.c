@@ -12,29 +12,14 @@
 #include "core/c_locale.h"
 #include "core/room.h"
 #include "core/status.h"
-#include "study/answers.h"
+#include "study/cases.h"
 
-/* The bootstrap's time goes with the square of the patterns; combinations of options beyond have no column of their
-   own in the summary. */
-enum { MAX_PATTERNS = 256, MAX_VARIANTS = 24, SAMPLES = 1000 };
-
-typedef struct pairs {
-    size_t n;
-    double x[MAX_PATTERNS], y[MAX_PATTERNS], low[MAX_PATTERNS], high[MAX_PATTERNS];
-    const char *patterns[MAX_PATTERNS];
-} pairs;
-
-typedef struct point {
-    const koksma__image_block *image;
-    const char *scene, *variant;
-    long long spp;
-    const koksma__discrepancy_block *discrepancy;
-    const char *measure;
-} point;
+/* Combinations of options beyond have no column of their own in the summary. */
+enum { MAX_VARIANTS = 24, SAMPLES = 1000 };
 
 /* Sums of rho of one measure, by variant. */
 typedef struct measure_sums {
-    const char *measure;
+    const koksma__measured *of;
     double total, rho[MAX_VARIANTS];
     size_t all, cases[MAX_VARIANTS];
     size_t sure, few; /* cases whose interval excludes 0; that have too few patterns for one */
@@ -42,25 +27,16 @@ typedef struct measure_sums {
 
 typedef struct sums {
     size_t n, room, n_variants, room_of_variants;
+    size_t most_patterns; /* of a case */
     measure_sums *of;
     const char **variants;
 } sums;
 
-static bool has(const koksma__wholes *wholes, long long n)
-{
-    for (size_t i = 0; i < wholes->n; i++) {
-        if (wholes->at[i] == n) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The sums of a measure; NULL: no memory. */
-static measure_sums *sums_of(sums *s, const char *measure)
+static measure_sums *sums_of(sums *s, const koksma__measured *measured)
 {
     for (size_t m = 0; m < s->n; m++) {
-        if (!strcmp(s->of[m].measure, measure)) {
+        if (s->of[m].of == measured) {
             return &s->of[m];
         }
     }
@@ -69,7 +45,7 @@ static measure_sums *sums_of(sums *s, const char *measure)
         return NULL;
     }
     s->of = of;
-    of[s->n] = (measure_sums){.measure = measure};
+    of[s->n] = (measure_sums){.of = measured};
     return &of[s->n++];
 }
 
@@ -90,10 +66,10 @@ static koksma_status index_of_variant(sums *s, const char *variant, size_t *inde
     return KOKSMA_OK;
 }
 
-static koksma_status add_case(sums *s, const point *p, const koksma__estimate *rho, size_t n_patterns)
+static koksma_status add_case(sums *s, const koksma__case *p, const koksma__estimate *rho, size_t n_patterns)
 {
     size_t v;
-    measure_sums *of = sums_of(s, p->measure);
+    measure_sums *of = sums_of(s, p->of);
     const koksma_status status = of ? index_of_variant(s, p->variant, &v) : KOKSMA_MEMORY;
     if (status) {
         return status;
@@ -109,78 +85,23 @@ static koksma_status add_case(sums *s, const point *p, const koksma__estimate *r
     return KOKSMA_OK;
 }
 
-/* The patterns that both blocks have rows of. */
-static koksma_status collect(koksma_study *study, const point *p, pairs *out)
-{
-    koksma_status status = KOKSMA_OK;
-    out->n = 0;
-    for (size_t i = 0; !status && i < p->image->patterns.n && out->n < MAX_PATTERNS; i++) {
-        const char *pattern = p->image->patterns.at[i];
-        koksma__summary x, y;
-        status = koksma__discrepancy_mean(study, p->discrepancy, "", pattern, p->spp, p->measure, NULL, &x);
-        status =
-            status ? status : koksma__image_mean(study, p->image, p->scene, p->variant, pattern, p->spp, NULL, &y);
-        if (!status && x.n && y.n) {
-            out->x[out->n] = x.mean;
-            out->y[out->n] = y.mean;
-            out->low[out->n] = y.low;
-            out->high[out->n] = y.high;
-            out->patterns[out->n++] = pattern;
-        }
-    }
-    return status;
-}
-
-typedef koksma_status (*visitor)(koksma_study *study, void *context, const point *p);
-
-static koksma_status visit_measures(koksma_study *study, const koksma__topic *topic, point *p, visitor visit,
-                                    void *context)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t b = 0; b < topic->n_discrepancies; b++) {
-        p->discrepancy = topic->discrepancies[b];
-        if (!p->discrepancy->warps.n && has(&p->discrepancy->n, p->spp)) {
-            for (size_t m = 0; !status && m < p->discrepancy->measures.n; m++) {
-                p->measure = p->discrepancy->measures.at[m];
-                status = visit(study, context, p);
-            }
-        }
-    }
-    return status;
-}
-
-/* Every scene, variant, number of samples and measure. */
-static koksma_status visit_all(koksma_study *study, const koksma__topic *topic, visitor visit, void *context)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t b = 0; b < topic->n_images; b++) {
-        const koksma__image_block *i = topic->images[b];
-        for (size_t k = 0; !status && k < i->scenes.n * i->variants.n * i->spp.n; k++) {
-            point p = {.image = i,
-                       .scene = i->scenes.at[k / (i->variants.n * i->spp.n)],
-                       .variant = i->variants.at[k / i->spp.n % i->variants.n],
-                       .spp = i->spp.at[k % i->spp.n]};
-            status = visit_measures(study, topic, &p, visit, context);
-        }
-    }
-    return status;
-}
-
 typedef struct listing {
     koksma__grid *grid;
     sums *sums;
 } listing;
 
-static koksma_status list_row(koksma_study *study, void *context, const point *p)
+static koksma_status list_row(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     listing *l = context;
-    pairs found;
+    koksma__pairs found;
     koksma__estimate rho, tau;
-    koksma_status status = collect(study, p, &found);
+    koksma_status status = koksma__case_pairs(cases, p, &found);
+    l->sums->most_patterns =
+        found.patterns_in_all > l->sums->most_patterns ? found.patterns_in_all : l->sums->most_patterns;
     if (status || found.n < 4) {
         return status;
     }
-    const uint64_t seed = koksma__job_seed("correlation|%s|%s|%lld|%s", p->scene, p->variant, p->spp, p->measure);
+    const uint64_t seed = koksma__job_seed("correlation|%s|%s|%lld|%s", p->scene, p->variant, p->spp, p->of->label);
     status = koksma__bootstrap_pairs(found.x, found.y, found.n, koksma__spearman, SAMPLES, seed, &rho);
     status =
         status ? status : koksma__bootstrap_pairs(found.x, found.y, found.n, koksma__kendall, SAMPLES, seed, &tau);
@@ -191,7 +112,7 @@ static koksma_status list_row(koksma_study *study, void *context, const point *p
     koksma__grid_text(l->grid, p->scene);
     koksma__grid_text(l->grid, p->variant[0] ? p->variant : "defaults");
     koksma__grid_number(l->grid, (double)p->spp, 7);
-    koksma__grid_text(l->grid, p->measure);
+    koksma__grid_text(l->grid, p->of->label);
     koksma__grid_number(l->grid, (double)found.n, 7);
     koksma__grid_interval(l->grid, rho, 3);
     koksma__grid_interval(l->grid, tau, 3);
@@ -217,16 +138,12 @@ static void order(sums *s)
 }
 
 /* What the answer leaves out. */
-static void add_limits(koksma__html *h, const koksma__topic *topic, const sums *s)
+static void add_limits(koksma__html *h, const sums *s)
 {
-    size_t most = 0;
-    for (size_t b = 0; b < topic->n_images; b++) {
-        most = topic->images[b]->patterns.n > most ? topic->images[b]->patterns.n : most;
-    }
-    if (most > MAX_PATTERNS) {
+    if (s->most_patterns > KOKSMA__CASE_PATTERNS) {
         koksma__html_add(h,
                          "<p>Of up to %zu patterns the first %d are correlated; the others are in the export.</p>\n",
-                         most, MAX_PATTERNS);
+                         s->most_patterns, KOKSMA__CASE_PATTERNS);
     }
     if (s->n_variants > MAX_VARIANTS) {
         koksma__html_add(h,
@@ -240,7 +157,7 @@ static void add_sentence(koksma__html *h, const sums *s)
 {
     const measure_sums *best = &s->of[0], *worst = &s->of[s->n - 1];
     koksma__html_add(h, "<p><strong>Answer.</strong> <code>");
-    koksma__html_text(h, best->measure);
+    koksma__html_text(h, best->of->label);
     koksma__html_add(h,
                      "</code> orders the patterns most as the error of the images does: mean rank correlation "
                      "(Spearman) %+.2f over %zu cases, in %zu of which its interval excludes 0",
@@ -250,7 +167,7 @@ static void add_sentence(koksma__html *h, const sums *s)
                          KOKSMA__LEAST_PAIRS);
     }
     koksma__html_add(h, "; last is <code>");
-    koksma__html_text(h, worst->measure);
+    koksma__html_text(h, worst->of->label);
     koksma__html_add(h, "</code> with %+.2f. A measure that is better when larger has negative numbers.</p>\n",
                      mean_rho(worst));
 }
@@ -261,7 +178,7 @@ static void add_summary(koksma__html *h, const koksma__topic *topic, const sums 
     koksma__grid grid;
     char text[KOKSMA__VARIANT_TEXT + 64];
     add_sentence(h, s);
-    add_limits(h, topic, s);
+    add_limits(h, s);
     snprintf(text, sizeof text, "correlation-%.40s", topic->id);
     koksma__grid_open(&grid, h, text);
     koksma__grid_head(&grid, "measure");
@@ -275,7 +192,7 @@ static void add_summary(koksma__html *h, const koksma__topic *topic, const sums 
     for (size_t i = 0; i < s->n; i++) {
         const measure_sums *m = &s->of[i];
         koksma__grid_row(&grid);
-        koksma__grid_text(&grid, m->measure);
+        koksma__grid_text(&grid, m->of->label);
         koksma__grid_number(&grid, mean_rho(m), 3);
         koksma__grid_number(&grid, (double)m->all, 7);
         koksma__grid_number(&grid, (double)m->sure, 7);
@@ -288,19 +205,19 @@ static void add_summary(koksma__html *h, const koksma__topic *topic, const sums 
 
 typedef struct plots {
     koksma__html *html;
-    const char *measure;
+    const koksma__measured *of;
     size_t left;
 } plots;
 
 /* A scatter plot of the best measure in the middle number of samples of a block. */
-static koksma_status add_scatter(koksma_study *study, void *context, const point *p)
+static koksma_status add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     plots *to = context;
-    pairs found;
-    if (!to->left || strcmp(p->measure, to->measure) != 0 || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
+    koksma__pairs found;
+    if (!to->left || p->of != to->of || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
         return KOKSMA_OK;
     }
-    const koksma_status status = collect(study, p, &found);
+    const koksma_status status = koksma__case_pairs(cases, p, &found);
     koksma__chart_series *series = calloc(KOKSMA__CHART_SERIES, sizeof *series);
     if (status || !series) {
         free(series);
@@ -315,8 +232,8 @@ static koksma_status add_scatter(koksma_study *study, void *context, const point
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
-                     p->measure, koksma__spearman(found.x, found.y, found.n));
-    const koksma__chart chart = {title, p->measure, "mean absolute error", true, true, n, series, found.n - n};
+                     p->of->label, koksma__spearman(found.x, found.y, found.n));
+    const koksma__chart chart = {title, p->of->label, "mean absolute error", true, true, n, series, found.n - n};
     koksma__html_chart(to->html, &chart);
     free(series);
     to->left--;
@@ -328,6 +245,7 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
     koksma__grid grid;
     koksma__html list = {0};
     sums s = {0};
+    koksma__cases cases;
     char name[64];
     snprintf(name, sizeof name, "correlations-%.40s", topic->id);
     koksma__grid_open(&grid, &list, name);
@@ -338,7 +256,8 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
     koksma__grid_head_interval(&grid, "Spearman");
     koksma__grid_head_interval(&grid, "Kendall");
     listing l = {&grid, &s};
-    koksma_status status = visit_all(study, topic, list_row, &l);
+    koksma_status status = koksma__cases_open(study, topic, &cases);
+    status = status ? status : koksma__cases_visit(&cases, list_row, &l);
     koksma__grid_close(&grid);
     if (!status && s.n) {
         order(&s);
@@ -346,11 +265,12 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
         koksma__html_add(h, "<details><summary>Every case, with intervals</summary>\n%s</details>\n",
                          list.text ? list.text : "");
         koksma__html_add(h, "<div class=\"figures\">\n");
-        plots to = {h, s.of[0].measure, 6};
-        status = visit_all(study, topic, add_scatter, &to);
+        plots to = {h, s.of[0].of, 6};
+        status = koksma__cases_visit(&cases, add_scatter, &to);
         koksma__html_add(h, "</div>\n");
     }
     h->failed |= list.failed;
+    koksma__cases_close(&cases);
     free(list.text);
     free(s.of);
     free(s.variants);
