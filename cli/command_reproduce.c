@@ -68,14 +68,15 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
 /* Both papers together bring the questions that they leave open. */
 static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
 {
-    bool shirley = false, mitchell = false;
+    bool shirley = false, mitchell = false, open = false;
     size_t n = 0;
     for (int i = 0; i < arguments->n_operands; i++) {
         plans[n++] = arguments->operands[i];
         shirley |= !strcmp(arguments->operands[i], "shirley1991");
         mitchell |= !strcmp(arguments->operands[i], "mitchell1992");
+        open |= !strcmp(arguments->operands[i], "open-questions");
     }
-    if (shirley && mitchell && n < MAX_PLANS) {
+    if (shirley && mitchell && !open && n < MAX_PLANS) {
         plans[n++] = "open-questions";
     }
     return n;

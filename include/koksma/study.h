@@ -43,8 +43,8 @@ typedef struct koksma_study_options {
     bool quick;               /* each block's `quick` number of trials, where it has one */
 } koksma_study_options;
 
-/* Errors: UNKNOWN, MISSING, MALFORMED (with file, line and reason), IO (the folder can't be written, another run
-   holds it), MEMORY. */
+/* Errors: ARGUMENT (a plan stands twice), UNKNOWN, MISSING, MALFORMED (with file, line and reason), IO (the folder
+   can't be written, another run holds it), MEMORY. */
 KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out);
 
 /* Commits what is not yet on disk. Takes NULL. Errors: IO. */

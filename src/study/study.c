@@ -150,6 +150,17 @@ static koksma_status recall_plan(koksma_study *study)
     return status;
 }
 
+/* Whether plan i has the text of one before it: all its jobs would be done again, and its questions asked again. */
+static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
+{
+    for (size_t k = 0; k < i; k++) {
+        if (!strcmp(texts[k], texts[i])) {
+            return koksma__fail(KOKSMA_ARGUMENT, "plan '%s' stands twice", options->plans[i]);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
 {
     const koksma__plan_trials trials = {options->trials, options->quick};
@@ -157,6 +168,7 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
     for (size_t i = 0; !status && i < options->n_plans; i++) {
         koksma__plan plan = {0};
         status = load_plan(options->plans[i], &trials, &plan, &texts[i]);
+        status = status ? status : check_text(options, texts, i);
         status = status ? status : append_plan(study, &plan);
         koksma__plan_fini(&plan);
     }
