@@ -95,9 +95,10 @@ static koksma_status add_table(koksma_study *study, koksma__html *h, const char 
         koksma__html_add(h, "<h4>");
         koksma__html_text(h, title);
         koksma__html_add(h, "</h4>\n");
+        status = c->image ? koksma__add_reference(study, h, c->image, c->scene, c->variant) : KOKSMA_OK;
         koksma__grid_open(&grid, h, file);
         add_heads(&grid, c);
-        status = add_rows(study, &grid, c, patterns, by);
+        status = status ? status : add_rows(study, &grid, c, patterns, by);
         koksma__grid_close(&grid);
     }
     free(means);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/answers.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +69,34 @@ koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block 
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
 {
     snprintf(text, size, "%s%s%s", scene, variant[0] ? ", " : "", variant);
+}
+
+koksma_status koksma__add_reference(koksma_study *study, koksma__html *h, const koksma__image_block *block,
+                                    const char *scene, const char *variant)
+{
+    size_t index;
+    double own = NAN;
+    char name[KOKSMA__REFERENCE_NAME];
+    const size_t last = block->n_references - 1;
+    const koksma__reference *r = &block->references[last];
+    koksma_status status =
+        koksma__reference_index(study, block, koksma__study_scene_of(study, scene), variant, last, &index);
+    if (!status) {
+        const koksma__series key = koksma__reference_key(&study->references[index], name);
+        status = koksma__store_reference(study->store, &key, &own);
+    }
+    koksma__html_add(h, "<p>Mean absolute errors against the reference <em>");
+    koksma__html_text(h, r->name);
+    koksma__html_add(h, "</em>, the mean of %lld renders with %lld samples a pixel of ", r->replicates, r->spp);
+    koksma__html_text(h, r->pattern);
+    if (isfinite(own)) {
+        koksma__html_add(h, "; its own error is about %.2g", own);
+    } else {
+        koksma__html_add(h, "; its own error is not known");
+    }
+    koksma__html_add(h, ". Up to %lld trials.%s</p>\n", block->trials,
+                     last ? " Those against the plan's other references are among the exported rows." : "");
+    return status;
 }
 
 koksma__estimate koksma__estimate_of(const koksma__summary *s)

@@ -38,6 +38,10 @@ koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block 
 /* "checker, filter=tent" */
 void koksma__case_name(const char *scene, const char *variant, char *text, size_t size);
 
+/* A sentence on what the errors of a case are against: the block's last reference. */
+koksma_status koksma__add_reference(koksma_study *study, koksma__html *html, const koksma__image_block *block,
+                                    const char *scene, const char *variant);
+
 koksma__estimate koksma__estimate_of(const koksma__summary *summary);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WIDTH = 560, HEIGHT = 380, LEFT = 70, RIGHT = 170, TOP = 14, BOTTOM = 48, COLOURS = 8 };
+enum { WIDTH = 620, HEIGHT = 380, LEFT = 70, RIGHT = 230, TOP = 14, BOTTOM = 48, COLOURS = 8 };
 
 typedef struct axis {
     double low, high;
@@ -29,6 +29,24 @@ static void widen(axis *a, double value)
         const double v = a->is_log ? log10(value) : value;
         a->low = fmin(a->low, v);
         a->high = fmax(a->high, v);
+    }
+}
+
+/* What a bar takes beyond the means: no more than they span themselves, at least a third of a decade or of the value.
+ */
+static void widen_for_bars(axis *a, const koksma__chart *c)
+{
+    const double span = a->high - a->low, room = fmax(span, a->is_log ? 0.33 : 0.33 * fabs(a->high));
+    axis bars = *a;
+    for (size_t s = 0; s < c->n; s++) {
+        for (size_t i = 0; i < c->series[s].n; i++) {
+            widen(&bars, c->series[s].low[i]);
+            widen(&bars, c->series[s].high[i]);
+        }
+    }
+    if (isfinite(room)) {
+        a->low = fmax(bars.low, a->low - room);
+        a->high = fmin(bars.high, a->high + room);
     }
 }
 
@@ -83,15 +101,42 @@ static void add_ticks(koksma__html *h, const axis *a, bool horizontal)
     }
 }
 
-static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t i)
+/* The end of a bar, where the axis has it: a bar that goes on beyond, as to 0 on a logarithmic axis, ends with it. */
+static double bar_end(const axis *y, double value)
+{
+    const double at = fits(y, value) ? place(y, value) : y->from;
+    return fmin(fmax(at, fmin(y->from, y->to)), fmax(y->from, y->to));
+}
+
+/* Colours come again with another shape: a dot, a square, a triangle. */
+static void add_shape(koksma__html *h, size_t index, double x, double y)
+{
+    if (index / COLOURS == 0) {
+        koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\">", x, y);
+    } else if (index / COLOURS == 1) {
+        koksma__html_add(h, "<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\">", x - 3, y - 3);
+    } else {
+        koksma__html_add(h, "<polygon points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\">", x - 4, y + 3, x + 4, y + 3, x,
+                         y - 4);
+    }
+}
+
+static const char *end_of_shape(size_t index)
+{
+    return index / COLOURS == 0 ? "</circle>" : index / COLOURS == 1 ? "</rect>" : "</polygon>";
+}
+
+static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t i,
+                     size_t index)
 {
     const double at_x = place(x, s->x[i]), at_y = place(y, s->y[i]);
-    if (s->low[i] < s->high[i] && fits(y, s->low[i])) {
-        koksma__html_add(h, "<path d=\"M%.1f %.1fV%.1f\"/>", at_x, place(y, s->low[i]), place(y, s->high[i]));
+    if (s->low[i] < s->high[i]) {
+        koksma__html_add(h, "<path d=\"M%.1f %.1fV%.1f\"/>", at_x, bar_end(y, s->low[i]), bar_end(y, s->high[i]));
     }
-    koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\"><title>", at_x, at_y);
+    add_shape(h, index, at_x, at_y);
+    koksma__html_add(h, "<title>");
     koksma__html_text(h, s->label);
-    koksma__html_add(h, ": %.6g, %.6g</title></circle>", s->x[i], s->y[i]);
+    koksma__html_add(h, ": %.6g, %.6g</title>%s", s->x[i], s->y[i], end_of_shape(index));
 }
 
 static void add_series(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t index)
@@ -108,7 +153,7 @@ static void add_series(koksma__html *h, const axis *x, const axis *y, const koks
     koksma__html_add(h, "%s", begun ? "\"/>" : "");
     for (size_t i = 0; i < s->n && !s->theory; i++) {
         if (fits(x, s->x[i]) && fits(y, s->y[i])) {
-            add_mark(h, x, y, s, i);
+            add_mark(h, x, y, s, i, index);
         }
     }
     koksma__html_add(h, "</g>\n");
@@ -118,10 +163,15 @@ static void add_legend(koksma__html *h, const koksma__chart *c)
 {
     for (size_t s = 0; s < c->n; s++) {
         const double at = TOP + 12 + 15 * (double)s;
-        koksma__html_add(
-            h, "<g class=\"%s s%zu\"><path class=\"line\" d=\"M%d %.1fh18\"/></g><text x=\"%d\" y=\"%.1f\">",
-            c->series[s].theory ? "theory" : "series", s % COLOURS, WIDTH - RIGHT + 8, at - 4, WIDTH - RIGHT + 30,
-            at);
+        koksma__html_add(h, "<g class=\"%s s%zu\">", c->series[s].theory ? "theory" : "series", s % COLOURS);
+        if (c->series[s].line || c->series[s].theory) {
+            koksma__html_add(h, "<path class=\"line\" d=\"M%d %.1fh18\"/>", WIDTH - RIGHT + 8, at - 4);
+        }
+        if (!c->series[s].theory) {
+            add_shape(h, s, WIDTH - RIGHT + 17, at - 4);
+            koksma__html_add(h, "%s", end_of_shape(s));
+        }
+        koksma__html_add(h, "</g><text x=\"%d\" y=\"%.1f\">", WIDTH - RIGHT + 30, at);
         koksma__html_text(h, c->series[s].label);
         koksma__html_add(h, "</text>");
     }
@@ -137,6 +187,7 @@ void koksma__html_chart(koksma__html *h, const koksma__chart *c)
             widen(&y, c->series[s].y[i]);
         }
     }
+    widen_for_bars(&y, c);
     settle(&x);
     settle(&y);
     koksma__html_add(h, "<figure class=\"chart\"><svg viewBox=\"0 0 %d %d\" width=\"%d\" role=\"img\" aria-label=\"",

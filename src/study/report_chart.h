@@ -9,11 +9,11 @@ enum { KOKSMA__CHART_SERIES = 24, KOKSMA__CHART_POINTS = 64 };
 
 typedef struct koksma__chart_series {
     char label[96];
-    bool line;   /* joined, else marks with their labels beside them */
+    bool line;   /* joined, else marks alone; which is whose tells the legend, by colour and shape */
     bool theory; /* a dashed line without marks */
     size_t n;
     double x[KOKSMA__CHART_POINTS], y[KOKSMA__CHART_POINTS];
-    double low[KOKSMA__CHART_POINTS], high[KOKSMA__CHART_POINTS]; /* of y; equal for none */
+    double low[KOKSMA__CHART_POINTS], high[KOKSMA__CHART_POINTS]; /* of y; equal or NaN for none */
 } koksma__chart_series;
 
 typedef struct koksma__chart {

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/answers.h"
 #include "study/error_spectrum.h"
 #include "study/report.h"
 #include "study/report_chart.h"
@@ -114,10 +115,11 @@ static koksma_status add_spectra(koksma__html *h, const koksma__task *first, con
     }
     if (!status) {
         char title[512];
+        char name[256];
+        koksma__case_name(first->scene->name, first->variant, name, sizeof name);
         snprintf(title, sizeof title,
-                 "Spectrum of the image error: %.200s, %lld samples a pixel, mean over rings and %d trials",
-                 first->scene->name, first->n,
-                 first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS);
+                 "Spectrum of the image error: %.200s, %lld samples a pixel, mean over rings and %d trials", name,
+                 first->n, first->trials < SPECTRUM_TRIALS ? (int)first->trials : SPECTRUM_TRIALS);
         const koksma__chart chart = {title, "cycles a pixel", "power", false, true, n, series, patterns->n - n};
         koksma__html_chart(h, &chart);
     }
@@ -173,9 +175,12 @@ static koksma_status add_scene(koksma_study *study, koksma__html *h, const koksm
             GAIN);
         b->shown = true;
     }
+    char name[512];
+    koksma__case_name(first->scene->name, first->variant, name, sizeof name);
     koksma__html_add(h, "<h3>");
-    koksma__html_text(h, first->scene->name);
-    koksma__html_add(h, ", %lld samples a pixel</h3>\n<div class=\"figures\">\n", first->n);
+    koksma__html_text(h, name);
+    koksma__html_add(h, ", %lld samples a pixel, %d x %d pixels</h3>\n<div class=\"figures\">\n", first->n,
+                     first->width, first->height);
     if (!status) {
         status = add_thumbnail(h, &reference->image, NULL, "reference", first->scene->name);
         add_floats(&floats, &reference->image, "reference", true);
