@@ -20,7 +20,7 @@ static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;
     for (size_t j = 0; j < n; j++) {
-        rank += (values[j] < values[i]) + 0.5 * (values[j] == values[i]);
+        rank += 0.5 * (koksma__compare(values[i], values[j]) + 1);
     }
     return rank;
 }
@@ -43,7 +43,7 @@ double koksma__kendall(const double *x, const double *y, size_t n)
     double score = 0, in_x = 0, in_y = 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = i + 1; j < n; j++) {
-            const int a = (x[i] > x[j]) - (x[i] < x[j]), b = (y[i] > y[j]) - (y[i] < y[j]);
+            const int a = koksma__compare(x[i], x[j]), b = koksma__compare(y[i], y[j]);
             score += a * b;
             in_x += a != 0;
             in_y += b != 0;
