@@ -212,21 +212,68 @@ static void bootstrap_intervals(void **state)
 {
     (void)state;
     double values[400], y[400];
+    const koksma__means x = {values, NULL, 0}, of_y = {y, NULL, 0};
     koksma__estimate e, again;
     for (uint64_t i = 0; i < 400; i++) {
         values[i] = normal(5, i);
         y[i] = values[i] + 0.1 * normal(6, i);
     }
-    assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &e));
     assert_true(e.low < e.value && e.value < e.high && e.low > 0.95 && e.high <= 1);
-    assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &again));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &again));
     assert_true(e.low == again.low && e.high == again.high);
     for (size_t n = 1; n < 7; n++) { /* too few to say that it isn't 0 */
-        assert_ok(koksma__bootstrap_pairs(values, values, n, koksma__spearman, 500, 3, &e));
+        assert_ok(koksma__bootstrap_pairs(&x, &x, n, koksma__spearman, 500, 3, NULL, &e));
         assert_true(e.low == -1 && e.high == 1);
     }
-    assert_ok(koksma__bootstrap_pairs(values, values, 7, koksma__spearman, 500, 3, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 7, koksma__spearman, 500, 3, NULL, &e));
     assert_true(e.value == 1 && e.low == 1);
+}
+
+/* Means that are not sure of their order have no sure correlation; equal seeds draw equal noise. */
+static void bootstrap_redraws_means(void **state)
+{
+    (void)state;
+    double mean[9], wide[9], narrow[9], values[500], again[500];
+    for (size_t i = 0; i < 9; i++) {
+        mean[i] = (double)i;
+        wide[i] = 1;
+        narrow[i] = 1e-6;
+    }
+    const koksma__means sure = {mean, narrow, 1}, x = {mean, wide, 1}, y = {mean, wide, 2}, exact = {mean, NULL, 0};
+    koksma__estimate e;
+    assert_ok(koksma__bootstrap_pairs(&exact, &sure, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_true(e.value == 1 && e.low == 1 && e.high == 1);
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, values, &e));
+    assert_true(e.value == 1 && e.low > 0.3 && e.low < 0.9 && e.high <= 1);
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, again, &e));
+    assert_memory_equal(values, again, sizeof values);
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_true(e.low == 1); /* the same means with the same noise */
+}
+
+/* Two measures of which one has the order of the errors, the other two neighbours exchanged, or half of it. */
+static void correlations_told_apart(void **state)
+{
+    (void)state;
+    double errors[16], near[16], far[16], draws[3][500];
+    koksma__estimate rho[3], e;
+    for (size_t i = 0; i < 16; i++) {
+        errors[i] = (double)i;
+        near[i] = (double)(i == 3 ? 4 : i == 4 ? 3 : i);
+        far[i] = i % 2 ? (double)i : 15 - (double)i;
+    }
+    const koksma__means y = {errors, NULL, 0}, x[] = {{errors, NULL, 0}, {near, NULL, 0}, {far, NULL, 0}};
+    for (size_t m = 0; m < 3; m++) {
+        assert_ok(koksma__bootstrap_pairs(&x[m], &y, 16, koksma__spearman, 500, 3, draws[m], &rho[m]));
+    }
+    const koksma__draws first = {2 * rho[0].value, 2, draws[0]}, second = {2 * rho[1].value, 2, draws[1]},
+                        third = {rho[2].value, 1, draws[2]};
+    assert_ok(koksma__bootstrap_difference(&first, &second, 500, &e));
+    assert_near(e.value, 2 * (1 - rho[1].value), 1e-15);
+    assert_true(e.low == 0 && e.high > e.value && e.high < 0.1); /* in some resamples neither of the two is */
+    assert_ok(koksma__bootstrap_difference(&first, &third, 500, &e));
+    assert_true(e.low > 0.5);
 }
 
 /* Of 10 pairs without correlation the interval excludes 0 in about 5 % of cases. */
@@ -241,7 +288,8 @@ static void bootstrap_covers(void **state)
             x[i] = normal(t, i);
             y[i] = normal(t, 100 + i);
         }
-        assert_ok(koksma__bootstrap_pairs(x, y, 10, koksma__spearman, 300, t, &e));
+        const koksma__means of_x = {x, NULL, 0}, of_y = {y, NULL, 0};
+        assert_ok(koksma__bootstrap_pairs(&of_x, &of_y, 10, koksma__spearman, 300, t, NULL, &e));
         excluded += e.low > 0 || e.high < 0;
     }
     assert_in_range(excluded, 4, 44);
@@ -326,6 +374,8 @@ int main(void)
         cmocka_unit_test(correlations_by_hand),
         cmocka_unit_test(correlations_over_all_orders),
         cmocka_unit_test(bootstrap_intervals),
+        cmocka_unit_test(bootstrap_redraws_means),
+        cmocka_unit_test(correlations_told_apart),
         cmocka_unit_test(bootstrap_covers),
         cmocka_unit_test(paired_differences),
         cmocka_unit_test(relative_changes),
