@@ -59,10 +59,10 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
 {
     const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;
-    const double quotient = mean_a == mean ? 1 : mean_a / mean;
+    const double quotient = koksma__compare(mean_a, mean) ? mean_a / mean : 1;
     koksma__sum squares = {0};
     for (size_t i = 0; i < n; i++) {
-        const double t = a[i] - quotient * base[i];
+        const double expected = quotient * base[i], t = koksma__compare(a[i], expected) ? a[i] - expected : 0;
         koksma__sum_add(&squares, t * t);
     }
     if (n < 2) {

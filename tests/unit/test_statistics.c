@@ -150,6 +150,8 @@ static void rounding_is_no_variation(void **state)
     assert_true(koksma__compare(1, 1 + tiny) == 0 && koksma__compare(1, 1 + 1e-9) == -1 &&
                 koksma__compare(2, 1) == 1);
     assert_true(koksma__compare(0, 0) == 0 && koksma__compare(0, 1e-300) == -1 && koksma__compare(-1, -2) == 1);
+    const koksma__estimate change = koksma__relative_change(a, b, 4);
+    assert_true(change.value == 0 && change.low == 0 && change.high == 0);
     const double x[] = {1, 1 + tiny, 2, 3, 4}, y[] = {2, 1, 3, 4, 5}, tied[] = {1, 1, 2, 3, 4};
     assert_near(koksma__spearman(x, y, 5), koksma__spearman(tied, y, 5), 0);
     assert_near(koksma__kendall(x, y, 5), koksma__kendall(tied, y, 5), 0);
