@@ -146,7 +146,7 @@ static void rounding_is_no_variation(void **state)
     assert_true(s.sd == 0 && s.low == s.mean && s.high == s.mean);
     s = koksma__paired(a, b, 4, 1);
     assert_true(s.mean == 0 && s.sd == 0 && s.low == 0 && s.high == 0);
-    assert_true(koksma__summarize(c, 4, 2).sd > 0);
+    assert_true(koksma__summarize(c, 2, 2).sd > 0);
     assert_true(koksma__compare(1, 1 + tiny) == 0 && koksma__compare(1, 1 + 1e-9) == -1 &&
                 koksma__compare(2, 1) == 1);
     assert_true(koksma__compare(0, 0) == 0 && koksma__compare(0, 1e-300) == -1 && koksma__compare(-1, -2) == 1);
