@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How measures and errors fall with n: slopes in log-log by weighted least squares over the larger half of the sizes,
- * with intervals, beside what theory says is possible. A bound with a logarithm has no slope; the slope of the
- * bound itself over the same sizes stands in its place.
+ * How measures and errors fall with n: average slopes in log-log over the larger half of the sizes, with intervals,
+ * beside what theory says is possible. A bound with a logarithm has no slope; the slope of the bound itself over the
+ * same sizes stands in its place.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,15 +25,14 @@ static const struct {
 /* The means of one pattern over the sizes, with room for all of them. */
 typedef struct curve {
     size_t n;
-    double *x, *logs; /* logs: room for a fit's three columns */
+    double *x;
     koksma__summary *y;
 } curve;
 
 static koksma_status curve_init(curve *c, size_t room)
 {
-    *c = (curve){.x = calloc(4 * room, sizeof *c->x), .y = calloc(room, sizeof *c->y)};
-    c->logs = c->x ? c->x + room : NULL;
-    return c->x && c->y ? KOKSMA_OK : koksma__fail_memory(room * (4 * sizeof *c->x + sizeof *c->y));
+    *c = (curve){.x = calloc(room, sizeof *c->x), .y = calloc(room, sizeof *c->y)};
+    return c->x && c->y ? KOKSMA_OK : koksma__fail_memory(room * (sizeof *c->x + sizeof *c->y));
 }
 
 static void curve_fini(curve *c)
@@ -78,21 +77,10 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
 }
 
 /* Over the larger half, at least three sizes where there are as many. */
-static koksma__estimate slope_of(const curve *c)
+static koksma__trend trend_of(const curve *c)
 {
-    size_t first = c->n / 2, least = SIZE_MAX;
-    first = c->n < 3 ? 0 : c->n - first < 3 ? c->n - 3 : first;
-    const size_t n = c->n - first;
-    double *x = c->logs, *y = x + n, *sigma = y + n;
-    for (size_t i = 0; i < n; i++) {
-        const koksma__summary *from = &c->y[first + i];
-        x[i] = log(c->x[first + i]);
-        y[i] = log(from->mean);
-        sigma[i] = from->n > 1 ? from->sd / sqrt((double)from->n) / from->mean : 0;
-        least = from->n < least ? from->n : least;
-    }
-    const koksma__line line = koksma__fit_line(x, y, sigma, n);
-    return koksma__slope(&line, least);
+    const size_t half = c->n - c->n / 2, least = c->n < 3 ? c->n : 3, n = half < least ? least : half;
+    return koksma__trend_of(c->x + (c->n - n), c->y + (c->n - n), n);
 }
 
 /* The bound over the sizes of a curve; NULL: none is known, else whose it is. */
@@ -139,32 +127,98 @@ static void name_subject(const subject *s, char *text, size_t size)
     }
 }
 
-/* The sentence: who falls fastest, who is better than random's n^-1/2. */
-static void add_sentence(koksma__html *h, const char *name, const char *const *labels, const koksma__estimate *slopes,
-                         size_t n)
+/* The patterns that have a slope. */
+typedef struct standing {
+    size_t counted, best, tied, faster, off_line; /* tied: the best and those that are not told apart from it */
+} standing;
+
+static double half(const koksma__estimate *e)
 {
-    size_t best = 0, faster = 0, counted = 0;
+    return e->high - e->value;
+}
+
+/* Not told apart: the interval of the difference of two slopes, as independent as their trials, has 0; or they are
+   equal; or one has no interval. */
+static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
+{
+    return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
+}
+
+static standing stand(const koksma__trend *trends, size_t n)
+{
+    standing s = {0};
     for (size_t i = 0; i < n; i++) {
-        if (!isnan(slopes[i].value)) {
-            best = isnan(slopes[best].value) || slopes[i].value < slopes[best].value ? i : best;
-            faster += slopes[i].high < -0.5;
-            counted++;
+        const koksma__estimate *e = &trends[i].slope, *best = &trends[s.best].slope;
+        if (!isnan(e->value)) {
+            s.best = isnan(best->value) || e->value < best->value ? i : s.best;
+            s.counted++;
+            s.faster += e->high < -0.5;
+            s.off_line += trends[i].off_line;
         }
     }
-    if (!counted) {
+    for (size_t i = 0; i < n; i++) {
+        s.tied += !isnan(trends[i].slope.value) && are_tied(&trends[i].slope, &trends[s.best].slope);
+    }
+    return s;
+}
+
+static void add_power(koksma__html *h, const koksma__estimate *e)
+{
+    koksma__html_add(h, "N<sup>%.3f</sup>", e->value);
+    if (!isnan(e->low) && e->low < e->high) {
+        koksma__html_add(h, " (%.3f to %.3f)", e->low, e->high);
+    }
+}
+
+/* The best and the others of its rank in their order, no more than 4 by name. */
+static void add_tied(koksma__html *h, const char *const *labels, const koksma__trend *trends, size_t n,
+                     const standing *s)
+{
+    enum { NAMED = 4 };
+    koksma__html_text(h, labels[s->best]);
+    koksma__html_add(h, " falls as ");
+    add_power(h, &trends[s->best].slope);
+    koksma__html_add(h, "; not told apart from it: ");
+    size_t named = 0;
+    for (size_t i = 0; i < n && named < NAMED; i++) {
+        const koksma__estimate *e = &trends[i].slope;
+        if (i != s->best && !isnan(e->value) && are_tied(e, &trends[s->best].slope)) {
+            koksma__html_add(h, named++ ? ", " : "");
+            koksma__html_text(h, labels[i]);
+            koksma__html_add(h, " as ");
+            add_power(h, e);
+        }
+    }
+    if (s->tied - 1 > named) {
+        koksma__html_add(h, ", and %zu more", s->tied - 1 - named);
+    }
+}
+
+/* The sentence: who falls fastest, who is better than random's n^-1/2. */
+static void add_sentence(koksma__html *h, const char *name, const char *const *labels, const koksma__trend *trends,
+                         size_t n)
+{
+    const standing s = stand(trends, n);
+    if (!s.counted) {
         return;
     }
     koksma__html_add(h, "<p><strong>");
     koksma__html_text(h, name);
     koksma__html_add(h, ":</strong> ");
-    koksma__html_text(h, labels[best]);
-    koksma__html_add(h, " falls fastest, as N<sup>%.3f</sup>", slopes[best].value);
-    if (!isnan(slopes[best].low)) {
-        koksma__html_add(h, " (%.3f to %.3f)", slopes[best].low, slopes[best].high);
+    if (s.tied > 1) {
+        add_tied(h, labels, trends, n, &s);
+    } else {
+        koksma__html_text(h, labels[s.best]);
+        koksma__html_add(h, s.counted > 1 ? " falls fastest, as " : " falls as ");
+        add_power(h, &trends[s.best].slope);
     }
-    koksma__html_add(
-        h, "; %zu of %zu patterns are surely faster than the N<sup>&#8722;1/2</sup> of random samples.</p>\n", faster,
-        counted);
+    koksma__html_add(h, "; %zu of %zu patterns are surely faster than the N<sup>&#8722;1/2</sup> of random samples",
+                     s.faster, s.counted);
+    if (s.off_line) {
+        koksma__html_add(h, "; in %zu of %zu the means lie on no line, and the slope is an average one", s.off_line,
+                         s.counted);
+    }
+    koksma__html_add(h, ".</p>\n");
 }
 
 static void add_heads(koksma__grid *g, const subject *s)
@@ -172,17 +226,20 @@ static void add_heads(koksma__grid *g, const subject *s)
     char text[64];
     koksma__grid_head(g, "pattern");
     koksma__grid_head_interval(g, "slope");
+    koksma__grid_head(g, "on a line?");
     for (size_t i = 0; i < sizes(s)->n; i++) {
         snprintf(text, sizeof text, "N = %lld", sizes(s)->at[i]);
         koksma__grid_head_interval(g, text);
     }
 }
 
-static void add_row(koksma__grid *g, const subject *s, const char *pattern, koksma__estimate slope, const curve *c)
+static void add_row(koksma__grid *g, const subject *s, const char *pattern, const koksma__trend *trend,
+                    const curve *c)
 {
     koksma__grid_row(g);
     koksma__grid_text(g, pattern);
-    koksma__grid_interval(g, slope, 3);
+    koksma__grid_interval(g, trend->slope, 3);
+    koksma__grid_text(g, trend->off_line ? "no" : "");
     for (size_t i = 0, k = 0; i < sizes(s)->n; i++) {
         const bool has = k < c->n && c->x[k] == (double)sizes(s)->at[i];
         const koksma__estimate none = {NAN, NAN, NAN};
@@ -195,7 +252,7 @@ static void add_bound(koksma__grid *g, koksma__chart *chart, const char *who, co
     char text[96];
     snprintf(text, sizeof text, "lower bound (%s), scaled", who);
     plot_curve(&chart->series[chart->n++], bound, text, true, scale);
-    koksma__estimate slope = slope_of(bound);
+    koksma__estimate slope = trend_of(bound).slope;
     slope.low = slope.high = slope.value;
     snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
     koksma__grid_row(g);
@@ -205,7 +262,7 @@ static void add_bound(koksma__grid *g, koksma__chart *chart, const char *who, co
 
 /* All patterns' rows, slopes and curves. */
 static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subject *s, koksma__chart *chart,
-                              koksma__estimate *slopes)
+                              koksma__trend *trends)
 {
     curve c = {0}, bound = {0};
     const char *who = NULL;
@@ -215,14 +272,14 @@ static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subjec
     for (size_t p = 0; !status && p < patterns(s)->n; p++) {
         const char *pattern = patterns(s)->at[p];
         status = collect(study, s, pattern, &c);
-        slopes[p] = status ? (koksma__estimate){NAN, NAN, NAN} : slope_of(&c);
+        trends[p] = status ? (koksma__trend){{NAN, NAN, NAN}, false} : trend_of(&c);
         if (!status && p == 0 && (who = bound_of(s, &c, &bound))) {
             scale = c.y[0].mean / bound.y[0].mean / 4;
         }
         if (!status && p + 1 < KOKSMA__CHART_SERIES) {
             plot_curve(&chart->series[chart->n++], &c, pattern, false, 1);
         }
-        add_row(g, s, pattern, slopes[p], &c);
+        add_row(g, s, pattern, &trends[p], &c);
     }
     if (!status && who) {
         add_bound(g, chart, who, &bound, scale);
@@ -250,18 +307,18 @@ static koksma_status add_subject(koksma_study *study, koksma__html *h, const cha
                            .log_y = true,
                            .series = calloc(KOKSMA__CHART_SERIES, sizeof *chart.series),
                            .left_out = n < KOKSMA__CHART_SERIES ? 0 : n - (KOKSMA__CHART_SERIES - 1)};
-    koksma__estimate *slopes = calloc(n, sizeof *slopes);
+    koksma__trend *trends = calloc(n, sizeof *trends);
     koksma_status status =
-        chart.series && slopes ? KOKSMA_OK : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
+        chart.series && trends ? KOKSMA_OK : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
     if (!status) {
         koksma__html rows = {0};
         koksma__grid grid;
         koksma__grid_open(&grid, &rows, file);
         add_heads(&grid, s);
-        status = add_rows(study, &grid, s, &chart, slopes);
+        status = add_rows(study, &grid, s, &chart, trends);
         koksma__grid_close(&grid);
         if (!status) {
-            add_sentence(h, name, (const char *const *)patterns(s)->at, slopes, n);
+            add_sentence(h, name, (const char *const *)patterns(s)->at, trends, n);
             koksma__html_add(h, "%s", rows.text ? rows.text : "");
             koksma__html_chart(h, &chart);
         }
@@ -269,7 +326,7 @@ static koksma_status add_subject(koksma_study *study, koksma__html *h, const cha
         free(rows.text);
     }
     free(chart.series);
-    free(slopes);
+    free(trends);
     return status;
 }
 

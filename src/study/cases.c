@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "study/cases.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -194,6 +195,8 @@ static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, co
     if (!status && x.n && y.n) {
         out->x[out->n] = x.mean;
         out->y[out->n] = y.mean;
+        out->x_error[out->n] = x.sd / sqrt((double)x.n);
+        out->y_error[out->n] = y.sd / sqrt((double)y.n);
         out->low[out->n] = y.low;
         out->high[out->n] = y.high;
         out->patterns[out->n++] = pattern;

@@ -38,6 +38,7 @@ typedef struct koksma__pairs {
     size_t n, patterns_in_all; /* that the blocks have, also those beyond the room */
     double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
         high[KOKSMA__CASE_PATTERNS];
+    double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */
     const char *patterns[KOKSMA__CASE_PATTERNS];
 } koksma__pairs;
 

@@ -20,7 +20,7 @@ static double centred_rank(const double *values, size_t n, size_t i)
 {
     double rank = -0.5 * (double)n;
     for (size_t j = 0; j < n; j++) {
-        rank += (values[j] < values[i]) + 0.5 * (values[j] == values[i]);
+        rank += 0.5 * (koksma__compare(values[i], values[j]) + 1);
     }
     return rank;
 }
@@ -43,7 +43,7 @@ double koksma__kendall(const double *x, const double *y, size_t n)
     double score = 0, in_x = 0, in_y = 0;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = i + 1; j < n; j++) {
-            const int a = (x[i] > x[j]) - (x[i] < x[j]), b = (y[i] > y[j]) - (y[i] < y[j]);
+            const int a = koksma__compare(x[i], x[j]), b = koksma__compare(y[i], y[j]);
             score += a * b;
             in_x += a != 0;
             in_y += b != 0;
@@ -60,11 +60,17 @@ static double quantile(const double *sorted, size_t n, double q)
     return i + 1 < n ? sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]) : sorted[n - 1];
 }
 
-static void interval(double *values, size_t n, koksma__estimate *out)
+/* Values without the NaN, which go last; sorted. How many there are. */
+static size_t sort(double *values, size_t n)
 {
-    qsort(values, n, sizeof *values, compare_doubles);
-    out->low = quantile(values, n, 0.025);
-    out->high = quantile(values, n, 0.975);
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isnan(values[i])) {
+            values[kept++] = values[i];
+        }
+    }
+    qsort(values, kept, sizeof *values, compare_doubles);
+    return kept;
 }
 
 /* Index i of resample s. */
@@ -73,33 +79,73 @@ static size_t drawn(uint64_t seed, size_t s, size_t i, size_t n)
     return koksma__below(koksma__random(seed, KOKSMA__PURPOSE_SEARCH, s, (uint32_t)i).w[0], (uint32_t)n);
 }
 
-koksma_status koksma__bootstrap_pairs(const double *x, const double *y, size_t n, koksma__pair_statistic statistic,
-                                      size_t samples, uint64_t seed, koksma__estimate *out)
+/* The mean i of resample s: normal about the measured one (Box and Muller 1958). */
+static double redrawn(const koksma__means *m, size_t s, size_t i)
 {
-    *out = (koksma__estimate){n ? statistic(x, y, n) : (double)NAN, -1, 1};
+    double u[2];
+    if (!(m->error && m->error[i] > 0)) {
+        return m->mean[i];
+    }
+    koksma__random_pair(m->seed, KOKSMA__PURPOSE_SEARCH, s, (uint32_t)i, u);
+    return m->mean[i] + m->error[i] * sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
+}
+
+/* Resample s into a and b: a pattern that is drawn twice has the same means twice, and so is no pair in an order. */
+static void resample(const koksma__means *x, const koksma__means *y, size_t n, uint64_t seed, size_t s, double *a,
+                     double *b)
+{
+    for (size_t i = 0; i < n; i++) {
+        const size_t j = drawn(seed, s, i, n);
+        a[i] = redrawn(x, s, j);
+        b[i] = redrawn(y, s, j);
+    }
+}
+
+koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
+                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
+                                      koksma__estimate *out)
+{
+    *out = (koksma__estimate){n ? statistic(x->mean, y->mean, n) : (double)NAN, -1, 1};
     if (n < KOKSMA__LEAST_PAIRS) {
         return KOKSMA_OK;
     }
-    double *values = malloc((samples + 2 * n) * sizeof *values);
-    if (!values) {
-        return koksma__fail_memory((samples + 2 * n) * sizeof *values);
+    double *room = malloc((samples + 2 * n) * sizeof *room);
+    if (!room) {
+        return koksma__fail_memory((samples + 2 * n) * sizeof *room);
     }
-    double *a = values + samples, *b = a + n;
-    size_t kept = 0;
     for (size_t s = 0; s < samples; s++) {
-        for (size_t i = 0; i < n; i++) {
-            const size_t j = drawn(seed, s, i, n);
-            a[i] = x[j];
-            b[i] = y[j];
-        }
-        const double value = statistic(a, b, n);
-        if (!isnan(value)) {
-            values[kept++] = value;
-        }
+        double *a = room + samples, *b = a + n;
+        resample(x, y, n, seed, s, a, b);
+        room[s] = statistic(a, b, n);
     }
+    if (values) {
+        memcpy(values, room, samples * sizeof *values);
+    }
+    const size_t kept = sort(room, samples);
     if (kept) {
-        interval(values, kept, out);
+        out->low = quantile(room, kept, 0.025);
+        out->high = quantile(room, kept, 0.975);
     }
-    free(values);
+    free(room);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma__draws *b, size_t samples,
+                                           koksma__estimate *out)
+{
+    double *room = malloc(samples * sizeof *room);
+    *out = (koksma__estimate){a->value - b->value, NAN, NAN};
+    if (!room) {
+        return koksma__fail_memory(samples * sizeof *room);
+    }
+    for (size_t s = 0; s < samples; s++) {
+        room[s] = a->values[s] * a->factor - b->values[s] * b->factor;
+    }
+    const size_t kept = sort(room, samples);
+    if (kept) {
+        out->low = quantile(room, kept, 0.025);
+        out->high = quantile(room, kept, 0.975);
+    }
+    free(room);
     return KOKSMA_OK;
 }

@@ -89,27 +89,31 @@ static koksma_status compare_one(void *context, size_t i)
     return status;
 }
 
-/* Gives the rows first … first + n - 1, one group's, their slope. */
-static void add_slope(koksma_images_row *rows, size_t n)
+/* Gives the rows of one group their slope. */
+static koksma_status add_slope(koksma_images_row *rows, size_t n)
 {
-    double x[64], y[64], sigma[64];
-    size_t used = 0, least = SIZE_MAX;
-    for (size_t i = 0; i < n && used < 64; i++) {
+    koksma__summary *means = calloc(n, sizeof *means);
+    double *spp = calloc(n, sizeof *spp);
+    size_t used = 0;
+    for (size_t i = 0; means && spp && i < n; i++) {
         if (rows[i].spp > 0 && rows[i].mean > 0) {
-            least = rows[i].trials < least ? rows[i].trials : least;
-            x[used] = log((double)rows[i].spp);
-            y[used] = log(rows[i].mean);
-            const double half = rows[i].high - rows[i].mean;
-            sigma[used++] = rows[i].trials > 1 ? half / koksma_student_975(rows[i].trials - 1) / rows[i].mean : 0;
+            const double t = rows[i].trials > 1 ? koksma_student_975(rows[i].trials - 1) : (double)NAN;
+            spp[used] = (double)rows[i].spp;
+            means[used++] = (koksma__summary){.n = rows[i].trials,
+                                              .mean = rows[i].mean,
+                                              .sd = (rows[i].high - rows[i].mean) / t * sqrt((double)rows[i].trials)};
         }
     }
-    const koksma__line line = koksma__fit_line(x, y, sigma, used);
-    const koksma__estimate slope = koksma__slope(&line, least);
-    for (size_t i = 0; i < n; i++) {
+    const bool made = means && spp;
+    const koksma__estimate slope = koksma__trend_of(spp, means, used).slope;
+    for (size_t i = 0; made && i < n; i++) {
         rows[i].slope = slope.value;
         rows[i].slope_low = slope.low;
         rows[i].slope_high = slope.high;
     }
+    free(means);
+    free(spp);
+    return made ? KOKSMA_OK : koksma__fail_memory(n * (sizeof *means + sizeof *spp));
 }
 
 static void fill_row(const picture *first, size_t n, koksma_images_row *row)
@@ -140,13 +144,14 @@ static koksma_status make_rows(const pictures *all, koksma_images_row **rows, si
         }
         fill_row(&all->at[i], end - i, &(*rows)[(*n)++]);
     }
-    for (size_t i = 0, end; i < *n; i = end) {
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0, end; !status && i < *n; i = end) {
         for (end = i + 1; end < *n && !strcmp((*rows)[end].group, (*rows)[i].group);) {
             end++;
         }
-        add_slope(*rows + i, end - i);
+        status = add_slope(*rows + i, end - i);
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
@@ -167,6 +172,11 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     status = status ? status : check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
     status = status ? status : make_rows(&all, rows, n);
+    if (status) {
+        free(*rows);
+        *rows = NULL;
+        *n = 0;
+    }
     koksma_image_fini(&all.reference);
     free(all.at);
     globfree(&found);

@@ -7,10 +7,18 @@
 
 #include "core/sum.h"
 
+/* Values that are equal in exact arithmetic differ by less, in measures that are good to their last digits. */
+#define ROUNDING 1e-12
+
+int koksma__compare(double a, double b)
+{
+    return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b)) ? 0 : (a > b) - (a < b);
+}
+
 /* a[i] - b[i], or a[i] without b. */
 static double item(const double *a, const double *b, size_t i)
 {
-    return b ? a[i] - b[i] : a[i];
+    return !b ? a[i] : koksma__compare(a[i], b[i]) || isnan(a[i] - b[i]) ? a[i] - b[i] : 0;
 }
 
 koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride)
@@ -20,11 +28,13 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
         return s;
     }
     koksma__sum sum = {0}, squares = {0};
+    double size = 0;
     s.max = item(a, b, 0);
     for (size_t i = 0; i < n; i++) {
         const double value = item(a, b, i * stride);
         koksma__sum_add(&sum, value);
         s.max = fmax(s.max, value);
+        size = fmax(size, fmax(fabs(a[i * stride]), b ? fabs(b[i * stride]) : 0));
     }
     s.mean = koksma__sum_value(&sum) / (double)n;
     for (size_t i = 0; i < n; i++) {
@@ -35,6 +45,9 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
         return s;
     }
     s.sd = sqrt(koksma__sum_value(&squares) / (double)(n - 1));
+    if (s.sd <= ROUNDING * size) {
+        s.sd = 0;
+    }
     const double half = koksma_student_975(n - 1) * s.sd / sqrt((double)n);
     s.low = s.mean - half;
     s.high = s.mean + half;
@@ -46,10 +59,10 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
 {
     const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;
-    const double quotient = mean_a == mean ? 1 : mean_a / mean;
+    const double quotient = koksma__compare(mean_a, mean) ? mean_a / mean : 1;
     koksma__sum squares = {0};
     for (size_t i = 0; i < n; i++) {
-        const double t = a[i] - quotient * base[i];
+        const double expected = quotient * base[i], t = koksma__compare(a[i], expected) ? a[i] - expected : 0;
         koksma__sum_add(&squares, t * t);
     }
     if (n < 2) {

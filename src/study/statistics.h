@@ -3,6 +3,7 @@
 #ifndef KOKSMA_STUDY_STATISTICS_H
 #define KOKSMA_STUDY_STATISTICS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -16,13 +17,18 @@ typedef struct koksma__summary {
     double max;
 } koksma__summary;
 
-/* Of values[0], values[stride], …, n of them; n = 0 gives NaN. Sums are compensated, in index order. */
+/* 1: a > b, -1: a < b, 0: they differ by no more than 1e-12 of the larger, which rounding alone may do (or one is
+ * NaN). */
+int koksma__compare(double a, double b);
+
+/* Of values[0], values[stride], …, n of them; n = 0 gives NaN. Sums are compensated, in index order. An sd that is
+   rounding noise, up to 1e-12 of the largest value, is 0. */
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride);
 
 /* Of the one value of something that doesn't vary. */
 koksma__summary koksma__exactly(double value);
 
-/* The differences a[i] - b[i] of n pairs; values stride apart. */
+/* The differences a[i] - b[i] of n pairs, 0 where they compare equal; values stride apart. */
 koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride);
 
 /* Mean over whole blocks of `block` values of each block's largest, and the sample SD of those; NaN without one. */
@@ -39,24 +45,23 @@ koksma__estimate koksma__relative_change(const double *a, const double *base, si
 
 /* ---- Slopes -------------------------------------------------------------------------------------------- */
 
-/* A line y = intercept + slope x by weighted least squares. */
-typedef struct koksma__line {
-    double slope, intercept;
-    double slope_error;   /* standard error: the larger of what the weights say and what the residuals say */
-    size_t degrees;       /* of freedom of the residuals where these say it; 0: the weights do */
-    double covariance[3]; /* of (intercept, slope): variances and, last, their covariance; of the weights */
-} koksma__line;
+/* How means fall with n. */
+typedef struct koksma__trend {
+    koksma__estimate slope;
+    bool off_line; /* the means lie off every line by more than their trials explain, surely (at 1 %) */
+} koksma__trend;
 
-/* Points with the standard errors sigma of y (0: taken for the residuals' own). Fewer than two give NaN. */
-koksma__line koksma__fit_line(const double *x, const double *y, const double *sigma, size_t n);
-
-/* The slope with its interval by Student's t: of the residuals' degrees of freedom where these say the error, else of
-   one less than `least`, the smallest number of trials behind a sigma. NaN: the points tell no error. */
-koksma__estimate koksma__slope(const koksma__line *line, size_t least);
+/* The average slope in log-log of means above 0 at rising n[i]: that of the line of least squares, all sizes counting
+   alike, which is a statement about a curve, too. Its interval is of the means' own errors, by Student's t with
+   Welch's and Satterthwaite's degrees of freedom, whether the means lie on a line or not. Where no mean varies, or
+   one is of one trial, how they scatter about the line is all that is known: then it is of that, with count - 2
+   degrees of freedom, NaN for two sizes. Fewer sizes than two have no slope: NaN. */
+koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, size_t count);
 
 /* ---- Rank correlation ---------------------------------------------------------------------------------- */
 
-/* Spearman's rho: Pearson's correlation of the mean ranks. Kendall's tau-b. NaN when one side is constant. */
+/* Spearman's rho: Pearson's correlation of the mean ranks. Kendall's tau-b. Values that compare equal are
+   ties. NaN when one side is constant. */
 double koksma__spearman(const double *x, const double *y, size_t n);
 double koksma__kendall(const double *x, const double *y, size_t n);
 
@@ -65,12 +70,33 @@ enum { KOKSMA__LEAST_PAIRS = 7 }; /* for an interval */
 /* A statistic of the pairs (x, y), NaN when it has no value. */
 typedef double (*koksma__pair_statistic)(const double *x, const double *y, size_t n);
 
-/* The statistic with its percentile bootstrap interval (Efron 1979) over the pairs: `samples` resamples, of which
-   those without a value are left out. Random numbers are keyed by seed. n below 7 gives the interval of the whole
-   range [-1, 1]: resamples of so few pairs exclude 0 in 8 to 13 % of cases without any correlation. Errors: MEMORY.
+/* Means with their standard errors (NULL, or NaN: not known, and taken for 0); seed: of the numbers that redraw them.
  */
-koksma_status koksma__bootstrap_pairs(const double *x, const double *y, size_t n, koksma__pair_statistic statistic,
-                                      size_t samples, uint64_t seed, koksma__estimate *out);
+typedef struct koksma__means {
+    const double *mean, *error;
+    uint64_t seed;
+} koksma__means;
+
+/* The statistic with its percentile bootstrap interval (Efron 1979) over the pairs: `samples` resamples, of which
+   those without a value are left out. In each the means are redrawn, too, normal with their standard errors. Random
+   numbers are keyed: equal seeds draw the same pairs, and the same noise of equal means. values: NULL, or room for
+   the resamples' values, in their order, NaN: none. n below 7 gives the interval of the whole range [-1, 1] and no
+   values: resamples of so few pairs exclude 0 in 8 to 13 % of cases without any correlation. Of pairs in perfect
+   order all resamples are alike: the interval has no width, which says nothing. Errors: MEMORY. */
+koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__means *y, size_t n,
+                                      koksma__pair_statistic statistic, size_t samples, uint64_t seed, double *values,
+                                      koksma__estimate *out);
+
+/* A value whose resamples are values[s] factor. */
+typedef struct koksma__draws {
+    double value, factor;
+    const double *values;
+} koksma__draws;
+
+/* The difference of two values with its interval from resamples that belong together. Errors:
+   MEMORY. */
+koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma__draws *b, size_t samples,
+                                           koksma__estimate *out);
 
 /* ---- Equal error --------------------------------------------------------------------------------------- */
 

@@ -9,80 +9,163 @@
 #include "study/statistics.h"
 #include "test.h"
 
-/* A standard normal number: the sum of twelve uniform ones. */
+/* A standard normal number (Box and Muller 1958). */
 static double normal(uint64_t seed, uint64_t i)
 {
-    double sum = -6, pair[2];
-    for (uint32_t k = 0; k < 6; k++) {
-        koksma__random_pair(seed, KOKSMA__PURPOSE_TEST, i, k, pair);
-        sum += pair[0] + pair[1];
+    double pair[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_TEST, i, 0, pair);
+    return sqrt(-2 * log1p(-pair[0])) * cos(6.283185307179586 * pair[1]);
+}
+
+/* A mean exp(y) whose log has the standard error sigma by so many trials; of one: that doesn't vary. */
+static koksma__summary mean_of(double y, double sigma, size_t trials)
+{
+    return trials == 1 ? koksma__exactly(exp(y))
+                       : (koksma__summary){.n = trials, .mean = exp(y), .sd = sigma * exp(y) * sqrt((double)trials)};
+}
+
+static koksma__trend trend_of(size_t count, const double *y, const double *sigma, size_t trials)
+{
+    double n[8];
+    koksma__summary means[8];
+    for (size_t i = 0; i < count; i++) {
+        n[i] = exp((double)i);
+        means[i] = mean_of(y[i], sigma ? sigma[i] : 0, trials);
     }
-    return sum;
+    return koksma__trend_of(n, means, count);
 }
 
 static void slope_by_hand(void **state)
 {
     (void)state;
-    const double x[] = {0, 1, 2, 3}, y[] = {1, 3, 5, 7}, one[] = {1, 1, 1, 1}, none[] = {0, 0, 0, 0};
-    const koksma__line line = koksma__fit_line(x, y, one, 4);
-    assert_near(line.slope, 2, 1e-15);
-    assert_near(line.intercept, 1, 1e-15);
-    assert_near(line.slope_error, sqrt(1.0 / 5), 1e-15); /* 1 / sum (x - 1.5)^2 */
-    const double bent[] = {0, 1, 1, 0};
-    assert_near(koksma__fit_line(x, bent, none, 4).slope_error, sqrt(1.0 / 2 / 5), 1e-15);
-    assert_true(isnan(koksma__fit_line(x, y, one, 1).slope));
-}
-
-/* How often in 2000 cases the interval of the slope covers the true one, of n sizes with `trials` each: their
-   standard errors are estimates, and so is nothing but the residuals with one trial. */
-static int slopes_covered(size_t n, size_t trials)
-{
-    int covered = 0;
-    for (uint64_t t = 0; t < 2000; t++) {
-        double x[6], y[6], sigma[6], values[16];
-        for (size_t i = 0; i < n; i++) {
-            for (size_t k = 0; k < trials; k++) {
-                values[k] = 3 - 0.75 * (double)i + 0.1 * (double)(1 + i % 3) * normal(t, 16 * i + k);
-            }
-            const koksma__summary s = koksma__summarize(values, trials, 1);
-            x[i] = (double)i;
-            y[i] = s.mean;
-            sigma[i] = trials > 1 ? s.sd / sqrt((double)trials) : 0;
-        }
-        const koksma__line line = koksma__fit_line(x, y, sigma, n);
-        const koksma__estimate e = koksma__slope(&line, trials);
-        covered += e.low <= -0.75 && -0.75 <= e.high;
-    }
-    return covered;
-}
-
-/* 1900 are due; more where the standard errors are of few trials, whose Student's quantile is the safe side. */
-static void slope_covers(void **state)
-{
-    (void)state;
-    assert_in_range(slopes_covered(3, 1), 1820, 1970);
-    assert_in_range(slopes_covered(6, 1), 1850, 1950);
-    assert_in_range(slopes_covered(3, 3), 1900, 2000);
-    assert_in_range(slopes_covered(6, 4), 1900, 2000);
-    assert_in_range(slopes_covered(6, 16), 1860, 1980);
+    const double y[] = {1, 3, 5, 7}, one[] = {1, 1, 1, 1}, bent[] = {0, 1, 1, 0};
+    koksma__estimate e = trend_of(4, y, one, 4).slope;
+    assert_near(e.value, 2, 1e-14);
+    /* c = (-3, -1, 1, 3) / 10: V = 20 / 100 and V^2 / sum c^4 = 0.04 / 0.0164 */
+    assert_near(e.high - e.value, koksma__student_quantile(0.975, 3 * 0.04 / 0.0164) * sqrt(0.2), 1e-9);
+    assert_near(e.value - e.low, e.high - e.value, 1e-14);
+    e = trend_of(4, bent, NULL, 1).slope; /* nothing varies: 4 residuals of 1/2 */
+    assert_near(e.value, 0, 1e-14);
+    assert_near(e.high, koksma_student_975(2) * sqrt(1.0 / 2 / 5), 1e-12);
+    const double last[] = {0, 0, 0, 0.1}; /* one varies: what others add is 0 */
+    e = trend_of(4, bent, last, 9).slope;
+    assert_near(e.high, koksma_student_975(8) * 0.1 * 0.3, 1e-9);
+    assert_true(isnan(trend_of(1, y, one, 4).slope.value) && isnan(trend_of(0, y, one, 4).slope.value));
 }
 
 static void slope_of_two_points(void **state)
 {
     (void)state;
-    const double x[] = {0, 2}, y[] = {1, 3}, sigma[] = {0.3, 0.4}, none[] = {0, 0};
-    koksma__line line = koksma__fit_line(x, y, sigma, 2);
-    koksma__estimate e = koksma__slope(&line, 5);
-    assert_near(e.value, 1, 1e-15);
-    assert_near(e.high - e.value, koksma_student_975(4) * 0.25, 1e-12); /* sqrt(0.3^2 + 0.4^2) / 2 */
-    line = koksma__fit_line(x, y, none, 2);
-    e = koksma__slope(&line, 1);
-    assert_true(e.value == 1 && isnan(e.low) && isnan(e.high));
-    const double bent[] = {0, 1, 5, 3}, at[] = {0, 1, 2, 3}, small[] = {1e-3, 1e-3, 1e-3, 1e-3};
-    line = koksma__fit_line(at, bent, small, 4); /* no line: the residuals say so */
-    assert_int_equal(line.degrees, 2);
-    e = koksma__slope(&line, 100);
-    assert_near(e.high - e.value, koksma_student_975(2) * line.slope_error, 1e-12);
+    const double n[] = {1, exp(2)}, y[] = {1, 3}, sigma[] = {0.3, 0.4};
+    koksma__summary means[2];
+    for (size_t i = 0; i < 2; i++) {
+        means[i] = mean_of(y[i], sigma[i], 5);
+    }
+    koksma__estimate e = koksma__trend_of(n, means, 2).slope;
+    assert_near(e.value, 1, 1e-14);
+    const double degrees = 4 * 0.0625 / (0.09 * 0.09 + 0.16 * 0.16); /* (0.3^2 + 0.4^2) / 2^2 as of Welch's test */
+    assert_near(e.high - e.value, koksma__student_quantile(0.975, degrees) * 0.25, 1e-9);
+    means[0] = means[1] = koksma__exactly(2);
+    e = koksma__trend_of(n, means, 2).slope; /* without errors, and without residuals */
+    assert_true(e.value == 0 && isnan(e.low) && isnan(e.high));
+    const double once = 2;
+    means[0] = koksma__summarize(&once, 1, 1);
+    assert_true(isnan(koksma__trend_of(n, means, 2).slope.low)); /* one trial of what varies */
+}
+
+/* Means of 8 pictures each, a little off a line: the interval is as narrow as the means are sure. */
+static void slope_of_a_curve(void **state)
+{
+    (void)state;
+    const double n[] = {256, 1024, 4096}, mean[] = {4.8e-4, 1.7e-4, 7.22e-5}, off = log(4.8e-4 / 7.22e-5) / log(16);
+    koksma__summary means[3];
+    for (size_t i = 0; i < 3; i++) {
+        means[i] = (koksma__summary){.n = 8, .mean = mean[i], .sd = 0.02 * mean[i]};
+    }
+    koksma__trend t = koksma__trend_of(n, means, 3);
+    assert_near(t.slope.value, -off, 1e-12);
+    const double error = 0.02 / sqrt(8) * sqrt(2) / log(16);
+    assert_near(t.slope.high - t.slope.value, koksma__student_quantile(0.975, 14) * error, 1e-9);
+    assert_true(t.off_line);
+    means[1].mean = sqrt(mean[0] * mean[2]);
+    assert_false(koksma__trend_of(n, means, 3).off_line);
+}
+
+/* How often in CASES the interval of the slope covers the true one, and how often the means are said to lie off a
+   line: n sizes with `trials` each, whose logs are 3 - 0.75 i + bend (i - middle)^2 and spread differently. */
+enum { CASES = 600 };
+
+typedef struct rates {
+    int covered, off_line;
+} rates;
+
+static rates rates_of(size_t n, size_t trials, double bend, double spread)
+{
+    rates found = {0, 0};
+    for (uint64_t t = 0; t < CASES; t++) {
+        double sizes[8], values[100];
+        koksma__summary means[8];
+        for (size_t i = 0; i < n; i++) {
+            const double at = (double)i - 0.5 * (double)(n - 1), y = 3 - 0.75 * (double)i + bend * at * at;
+            for (size_t k = 0; k < trials; k++) {
+                values[k] = exp(y) * (1 + spread * (double)(1 + i % 3) * normal(t, 100 * i + k));
+            }
+            sizes[i] = exp((double)i);
+            means[i] = koksma__summarize(values, trials, 1);
+        }
+        const koksma__trend trend = koksma__trend_of(sizes, means, n);
+        found.covered += trend.slope.low <= -0.75 && -0.75 <= trend.slope.high;
+        found.off_line += trend.off_line;
+    }
+    return found;
+}
+
+static void slope_covers(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {3, 4, 8}, trials[] = {3, 8, 100};
+    for (size_t i = 0; i < 9; i++) {
+        const size_t n = sizes[i % 3], t = trials[i / 3];
+        const rates line = rates_of(n, t, 0, 0.05), curve = rates_of(n, t, 0.1, 0.02);
+        assert_in_range(line.covered, 550, 592); /* 570 are due; 5.3 is a standard deviation */
+        assert_in_range(line.off_line, 0, t < 8 ? 30 : 20);
+        assert_in_range(curve.covered, 550, 592);
+        assert_in_range(curve.off_line, t < 8 ? 120 : 570, CASES);
+    }
+    assert_in_range(rates_of(4, 1, 0, 0.05).covered, 540, 595); /* of the residuals, as one trial tells no error */
+    assert_in_range(rates_of(8, 1, 0, 0.05).covered, 545, 592);
+}
+
+/* Values that are equal but for rounding vary by nothing, are ties, and weigh what they should. */
+static void rounding_is_no_variation(void **state)
+{
+    (void)state;
+    const double tiny = 0x1p-52, a[] = {1, 1 + tiny, 1, 1 - tiny}, b[] = {1, 1, 1 + tiny, 1},
+                 c[] = {1, 2, 1 + 1e-9, 3};
+    koksma__summary s = koksma__summarize(a, 4, 1);
+    assert_true(s.sd == 0 && s.low == s.mean && s.high == s.mean);
+    s = koksma__paired(a, b, 4, 1);
+    assert_true(s.mean == 0 && s.sd == 0 && s.low == 0 && s.high == 0);
+    assert_true(koksma__summarize(c, 2, 2).sd > 0);
+    assert_true(koksma__compare(1, 1 + tiny) == 0 && koksma__compare(1, 1 + 1e-9) == -1 &&
+                koksma__compare(2, 1) == 1);
+    assert_true(koksma__compare(0, 0) == 0 && koksma__compare(0, 1e-300) == -1 && koksma__compare(-1, -2) == 1);
+    const koksma__estimate change = koksma__relative_change(a, b, 4);
+    assert_true(change.value == 0 && change.low == 0 && change.high == 0);
+    const double x[] = {1, 1 + tiny, 2, 3, 4}, y[] = {2, 1, 3, 4, 5}, tied[] = {1, 1, 2, 3, 4};
+    assert_near(koksma__spearman(x, y, 5), koksma__spearman(tied, y, 5), 0);
+    assert_near(koksma__kendall(x, y, 5), koksma__kendall(tied, y, 5), 0);
+    koksma__summary means[4], exact[4];
+    const double n[] = {1, 10, 100, 1000};
+    for (size_t i = 0; i < 4; i++) {
+        const double m = 1 / n[i] * (i == 2 ? 1.5 : 1), values[] = {m, i == 2 ? m * (1 + tiny) : m, m};
+        means[i] = koksma__summarize(values, 3, 1);
+        exact[i] = koksma__exactly(m);
+    }
+    const koksma__trend t = koksma__trend_of(n, means, 4), u = koksma__trend_of(n, exact, 4);
+    assert_near(t.slope.value, u.slope.value, 1e-12);
+    assert_near(t.slope.high, u.slope.high, 1e-12);
+    assert_true(t.slope.high > t.slope.value + 0.1 && !t.off_line);
 }
 
 static void correlations_by_hand(void **state)
@@ -131,21 +214,68 @@ static void bootstrap_intervals(void **state)
 {
     (void)state;
     double values[400], y[400];
+    const koksma__means x = {values, NULL, 0}, of_y = {y, NULL, 0};
     koksma__estimate e, again;
     for (uint64_t i = 0; i < 400; i++) {
         values[i] = normal(5, i);
         y[i] = values[i] + 0.1 * normal(6, i);
     }
-    assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &e));
     assert_true(e.low < e.value && e.value < e.high && e.low > 0.95 && e.high <= 1);
-    assert_ok(koksma__bootstrap_pairs(values, y, 100, koksma__spearman, 500, 3, &again));
+    assert_ok(koksma__bootstrap_pairs(&x, &of_y, 100, koksma__spearman, 500, 3, NULL, &again));
     assert_true(e.low == again.low && e.high == again.high);
     for (size_t n = 1; n < 7; n++) { /* too few to say that it isn't 0 */
-        assert_ok(koksma__bootstrap_pairs(values, values, n, koksma__spearman, 500, 3, &e));
+        assert_ok(koksma__bootstrap_pairs(&x, &x, n, koksma__spearman, 500, 3, NULL, &e));
         assert_true(e.low == -1 && e.high == 1);
     }
-    assert_ok(koksma__bootstrap_pairs(values, values, 7, koksma__spearman, 500, 3, &e));
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 7, koksma__spearman, 500, 3, NULL, &e));
     assert_true(e.value == 1 && e.low == 1);
+}
+
+/* Means that are not sure of their order have no sure correlation; equal seeds draw equal noise. */
+static void bootstrap_redraws_means(void **state)
+{
+    (void)state;
+    double mean[9], wide[9], narrow[9], values[500], again[500];
+    for (size_t i = 0; i < 9; i++) {
+        mean[i] = (double)i;
+        wide[i] = 1;
+        narrow[i] = 1e-6;
+    }
+    const koksma__means sure = {mean, narrow, 1}, x = {mean, wide, 1}, y = {mean, wide, 2}, exact = {mean, NULL, 0};
+    koksma__estimate e;
+    assert_ok(koksma__bootstrap_pairs(&exact, &sure, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_true(e.value == 1 && e.low == 1 && e.high == 1);
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, values, &e));
+    assert_true(e.value == 1 && e.low > 0.3 && e.low < 0.9 && e.high <= 1);
+    assert_ok(koksma__bootstrap_pairs(&x, &y, 9, koksma__spearman, 500, 3, again, &e));
+    assert_memory_equal(values, again, sizeof values);
+    assert_ok(koksma__bootstrap_pairs(&x, &x, 9, koksma__spearman, 500, 3, NULL, &e));
+    assert_true(e.low == 1); /* the same means with the same noise */
+}
+
+/* Two measures of which one has the order of the errors, the other two neighbours exchanged, or half of it. */
+static void correlations_told_apart(void **state)
+{
+    (void)state;
+    double errors[16], near[16], far[16], draws[3][500];
+    koksma__estimate rho[3], e;
+    for (size_t i = 0; i < 16; i++) {
+        errors[i] = (double)i;
+        near[i] = (double)(i == 3 ? 4 : i == 4 ? 3 : i);
+        far[i] = i % 2 ? (double)i : 15 - (double)i;
+    }
+    const koksma__means y = {errors, NULL, 0}, x[] = {{errors, NULL, 0}, {near, NULL, 0}, {far, NULL, 0}};
+    for (size_t m = 0; m < 3; m++) {
+        assert_ok(koksma__bootstrap_pairs(&x[m], &y, 16, koksma__spearman, 500, 3, draws[m], &rho[m]));
+    }
+    const koksma__draws first = {2 * rho[0].value, 2, draws[0]}, second = {2 * rho[1].value, 2, draws[1]},
+                        third = {rho[2].value, 1, draws[2]};
+    assert_ok(koksma__bootstrap_difference(&first, &second, 500, &e));
+    assert_near(e.value, 2 * (1 - rho[1].value), 1e-15);
+    assert_true(e.low == 0 && e.high > e.value && e.high < 0.1); /* in some resamples neither of the two is */
+    assert_ok(koksma__bootstrap_difference(&first, &third, 500, &e));
+    assert_true(e.low > 0.5);
 }
 
 /* Of 10 pairs without correlation the interval excludes 0 in about 5 % of cases. */
@@ -160,7 +290,8 @@ static void bootstrap_covers(void **state)
             x[i] = normal(t, i);
             y[i] = normal(t, 100 + i);
         }
-        assert_ok(koksma__bootstrap_pairs(x, y, 10, koksma__spearman, 300, t, &e));
+        const koksma__means of_x = {x, NULL, 0}, of_y = {y, NULL, 0};
+        assert_ok(koksma__bootstrap_pairs(&of_x, &of_y, 10, koksma__spearman, 300, t, NULL, &e));
         excluded += e.low > 0 || e.high < 0;
     }
     assert_in_range(excluded, 4, 44);
@@ -238,11 +369,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slope_by_hand),
-        cmocka_unit_test(slope_covers),
         cmocka_unit_test(slope_of_two_points),
+        cmocka_unit_test(slope_of_a_curve),
+        cmocka_unit_test(slope_covers),
+        cmocka_unit_test(rounding_is_no_variation),
         cmocka_unit_test(correlations_by_hand),
         cmocka_unit_test(correlations_over_all_orders),
         cmocka_unit_test(bootstrap_intervals),
+        cmocka_unit_test(bootstrap_redraws_means),
+        cmocka_unit_test(correlations_told_apart),
         cmocka_unit_test(bootstrap_covers),
         cmocka_unit_test(paired_differences),
         cmocka_unit_test(relative_changes),
