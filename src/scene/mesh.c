@@ -92,8 +92,8 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     const koksma_status status = check_vertices(m);
     for (size_t i = 0; !status && i < 3 * m->n_triangles; i++) {
         if (m->indices[i] >= m->n_vertices) {
-            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names vertex %u of %zu", i / 3,
-                                (unsigned)m->indices[i], m->n_vertices);
+            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names a vertex that is not there: there are %zu",
+                                i / 3, m->n_vertices);
         }
     }
     m->n_degenerate = 0;

@@ -61,6 +61,8 @@ typedef struct koksma__unread {
     size_t vertex_colours;         /* meshes */
     size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
     size_t see_through;            /* materials */
+    size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
+    char library[256], material[256]; /* the first of each */
 } koksma__unread;
 
 /* A light at a node. */
@@ -88,15 +90,6 @@ koksma_status koksma__gltf_check(const char *path, const unsigned char *file, si
 
 /* The same, and what it tells; what the file does not say is left as it is. */
 koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out);
-
-/* Whether an OFF or PLY file has what it says. Errors: MALFORMED. */
-koksma_status koksma__off_check(const char *path, const unsigned char *file, size_t size);
-koksma_status koksma__ply_check(const char *path, const unsigned char *file, size_t size);
-
-/* Whether an OBJ file's numbers are finite and its corners name vertices that are there; whether a material file is
-   text. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__obj_check(const char *path, const unsigned char *file, size_t size);
-koksma_status koksma__mtl_check(const char *path, const unsigned char *file, size_t size);
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
 bool koksma__is_mesh_file(const char *path);

@@ -113,13 +113,34 @@ static bool of_unread(const koksma__unread *u, asked *a)
     return false;
 }
 
+/* Names in OBJ files. */
+static bool of_names(const koksma__unread *u, asked *a)
+{
+    const struct {
+        size_t n;
+        const char *name, *what;
+    } all[] = {{u->libraries, u->library, "there is no such material file"},
+               {u->materials, u->material, "no material file makes this material: it is grey"}};
+    for (size_t i = 0; i < 2; i++) {
+        if (all[i].n && here(a)) {
+            char more[48] = "";
+            if (all[i].n > 1) {
+                snprintf(more, sizeof more, " (nor %zu more)", all[i].n - 1);
+            }
+            snprintf(a->text, a->size, "%s: %s%s", all[i].name, all[i].what, more);
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool of_all(const koksma_scene *scene, asked *a)
 {
     if (!scene->n_shapes && !scene->n_placements && here(a)) {
         snprintf(a->text, a->size, "no shapes");
         return true;
     }
-    return of_unread(&scene->unread, a);
+    return of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
