@@ -52,6 +52,16 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
+/* By what normals are multiplied where places are by matrix: the inverse transposed, that is the cofactors over the
+   determinant, or rather over a power of 2: the largest is within [0.5, 1). All are 0 where the rank is below 2. */
+void koksma__normal_matrix(const double matrix[12], double out[9]);
+
+/* Whether it leaves no volume of anything. */
+bool koksma__matrix_flattens(const double matrix[12]);
+
+/* Triangle t as it stands, rounded as the renderer has it; its area. */
+double koksma__placed_triangle(const koksma__mesh *mesh, const double matrix[12], size_t t, float corners[9]);
+
 /* out = a b, where both have a fourth row 0 0 0 1. */
 void koksma__matrix_multiply(const double a[12], const double b[12], double out[12]);
 
@@ -60,6 +70,7 @@ typedef struct koksma__unread {
     size_t animations, skins;
     size_t vertex_colours;         /* meshes */
     size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
+    size_t too_bright;             /* luminaires, or materials that glow */
     size_t see_through;            /* materials */
     size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
     char library[256], material[256]; /* the first of each */

@@ -44,14 +44,14 @@ static koksma_status take_colour(mtl *m, const char *word)
         const double value = koksma__strtod(text, &stop);
         const size_t length = strspn(text, "0123456789+-.eE");
         if (!length || length > 60 || stop != text + length || !strchr(" \t", *stop) || !(fabs(value) < 1e38)) {
-            return wrong(m, "a colour is three finite numbers");
+            return wrong(m, "a colour is one to three numbers below 1e38");
         }
         parts[n] = text;
         lengths[n] = (int)length;
         text = stop + strspn(stop, " \t");
     }
     if (!n) {
-        return wrong(m, "a colour is three finite numbers");
+        return wrong(m, "a colour is one to three numbers below 1e38");
     }
     for (; n < 3; n++) {
         parts[n] = parts[0];
