@@ -181,7 +181,7 @@ static koksma_status check_corner(const ply *p, size_t i, long long vertex)
 
 typedef struct words {
     const unsigned char *at, *end;
-    const unsigned char *word; /* the last one */
+    const unsigned char *word; /* the last one; NULL: none yet */
     size_t length;
 } words;
 
@@ -243,19 +243,27 @@ static bool is_number(const words *w, number_kind kind, long long *value)
     return whole + after && at == end;
 }
 
+/* There is room: of every word, every blank between two and every line's end the file has at least as much, but for
+   the last line's end. */
+static void put(koksma__bytes *out, const void *text, size_t length)
+{
+    memcpy(out->data + out->size, text, length);
+    out->size += length;
+}
+
 /* The next number of the line, into the output, too. */
 static koksma_status take_number(ply *p, words *w, const type *of, long long *value)
 {
+    const bool first = !w->word;
     if (!next_word(w)) {
         return koksma__line_wrong(&p->lines, "fewer numbers than its element has");
     }
     if (!is_number(w, of->kind, value)) {
         return koksma__line_wrong(&p->lines, of->kind == REAL ? "a number was due" : "a whole number was due");
     }
-    return koksma__bytes_put(p->out, p->out->size, w->word, w->length) &&
-                   koksma__bytes_put(p->out, p->out->size, " ", 1)
-               ? KOKSMA_OK
-               : koksma__fail_memory(p->out->size);
+    put(p->out, " ", first ? 0 : 1);
+    put(p->out, w->word, w->length);
+    return KOKSMA_OK;
 }
 
 /* The next line that is not empty. */
@@ -292,9 +300,7 @@ static koksma_status take_text_item(ply *p, const element *e, size_t i)
     if (!status && next_word(&w)) {
         status = koksma__line_wrong(&p->lines, "more numbers than its element has");
     }
-    if (!status && !koksma__bytes_put(p->out, p->out->size, "\n", 1)) {
-        status = koksma__fail_memory(p->out->size);
-    }
+    put(p->out, "\n", status ? 0 : 1);
     return status;
 }
 
@@ -354,8 +360,12 @@ koksma_status koksma__ply_clean(const char *path, const unsigned char *file, siz
     p->out = out;
     koksma_status status = take_header(p);
     status = status ? status : check_length(p);
-    if (!status && p->text && !koksma__bytes_put(out, 0, file, (size_t)(p->lines.at - file))) {
-        status = koksma__fail_memory(size);
+    if (!status && p->text) {
+        *out = (koksma__bytes){.data = malloc(size + 1), .room = size + 1};
+        status = out->data ? KOKSMA_OK : koksma__fail_memory(size);
+    }
+    if (!status && p->text) {
+        put(out, file, (size_t)(p->lines.at - file));
     }
     for (int k = 0; !status && k < p->n_elements; k++) {
         const element *e = &p->elements[k];
