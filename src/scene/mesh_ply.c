@@ -63,14 +63,14 @@ static const type *find_type(const char *name)
 static koksma_status take_property(ply *p)
 {
     char first[16], second[16], name[64], rest[2];
-    property *to = &p->properties[p->n_properties];
-    element *e = &p->elements[p->n_elements - 1];
     if (!p->n_elements) {
         return koksma__line_wrong(&p->lines, "a property of no element");
     }
     if (p->n_properties == MAX_PROPERTIES) {
         return koksma__line_wrong(&p->lines, "more than 1024 properties");
     }
+    element *e = &p->elements[p->n_elements - 1];
+    property *to = &p->properties[p->n_properties];
     *to = (property){0};
     if (sscanf(p->lines.line, "property list %15s %15s %63s %1s", first, second, name, rest) == 3) {
         to->count = find_type(first);
