@@ -176,7 +176,7 @@ static koksma_status take_name(obj *o, const char *word, const char *rest)
     if (!strncmp(word, "mtllib", 6)) {
         return *rest ? koksma__obj_take_libraries(o->path, rest, &o->names, o->unread, o->out) : KOKSMA_OK;
     }
-    return put(o, word, strlen(word)) && put(o, "\n", 1) ? KOKSMA_OK : koksma__fail_memory(o->out->size);
+    return koksma__obj_put_name("", word, strlen(word), o->out);
 }
 
 static void cut_blanks(char *text)

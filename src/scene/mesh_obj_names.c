@@ -77,11 +77,19 @@ static void read_made(const char *path, koksma__obj_set *made)
     }
 }
 
+/* A backslash at the end would draw the next line up. */
+koksma_status koksma__obj_put_name(const char *word, const char *name, size_t length, koksma__bytes *out)
+{
+    const char *end = length && name[length - 1] == '\\' ? " \n" : "\n";
+    const bool good = koksma__bytes_put(out, out->size, word, strlen(word)) &&
+                      koksma__bytes_put(out, out->size, name, length) &&
+                      koksma__bytes_put(out, out->size, end, strlen(end));
+    return good ? KOKSMA_OK : koksma__fail_memory(out->size);
+}
+
 static koksma_status put_library(const char *name, size_t length, koksma__bytes *out)
 {
-    const bool good = koksma__bytes_put(out, out->size, "mtllib ", 7) &&
-                      koksma__bytes_put(out, out->size, name, length) && koksma__bytes_put(out, out->size, "\n", 1);
-    return good ? KOKSMA_OK : koksma__fail_memory(out->size);
+    return koksma__obj_put_name("mtllib ", name, length, out);
 }
 
 static bool read_library(const char *path, const char *name, koksma__obj_names *names)

@@ -24,6 +24,9 @@ typedef struct koksma__obj_names {
 bool koksma__obj_set_add(koksma__obj_set *set, const char *name, size_t length);
 bool koksma__obj_set_has(const koksma__obj_set *set, const char *name, size_t length);
 
+/* A line of a word, with a blank at its end, and a name. Errors: MEMORY. */
+koksma_status koksma__obj_put_name(const char *word, const char *name, size_t length, koksma__bytes *out);
+
 /* What follows mtllib: one name with blanks, or several, which get a line each in out; those that are not there are
    noted. Errors: MALFORMED (more than 64), MEMORY. */
 koksma_status koksma__obj_take_libraries(const char *path, const char *rest, koksma__obj_names *names,

@@ -42,6 +42,7 @@ static void ways_to_write_a_mesh_are_one(void **state)
         {"way.obj",
          "\357\273\277v .0 -.0 0\nv +1 .0 0\nv 1 1 .0 # x\nv 0 1 0\nf 1 2 3 # f 1 2 3\nf 1 3 \\\n 4 # x\n"},
         {"way.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nlod 1\nf 1 2 3 \r\nf\t1 3\t4"},
+        {"way.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\\ \nf 1 2 3\nf 1 3 4\n"},
         {"way.off", "OFF\n4 2 0\n" UNIT_VERTICES "3 0 1 2\n3 0 2 3\n"},
         {"way.off", "# a\nOFF\n# b\n4 2 0 # c\n" UNIT_VERTICES "# d\n3 0 1 2\n# e\n3 0 2 3\n"},
         {"way.off", "OFF\n4 1 0\n" UNIT_VERTICES "  4 0 1 2 3 # f"},
