@@ -270,15 +270,19 @@ static koksma_status take_number(ply *p, words *w, const type *of, long long *va
 static koksma_status next_full_line(ply *p, words *w)
 {
     size_t length = 0;
-    koksma_status status;
-    do {
-        status = koksma__line_span(&p->lines, &w->at, &length);
-        w->end = w->at + (status ? 0 : length);
-        while (!status && w->at < w->end && is_blank(*w->at)) {
+    for (;;) {
+        const koksma_status status = koksma__line_span(&p->lines, &w->at, &length);
+        if (status) {
+            return status;
+        }
+        w->end = w->at + length;
+        while (w->at < w->end && is_blank(*w->at)) {
             w->at++;
         }
-    } while (!status && w->at == w->end);
-    return status;
+        if (w->at < w->end) {
+            return KOKSMA_OK;
+        }
+    }
 }
 
 static koksma_status take_text_item(ply *p, const element *e, size_t i)
