@@ -40,6 +40,10 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
 /* An image file in memory, known by its content. Errors name no file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);
 
+/* Whether all its pixels are numbers below 1e30: a sun that is brighter than its file's numbers can say, or what was
+   never computed, must not go dark without a word. MALFORMED names the first that is none, after `name`. */
+koksma_status koksma__image_check(const koksma_image *image, const char *name);
+
 /* koksma_image_init for sizes that a file claims: MALFORMED when they are out of range, or when `bytes` bytes can't
    hold so many pixels at `pixels_a_byte` at best. */
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,

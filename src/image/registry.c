@@ -133,6 +133,18 @@ koksma_status koksma_image_read(const char *path, koksma_image *out)
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
+koksma_status koksma__image_check(const koksma_image *image, const char *name)
+{
+    const size_t width = (size_t)image->width, n = width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t i = 0; i < n * channels; i++) {
+        if (!(image->pixels[i] < 1e30f)) {
+            return koksma__fail(KOKSMA_MALFORMED, "%s: pixel %zu,%zu has the value %g", name, i / channels % width,
+                                i / channels / width, (double)image->pixels[i]);
+        }
+    }
+    return KOKSMA_OK;
+}
+
 static const koksma__image_format *format_of_name(const char *path)
 {
     const char *dot = strrchr(path, '.');

@@ -243,17 +243,17 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
               .material = from->material,
               .light = from->light,
               .first = first};
-    const double *m = from->matrix;
+    double normals[9];
+    koksma__normal_matrix(from->matrix, normals);
     for (int i = 0; i < 12; i++) {
-        p.matrix[i] = (float)m[i];
+        p.matrix[i] = (float)from->matrix[i];
+    }
+    for (int i = 0; i < 9; i++) {
+        p.normal_matrix[i] = (float)normals[i];
     }
     for (int r = 0; r < 3; r++) {
         p.motion[r] = (float)from->motion[r];
         p.moves |= from->motion[r] != 0;
-        for (int c = 0; c < 3; c++) {
-            const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            p.cofactors[3 * r + c] = (float)(m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1]);
-        }
     }
     return p;
 }

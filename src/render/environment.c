@@ -9,11 +9,11 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "image/formats.h"
 #include "render/lights.h"
 #include "render/vector3.h"
 
 #define FLOOR 0.01f
-#define LARGEST 1e30f /* of a pixel */
 
 struct koksma__environment {
     float radiance[3]; /* scale of the image */
@@ -49,20 +49,6 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     }
     cdf[n] = 1;
     return total;
-}
-
-/* A sun that is brighter than its file's numbers can say must not go dark without a word. */
-static koksma_status check(const koksma_image *image)
-{
-    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
-    for (size_t i = 0; i < n * channels; i++) {
-        if (!(image->pixels[i] < LARGEST)) {
-            const size_t p = i / channels;
-            return koksma__fail(KOKSMA_MALFORMED, "the environment's image: pixel %zu,%zu has the value %g",
-                                p % (size_t)image->width, p / (size_t)image->width, (double)image->pixels[i]);
-        }
-    }
-    return KOKSMA_OK;
 }
 
 static koksma_status tabulate(koksma__environment *e)
@@ -105,7 +91,7 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
     e->image = light->image;
     e->turn = (float)(light->angle_rad / (2 * M_PI));
     e->mean = koksma__luminance3(e->radiance);
-    const koksma_status status = e->image ? check(e->image) : KOKSMA_OK;
+    const koksma_status status = e->image ? koksma__image_check(e->image, "the environment's image") : KOKSMA_OK;
     return status || !e->image ? status : tabulate(e);
 }
 

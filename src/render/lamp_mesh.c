@@ -14,32 +14,11 @@ struct koksma__lamp_mesh {
     float corners[][9];
 };
 
-/* Twice its area. */
-static double twice_area(const float c[9])
-{
-    double a[3], b[3], square = 0;
-    for (int k = 0; k < 3; k++) {
-        a[k] = (double)c[3 + k] - (double)c[k];
-        b[k] = (double)c[6 + k] - (double)c[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        const double part = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-        square += part * part;
-    }
-    return sqrt(square);
-}
-
 /* The triangles as they stand, and the sums of their areas. */
 static void fill(const koksma__mesh *mesh, const koksma__placement *placement, koksma__lamp_mesh *m)
 {
     for (size_t t = 0; t < m->n; t++) {
-        for (size_t i = 0; i < 9; i++) {
-            const double *row = placement->matrix + 4 * (i % 3);
-            const float *v = mesh->vertices + 3 * (size_t)mesh->indices[3 * t + i / 3];
-            m->corners[t][i] =
-                (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
-        }
-        m->cdf[t + 1] = m->cdf[t] + twice_area(m->corners[t]) / 2;
+        m->cdf[t + 1] = m->cdf[t] + koksma__placed_triangle(mesh, placement->matrix, t, m->corners[t]);
     }
 }
 

@@ -15,7 +15,7 @@ typedef struct part {
     const koksma__mesh *mesh;
     float *placed; /* owned by Embree; NULL: the mesh's own */
     bool is_instance, smooth, moves;
-    float matrix[12], cofactors[9], motion[3];
+    float matrix[12], normal_matrix[9], motion[3];
     int32_t material, light;
     int32_t first; /* number of its first triangle, as a primitive */
 } part;
@@ -89,7 +89,7 @@ static inline bool smooth_normal(const part *p, const uint32_t *index, const flo
         }
     }
     for (int k = 0; k < 3; k++) {
-        const float *row = p->cofactors + 3 * k;
+        const float *row = p->normal_matrix + 3 * k;
         out[k] = row[0] * n[0] + row[1] * n[1] + row[2] * n[2];
     }
     if (!(koksma__dot3(out, out) > 1e-12f)) {

@@ -3,21 +3,24 @@
 
 #include <math.h>
 
-/* x - 0.5 as a pixel, the one after it (both round the edge), and the weight of the second. */
-static float split(float x, int n, size_t pair[2])
+/* x - 0.5 as a pixel, the one after it (both round the edge, or held at it), and the weight of the second. */
+static float split(float x, int n, bool repeated, size_t pair[2])
 {
-    const float turns = x - floorf(x), place = turns * (float)n - 0.5f, down = floorf(place);
+    const float turns = repeated ? x - floorf(x)
+                        : x > 0  ? fminf(x, 1)
+                                 : 0,
+                place = turns * (float)n - 0.5f, down = floorf(place);
     const int first = (int)down;
-    pair[0] = (size_t)((first + n) % n);
-    pair[1] = (size_t)((first + 1 + n) % n);
+    pair[0] = (size_t)(repeated ? (first + n) % n : first < 0 ? 0 : first < n ? first : n - 1);
+    pair[1] = (size_t)(repeated ? (first + 1 + n) % n : first + 1 < n ? first + 1 : n - 1);
     return place - down;
 }
 
-void koksma__texture(const koksma_image *image, float u, float v, float rgb[3])
+void koksma__texture(const koksma_image *image, float u, float v, bool repeated, float rgb[3])
 {
     size_t xs[2], ys[2];
     const size_t channels = (size_t)image->channels, width = (size_t)image->width;
-    const float x = split(u, image->width, xs), y = split(1 - v, image->height, ys);
+    const float x = split(u, image->width, repeated, xs), y = split(1 - v, image->height, repeated, ys);
     const float weights[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
     for (size_t k = 0; k < 3; k++) {
         rgb[k] = 0;

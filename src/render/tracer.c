@@ -146,7 +146,7 @@ static void set_surface(const koksma__frame *frame, const koksma__path *path, co
         const size_t shape = (size_t)h->primitive[i];
         const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
         koksma__texture(substance->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
-                        half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], s->albedo);
+                        half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
     }
 }
 

@@ -92,8 +92,8 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
     const koksma_status status = check_vertices(m);
     for (size_t i = 0; !status && i < 3 * m->n_triangles; i++) {
         if (m->indices[i] >= m->n_vertices) {
-            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names vertex %u of %zu", i / 3,
-                                (unsigned)m->indices[i], m->n_vertices);
+            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names a vertex that is not there: there are %zu",
+                                i / 3, m->n_vertices);
         }
     }
     m->n_degenerate = 0;
@@ -215,6 +215,52 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
         }
         matrix[4 * k + 3] = translate[k];
     }
+}
+
+void koksma__normal_matrix(const double m[12], double out[9])
+{
+    double largest = 0;
+    int exponent = 0;
+    for (int i = 0; i < 9; i++) {
+        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
+        out[i] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
+        largest = fmax(largest, fabs(out[i]));
+    }
+    frexp(largest, &exponent);
+    for (int i = 0; i < 9; i++) {
+        out[i] = ldexp(out[i], -exponent);
+    }
+}
+
+/* The determinant over the columns' lengths: the volume of the parallelepiped over that of a box with its edges. Its
+   entries may have been rounded to 24 bits. */
+bool koksma__matrix_flattens(const double m[12])
+{
+    double columns[3][3], cross[3], box = 1;
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) {
+            columns[c][r] = m[4 * r + c];
+        }
+        box *= sqrt(koksma__dot(columns[c], columns[c]));
+    }
+    koksma__cross(columns[0], columns[1], cross);
+    return !(fabs(koksma__dot(cross, columns[2])) > 1e-6 * box);
+}
+
+double koksma__placed_triangle(const koksma__mesh *mesh, const double matrix[12], size_t t, float corners[9])
+{
+    double a[3], b[3], area[3];
+    for (size_t i = 0; i < 9; i++) {
+        const double *row = matrix + 4 * (i % 3);
+        const float *v = mesh->vertices + 3 * (size_t)mesh->indices[3 * t + i / 3];
+        corners[i] = (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
+    }
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)corners[3 + k] - (double)corners[k];
+        b[k] = (double)corners[6 + k] - (double)corners[k];
+    }
+    koksma__cross(a, b, area);
+    return sqrt(koksma__dot(area, area)) / 2;
 }
 
 void koksma__matrix_multiply(const double a[12], const double b[12], double out[12])

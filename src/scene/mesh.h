@@ -52,6 +52,16 @@ void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placemen
 void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
                               double matrix[12]);
 
+/* By what normals are multiplied where places are by matrix: the inverse transposed, that is the cofactors over the
+   determinant, or rather over a power of 2: the largest is within [0.5, 1). All are 0 where the rank is below 2. */
+void koksma__normal_matrix(const double matrix[12], double out[9]);
+
+/* Whether it leaves no volume of anything. */
+bool koksma__matrix_flattens(const double matrix[12]);
+
+/* Triangle t as it stands, rounded as the renderer has it; its area. */
+double koksma__placed_triangle(const koksma__mesh *mesh, const double matrix[12], size_t t, float corners[9]);
+
 /* out = a b, where both have a fourth row 0 0 0 1. */
 void koksma__matrix_multiply(const double a[12], const double b[12], double out[12]);
 
@@ -60,7 +70,10 @@ typedef struct koksma__unread {
     size_t animations, skins;
     size_t vertex_colours;         /* meshes */
     size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
+    size_t too_bright;             /* luminaires, or materials that glow */
     size_t see_through;            /* materials */
+    size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
+    char library[256], material[256]; /* the first of each */
 } koksma__unread;
 
 /* A light at a node. */
@@ -88,15 +101,6 @@ koksma_status koksma__gltf_check(const char *path, const unsigned char *file, si
 
 /* The same, and what it tells; what the file does not say is left as it is. */
 koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out);
-
-/* Whether an OFF or PLY file has what it says. Errors: MALFORMED. */
-koksma_status koksma__off_check(const char *path, const unsigned char *file, size_t size);
-koksma_status koksma__ply_check(const char *path, const unsigned char *file, size_t size);
-
-/* Whether an OBJ file's numbers are finite and its corners name vertices that are there; whether a material file is
-   text. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__obj_check(const char *path, const unsigned char *file, size_t size);
-koksma_status koksma__mtl_check(const char *path, const unsigned char *file, size_t size);
 
 /* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
 bool koksma__is_mesh_file(const char *path);

@@ -60,7 +60,8 @@ const char *koksma_mesh_reader(void)
 
 typedef struct open_file {
     struct aiFile file;
-    unsigned char *bytes;
+    const unsigned char *bytes;
+    unsigned char *owned; /* the same, or NULL: they are the model's */
     size_t size, at;
 } open_file;
 
@@ -105,22 +106,14 @@ static enum aiReturn file_seek(struct aiFile *file, size_t offset, enum aiOrigin
     return aiReturn_SUCCESS;
 }
 
-/* What assimp took: a sum of the hashes of all files, materials' too, and what was wrong with one of these. */
+/* What assimp took: the model, a sum of the hashes of all files, materials' too, and what was wrong with one of
+   these. */
 typedef struct taken {
     const char *model;
+    const koksma__mesh_source *source;
     uint64_t hash;
     koksma_status status;
 } taken;
-
-/* The file that assimp means: it puts the model's folder before a name. */
-static bool find_file(const char *model, const char *path, char out[KOKSMA__MAX_PATH])
-{
-    const char *slash = strrchr(model, '/');
-    const size_t folder = slash ? (size_t)(slash - model) + 1 : 0;
-    const bool beside = !strncmp(path, model, folder);
-    return strlen(path) < KOKSMA__MAX_PATH &&
-           (koksma__is_plain_file(strcpy(out, path)) || (beside && koksma__find_named(model, path + folder, out)));
-}
 
 /* io->UserData: taken. After a file that is there and can't be read no other is opened: without materials, say, it
    would be another scene. */
@@ -128,21 +121,23 @@ static struct aiFile *open_proc(struct aiFileIO *io, const char *name, const cha
 {
     taken *all = (taken *)(void *)io->UserData;
     char path[KOKSMA__MAX_PATH];
-    if (all->status || !strchr(mode, 'r') || !find_file(all->model, name, path)) {
+    uint64_t hash = all->source->hash;
+    koksma__bytes part = {0};
+    const bool own = !strcmp(name, all->model);
+    if (all->status || !strchr(mode, 'r') || (!own && !koksma__find_part(all->model, name, path))) {
         return NULL;
     }
-    open_file *f = calloc(1, sizeof *f);
-    all->status =
-        f ? koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &f->bytes, &f->size) : koksma__fail_memory(sizeof *f);
-    if (!all->status && !koksma__mesh_part_check(path, f->bytes, f->size)) {
-        all->status = KOKSMA_MALFORMED;
-        free(f->bytes);
-    }
-    if (all->status) {
-        free(f);
+    all->status = own ? KOKSMA_OK : koksma__mesh_part_open(path, &part, &hash);
+    open_file *f = all->status ? NULL : calloc(1, sizeof *f);
+    if (!f) {
+        all->status = all->status ? all->status : koksma__fail_memory(sizeof *f);
+        free(part.data);
         return NULL;
     }
-    all->hash += koksma__hash(f->bytes, f->size);
+    all->hash += hash;
+    f->owned = part.data;
+    f->bytes = own ? all->source->bytes.data : part.data;
+    f->size = own ? all->source->bytes.size : part.size;
     f->file = (struct aiFile){.ReadProc = file_read,
                               .WriteProc = file_write,
                               .TellProc = file_tell,
@@ -158,22 +153,25 @@ static void close_proc(struct aiFileIO *io, struct aiFile *file)
     (void)io;
     if (file) {
         open_file *f = (open_file *)(void *)file->UserData;
-        free(f->bytes);
+        free(f->owned);
         free(f);
     }
 }
 
-/* What assimp makes of a file, which the caller releases; of a glTF file also the rest; and the hash of all bytes
-   that it took. */
+/* What assimp makes of a file, which the caller releases; what it doesn't tell of it; and the hash of all bytes that
+   it took. */
 static koksma_status import(const char *path, koksma__gltf *gltf, const struct aiScene **out, uint64_t *hash)
 {
-    taken all = {.model = path};
+    koksma__mesh_source source;
+    taken all = {.model = path, .source = &source};
     struct aiFileIO io = {.OpenProc = open_proc, .CloseProc = close_proc, .UserData = (aiUserData)(void *)&all};
-    const koksma_status status = koksma__mesh_file_check(path, gltf);
+    const koksma_status status = koksma__mesh_file_open(path, &source);
     if (status) {
         return status;
     }
+    *gltf = source.gltf;
     *out = aiImportFileEx(path, 0, &io);
+    free(source.bytes.data);
     *hash = all.hash;
     if (all.status) { /* its text is still there */
         aiReleaseImport(*out);

@@ -3,6 +3,7 @@
 #ifndef KOKSMA_SCENE_MESH_FILE_H
 #define KOKSMA_SCENE_MESH_FILE_H
 
+#include "image/formats.h"
 #include "scene/mesh.h"
 #include "scene/parse.h"
 
@@ -13,11 +14,34 @@ bool koksma__is_plain_file(const char *path);
    in glTF are URIs: RFC 3986, section 2.1), or with \ taken for / (OBJ files of Windows). false: there is none. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
 
-/* Whether a file's name is a mesh's, it is a plain file, and its parts fit together; of a glTF file also what it
-   says, of others what holds where nothing is said. Errors: MISSING, MALFORMED, MEMORY. */
-koksma_status koksma__mesh_file_check(const char *path, koksma__gltf *gltf);
+/* The same, where the model's folder has been put before the name. */
+bool koksma__find_part(const char *model, const char *path, char out[KOKSMA__MAX_PATH]);
 
-/* The same for a file that a mesh file names, in memory: false where it is no material file that may be read. */
-bool koksma__mesh_part_check(const char *path, const unsigned char *file, size_t size);
+/* A file as assimp is to have it, and what it doesn't tell. */
+typedef struct koksma__mesh_source {
+    koksma__bytes bytes;
+    uint64_t hash; /* of the file as it is */
+    koksma__gltf gltf;
+} koksma__mesh_source;
+
+/* Whether a file's name is a mesh's, it is a plain file, and its parts fit together; of a glTF file also what it
+   says, of others what holds where nothing is said. The caller frees the bytes. Errors: MISSING, MALFORMED, MEMORY.
+ */
+koksma_status koksma__mesh_file_open(const char *path, koksma__mesh_source *out);
+
+/* A file that a mesh file names: as it is, but for a material file. The caller frees the bytes. Errors: MISSING,
+   MALFORMED, MEMORY. */
+koksma_status koksma__mesh_part_open(const char *path, koksma__bytes *out, uint64_t *hash);
+
+/* Whether a file has what it says; into out, which may be left empty where the file will do, goes what assimp reads
+   rightly. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__off_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
+koksma_status koksma__ply_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
+koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
+                                koksma__bytes *out);
+koksma_status koksma__mtl_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
+
+/* The bytes of UTF-8's mark at the beginning: 0 or 3. */
+size_t koksma__byte_order_mark(const unsigned char *file, size_t size);
 
 #endif

@@ -33,24 +33,20 @@ bool koksma__matrix_mirrors(const double m[12])
            0;
 }
 
-/* The normal's matrix is the inverse transposed; times the determinant it is the cofactors. sign undoes the
-   determinant's. */
-static void turn_normal(const double m[12], double sign, const float v[3], float out[3])
+/* sign undoes the determinant's. */
+static void turn_normal(const double turn[9], double sign, const float v[3], float out[3])
 {
     for (int r = 0; r < 3; r++) {
-        double sum = 0;
-        for (int c = 0; c < 3; c++) {
-            const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            const double cofactor = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
-            sum += cofactor * (double)v[c];
-        }
-        out[r] = (float)(sign * sum);
+        const double *row = turn + 3 * r;
+        out[r] = (float)(sign * (row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2]));
     }
 }
 
 static void append_vertices(const koksma__file_mesh *mesh, const double matrix[12], double sign, size_t base,
                             koksma__mesh *out)
 {
+    double turn[9];
+    koksma__normal_matrix(matrix, turn);
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         const float *v = mesh->positions + 3 * i;
         for (size_t k = 0; k < 3; k++) {
@@ -59,7 +55,7 @@ static void append_vertices(const koksma__file_mesh *mesh, const double matrix[1
                 (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
         }
         if (out->normals) {
-            turn_normal(matrix, sign, mesh->normals + 3 * i, out->normals + 3 * (base + i));
+            turn_normal(turn, sign, mesh->normals + 3 * i, out->normals + 3 * (base + i));
         }
         if (out->uvs) {
             out->uvs[2 * (base + i)] = mesh->uvs[3 * i];

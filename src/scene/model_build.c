@@ -49,8 +49,9 @@ static koksma_status read_texture(const koksma__build *build, const koksma__file
     char full[KOKSMA__MAX_PATH];
     *image = (koksma_image){0};
     if (from->bytes) {
-        const koksma_status status = koksma__image_read_bytes(from->bytes, from->size, image);
-        return status ? koksma__fail_in(status, from->name) : KOKSMA_OK;
+        koksma_status status = koksma__image_read_bytes(from->bytes, from->size, image);
+        status = status ? koksma__fail_in(status, from->name) : koksma__image_check(image, from->name);
+        return status;
     }
     if (from->within) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: bare texels", from->name);
@@ -58,7 +59,18 @@ static koksma_status read_texture(const koksma__build *build, const koksma__file
     if (!koksma__find_named(build->path, from->name, full)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->name);
     }
-    return koksma_image_read(full, image);
+    const koksma_status status = koksma_image_read(full, image);
+    return status ? status : koksma__image_check(image, from->name);
+}
+
+/* Radiance beyond what scenes take is dimmed, in its own colour. */
+static void dim(koksma__build *build, double rgb[3])
+{
+    const double largest = fmax(fmax(rgb[0], rgb[1]), rgb[2]);
+    build->scene->unread.too_bright += largest > BRIGHT;
+    for (int k = 0; largest > BRIGHT && k < 3; k++) {
+        rgb[k] = isfinite(largest) ? fmax(rgb[k], 0) * (BRIGHT / largest) : rgb[k] > BRIGHT ? BRIGHT : 0;
+    }
 }
 
 /* What isn't there or can't be made out is a warning; what fails otherwise is build->status. */
@@ -129,7 +141,7 @@ static void take_glow_map(koksma__build *build, const koksma__file_texture *from
             sum += value > 0 ? fmin(value, BRIGHT) : 0;
             even &= value == (double)image.pixels[k % channels];
         }
-        glow[k] = n ? fmin(glow[k] * sum / (double)n, BRIGHT) : 0;
+        glow[k] = n ? glow[k] * sum / (double)n : 0;
     }
     koksma_image_fini(&image);
     if (status) {
@@ -151,7 +163,7 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     double *to = m->kind == KOKSMA__MATERIAL_GGX ? m->reflectance : m->albedo[0];
     for (int k = 0; k < 3; k++) {
         to[k] = clamp01(from->colour[k]);
-        glow[k] = from->glow[k] > 0 ? fmin((double)from->glow[k] * strength, BRIGHT) : 0;
+        glow[k] = from->glow[k] > 0 ? (double)from->glow[k] * strength : 0;
     }
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
     build->scene->unread.see_through += from->see_through;
@@ -161,6 +173,7 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     if (from->glow_map.name && !build->status && (glow[0] > 0 || glow[1] > 0 || glow[2] > 0)) {
         take_glow_map(build, &from->glow_map, glow, m);
     }
+    dim(build, glow);
 }
 
 void koksma__build_grey(koksma__build *build)
@@ -267,8 +280,9 @@ static koksma_status build_light(koksma__build *build, size_t i)
     transform(from->matrix, origin, 1, to->centre);
     transform(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {
-        to->radiance[k] = fmin(from->colour[k], BRIGHT);
+        to->radiance[k] = from->colour[k];
     }
+    dim(build, to->radiance);
     if (!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal))) {
         return koksma__fail(KOKSMA_MALFORMED, "light %zu is beyond 1e6 or leads nowhere", i);
     }

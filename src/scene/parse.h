@@ -44,7 +44,7 @@ koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement
 /* A path in the file `name` starts at the file's folder; false when it is too long. */
 bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
-/* Makes the placement a luminaire. Errors: MALFORMED (too many). */
+/* Makes the placement a luminaire. Errors: MALFORMED (too many, or it has no area where it stands). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
 
 /* One more luminaire, zeroed. Errors: MALFORMED (too many). */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/formats.h"
 #include "scene/parse.h"
 #include "scene/vector.h"
 
@@ -37,7 +38,8 @@ koksma_status koksma__parse_image(const char *name, const field *f, const char *
     if (!*out) {
         return koksma__fail_memory(sizeof **out);
     }
-    const koksma_status status = koksma_image_read(full, *out);
+    koksma_status status = koksma_image_read(full, *out);
+    status = status ? status : koksma__image_check(*out, full);
     if (status == KOKSMA_MISSING) {
         koksma__fail(status, "%s%s", koksma_error_text(), koksma__package_hint(full));
     }

@@ -95,9 +95,22 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
 
+static bool has_area(const koksma__mesh *mesh, const koksma__placement *p)
+{
+    double area = 0;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        float corners[9];
+        area += koksma__placed_triangle(mesh, p->matrix, t, corners);
+    }
+    return (float)area > 0;
+}
+
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, const double radiance[3])
 {
     koksma__light *light = NULL;
+    if (!has_area(&scene->meshes[p->mesh], p)) {
+        return koksma__fail(KOKSMA_MALFORMED, "a luminous mesh has no area where it stands");
+    }
     const koksma_status status = koksma__scene_add_light(scene, &light);
     if (!status) {
         light->kind = KOKSMA__LIGHT_MESH;

@@ -51,6 +51,24 @@ static bool of_meshes(const koksma_scene *scene, asked *a)
     return false;
 }
 
+static bool of_placements(const koksma_scene *scene, asked *a)
+{
+    size_t n = 0, first = 0;
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        if (koksma__matrix_flattens(scene->placements[i].matrix)) {
+            first = n ? first : i;
+            n++;
+        }
+    }
+    if (!n || !here(a)) {
+        return false;
+    }
+    const int mesh = scene->placements[first].mesh;
+    snprintf(a->text, a->size, "mesh %d%s%s: its placement by a matrix without an inverse flattens it%s", mesh,
+             *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name, n > 1 ? ", and so do others" : "");
+    return true;
+}
+
 static bool of_lights(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
@@ -58,6 +76,11 @@ static bool of_lights(const koksma_scene *scene, asked *a)
             snprintf(a->text, a->size, "luminaire %zu gives no light", i);
             return true;
         }
+    }
+    if (scene->unread.too_bright && here(a)) {
+        snprintf(a->text, a->size, "luminaires or glowing materials brighter than 1e6 (%zu) are dimmed to it",
+                 scene->unread.too_bright);
+        return true;
     }
     if (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) && here(a)) {
         snprintf(a->text, a->size, "no luminaire, no ambient light, no background: the picture will be black");
@@ -113,19 +136,41 @@ static bool of_unread(const koksma__unread *u, asked *a)
     return false;
 }
 
+/* Names in OBJ files. */
+static bool of_names(const koksma__unread *u, asked *a)
+{
+    const struct {
+        size_t n;
+        const char *name, *what;
+    } all[] = {{u->libraries, u->library, "there is no such material file"},
+               {u->materials, u->material, "no material file makes this material: it is grey"}};
+    for (size_t i = 0; i < 2; i++) {
+        if (all[i].n && here(a)) {
+            char more[48] = "";
+            if (all[i].n > 1) {
+                snprintf(more, sizeof more, " (nor %zu more)", all[i].n - 1);
+            }
+            snprintf(a->text, a->size, "%s: %s%s", all[i].name, all[i].what, more);
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool of_all(const koksma_scene *scene, asked *a)
 {
     if (!scene->n_shapes && !scene->n_placements && here(a)) {
         snprintf(a->text, a->size, "no shapes");
         return true;
     }
-    return of_unread(&scene->unread, a);
+    return of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
 {
     asked a = {i, text, size};
-    const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) || of_lights(scene, &a);
+    const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
+                       of_placements(scene, &a) || of_lights(scene, &a);
     if (found && size) {
         koksma__make_printable(text);
     }

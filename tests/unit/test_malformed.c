@@ -27,6 +27,11 @@
     "ply\nformat ascii 1.0\nelement vertex " vertices "\nproperty float x\nproperty float y\nproperty float z\n"     \
     "element face " faces "\nproperty list uchar int vertex_indices\nend_header\n" rest
 
+#define BINARY_PLY(face)                                                                                             \
+    "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"    \
+    "element face 1\nproperty list uchar uchar vertex_index\nend_header\n"                                           \
+    "?111?222?333?444?555?666?777?888?999" face
+
 static const struct {
     const char *file, *text, *reason; /* reason: a part of the error; "" for what a library words */
 } cases[] = {
@@ -122,7 +127,19 @@ static const struct {
      "ply\nformat binary_big_endian 1.0\nelement vertex 99999999999999999999\nproperty double x\nend_header\n",
      "bytes at least"},
     {"a.ply", PLY("3", "0", "0 0 0\n1 0 0\n0 1 0\n"), ""},
-    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), ""},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "line 13: face 0 names vertex 7; there are 3"},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"), "line 13: face 0 names vertex -1; there are 3"},
+    {"a.ply", PLY("4", "2", "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "line 15: the file ends"},
+    {"a.ply", PLY("4", "2", "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2"), "line 15: fewer numbers"},
+    {"a.ply", PLY("3", "1", "0.0 0.0 0.0\n1 0\n0 1 0\n3 0 1 2\n"), "line 11: fewer numbers"},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 2\n"), "line 13: more numbers"},
+    {"a.ply", PLY("3", "1", "0 0 0 1 0 0\n0 1 0\n3 0 1 2\n"), "line 10: more numbers"},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0x1 0\n0 1 0\n3 0 1 2\n"), "line 11: a number was due"},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2.0\n"), "line 13: a whole number was due"},
+    {"a.ply", PLY("3", "1", "0 0 0\n1 0 0\n0 1 0\n99999999999999999999 0 1 2\n"), "line 13: fewer numbers"},
+    {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nend_header\n0 0 0\n1 0 0\n0 1 0\n", "has no properties"},
+    {"a.ply", BINARY_PLY("\3\1\2\11"), "face 0 names vertex 9; there are 3"},
+    {"a.ply", BINARY_PLY("\3\1\2"), "the file ends within element 'face' number 0 of 1"},
     {"a.ply", PLY("300", "1", "0 0 0\n1 0 0\n"), "its elements take 1802 bytes at least"},
     {"a.ply", PLY("3", "1", "0 0 0\ninf 0 0\n0 1 0\n3 0 1 2\n"), ""},
     {"a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "line 5: the file ends"},

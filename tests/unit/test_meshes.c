@@ -168,6 +168,37 @@ static void a_fine_ball_is_a_sphere(void **state)
     unlink("ball.obj");
 }
 
+/* A scene in metres looks as in millimetres, a thousandth of it in size: numbers differ by powers of two alone. */
+static void normals_are_smooth_in_all_sizes(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_ball(2);
+    koksma_image images[3];
+    for (int i = 0; i < 3; i++) {
+        static const double sizes[] = {1, 0x1p-10, 0x1p-19};
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "{\"camera\": {\"eye\": [0, 0, %.17g], \"target\": [0, 0, 0], \"fov_deg\": 30},"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\":"
+                 "[{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"material\": \"m\", \"smooth\": true,"
+                 "\"scale\": %.17g}], \"lights\": [{\"kind\": \"directional\", \"direction\": [-1, -2, -3],"
+                 "\"irradiance\": 3}]}",
+                 5 * sizes[i], sizes[i]);
+        koksma_scene *scene = scene_of(text);
+        images[i] = render_by(scene, "distribution", 1, SIDE, 1);
+        koksma_scene_close(scene);
+    }
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        assert_near((double)images[1].pixels[i], (double)images[0].pixels[i], 1e-5);
+        assert_near((double)images[2].pixels[i], (double)images[0].pixels[i], 1e-5);
+    }
+    for (int i = 0; i < 3; i++) {
+        koksma_image_fini(&images[i]);
+    }
+    unlink("ball.obj");
+}
+
 /* In a white furnace a convex white body is as bright as its surroundings: no ray that starts on it may meet it, be
    it small, large or far from the origin. */
 static void convex_bodies_do_not_shade_themselves(void **state)
@@ -337,6 +368,7 @@ int main(void)
         cmocka_unit_test(a_cube_is_a_box),
         cmocka_unit_test(an_instance_is_its_mesh_elsewhere),
         cmocka_unit_test(a_fine_ball_is_a_sphere),
+        cmocka_unit_test(normals_are_smooth_in_all_sizes),
         cmocka_unit_test(convex_bodies_do_not_shade_themselves),
         cmocka_unit_test(light_on_meshes_is_its_form_factor),
         cmocka_unit_test(motion_covers_its_share_of_time),

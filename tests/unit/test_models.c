@@ -130,12 +130,16 @@ static void images_are_albedos(void **state)
     assert_near(mean(TEXTURED("-0.5, -0.5", WALL), NULL, "distribution", 1, 1), 0.3, 1e-3);
     assert_near(mean(TEXTURED("0.5, -0.5", WALL), NULL, "distribution", 1, 1), 0.4, 1e-3);
     assert_near(mean(TEXTURED("0, 0", WALL), NULL, "distribution", 1, 1), 0.25, 1e-3);
+    /* a rectangle has the image once: at its edge there is nothing of the opposite one */
+    assert_near(mean(TEXTURED("0.9, 0.5", WALL), NULL, "distribution", 1, 1), 0.2, 1e-3);
+    assert_near(mean(TEXTURED("-0.5, -0.9", WALL), NULL, "distribution", 1, 1), 0.3, 1e-3);
     if (koksma_mesh_tracer() && koksma_mesh_reader()) {
         write_text("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                                "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
 #define MESH_WALL "{\"kind\": \"mesh\", \"file\": \"wall.obj\""
         assert_near(mean(TEXTURED("-0.5, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
         assert_near(mean(TEXTURED("0.5, -0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.4, 1e-3);
+        assert_near(mean(TEXTURED("0.9, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.6 * 0.2 + 0.4 * 0.1, 1e-3);
         unlink("wall.obj");
     }
     unlink("texture.pfm");

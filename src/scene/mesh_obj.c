@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Whether an OBJ file is one, before assimp reads it: numbers that are numbers, and corners that name vertices which
-   are there. Lines of other keywords are left to assimp, but must be text of a sane length; so must be those of the
-   material files that it names.
-   Formats: Wavefront's "Advanced Visualizer Manual", appendix B1 (OBJ) and 2.3 (MTL). */
+/* OBJ files before assimp reads them: numbers must be numbers, and corners name vertices that are there. assimp
+   passes by lines that begin with blanks, counts no number that begins with a point, and stumbles over comments at
+   the ends of lines and a byte order mark; so it gets neither these, nor lines of keywords that nothing here is made
+   of. Formats: Wavefront's "Advanced Visualizer Manual", appendix B1 (OBJ) and 2.3 (MTL). */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +11,8 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
-#include "scene/mesh.h"
+#include "scene/mesh_file.h"
+#include "scene/mesh_obj_names.h"
 
 enum { MAX_LINE = 1 << 15, MAX_NAME = 1000 /* assimp's strings end at 1024 */ };
 
@@ -24,6 +25,9 @@ typedef struct obj {
     size_t number;         /* of the line that was read last */
     size_t count[KINDS];   /* so far */
     size_t highest[KINDS]; /* that was named, counted from 1 */
+    koksma__obj_names names;
+    koksma__unread *unread;
+    koksma__bytes *out;
     char line[MAX_LINE];
 } obj;
 
@@ -81,9 +85,9 @@ static int take_numbers(const char *text, int most)
     return *text && *text != '#' ? -1 : n;
 }
 
-static koksma_status take_vertex(obj *o, int kind, const char *text)
+static koksma_status take_vertex(obj *o, int kind, const char *text, int *count)
 {
-    const int n = take_numbers(text, 7);
+    const int n = *count = take_numbers(text, 7);
     o->count[kind]++;
     if (kind == PLACE && n != 3 && n != 4 && n != 6 && n != 7) {
         return wrong(o, "a vertex is three finite numbers, and maybe a weight and a colour");
@@ -146,34 +150,113 @@ static koksma_status take_corners(obj *o, const char *text)
     return corners ? KOKSMA_OK : wrong(o, "a face, line or point without a corner");
 }
 
+static bool put(obj *o, const char *text, size_t length)
+{
+    return koksma__bytes_put(o->out, o->out->size, text, length);
+}
+
+/* The word and the numbers or corners after it, with a 0 before a point that would be first, and n more zeros. */
+static koksma_status put_numbers(obj *o, const char *word, size_t length, int zeros)
+{
+    bool good = put(o, word, length);
+    for (const char *text = skip_blanks(word + length); good && *text && *text != '#'; text = skip_blanks(text)) {
+        const size_t digits = strcspn(text, " \t");
+        good = put(o, " 0", *text == '.' ? 2 : 1) && put(o, text, digits);
+        text += digits;
+    }
+    for (; good && zeros > 0; zeros--) {
+        good = put(o, " 0", 2);
+    }
+    return good && put(o, "\n", 1) ? KOKSMA_OK : koksma__fail_memory(o->out->size);
+}
+
+/* "usemtl": names have blanks, but none at their ends. The first name that nobody makes is found in a second pass. */
+static koksma_status take_name(obj *o, const char *word, const char *rest)
+{
+    if (!strncmp(word, "mtllib", 6)) {
+        return *rest ? koksma__obj_take_libraries(o->path, rest, &o->names, o->unread, o->out) : KOKSMA_OK;
+    }
+    return koksma__obj_put_name("", word, strlen(word), o->out);
+}
+
+static void cut_blanks(char *text)
+{
+    size_t length = strlen(text);
+    while (length && (text[length - 1] == ' ' || text[length - 1] == '\t' || text[length - 1] == '\r')) {
+        text[--length] = '\0';
+    }
+}
+
 static koksma_status take_line(obj *o)
 {
+    cut_blanks(o->line);
     const char *word = skip_blanks(o->line), *rest = word + strcspn(word, " \t");
     const size_t length = (size_t)(rest - word);
-    static const struct {
-        const char *word;
-        int kind;
-    } vertices[] = {{"v", PLACE}, {"vt", TEXTURE}, {"vn", NORMAL}};
-    for (size_t i = 0; i < KINDS; i++) {
-        if (length == strlen(vertices[i].word) && !memcmp(word, vertices[i].word, length)) {
-            return take_vertex(o, vertices[i].kind, rest);
+    static const char *const vertices[KINDS] = {"v", "vt", "vn"}, *const names[] = {"mtllib", "usemtl", "o", "g",
+                                                                                    "s"};
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (length == strlen(vertices[kind]) && !memcmp(word, vertices[kind], length)) {
+            int n = 0;
+            const koksma_status status = take_vertex(o, kind, rest, &n);
+            return status ? status : put_numbers(o, word, length, kind == TEXTURE && n == 1);
         }
     }
     if (length == 1 && strchr("flp", *word)) {
-        return take_corners(o, rest);
+        const koksma_status status = take_corners(o, rest);
+        return status ? status : put_numbers(o, word, length, 0);
     }
-    return *word != '#' && strlen(word) > MAX_NAME ? wrong(o, "longer than 1000 characters") : KOKSMA_OK;
+    if (*word != '#' && strlen(word) > MAX_NAME) {
+        return wrong(o, "longer than 1000 characters");
+    }
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (length == strlen(names[i]) && !memcmp(word, names[i], length)) {
+            return take_name(o, word, skip_blanks(rest));
+        }
+    }
+    return KOKSMA_OK;
 }
 
-koksma_status koksma__obj_check(const char *path, const unsigned char *file, size_t size)
+/* The materials that are used and that nobody makes, by the lines that assimp gets. */
+static void note_unmade(obj *o)
+{
+    const unsigned char *at = o->out->data, *end = at + o->out->size;
+    if (o->names.made.n >= KOKSMA__OBJ_NAMES / 2) {
+        return; /* some were not noted */
+    }
+    while (at < end) {
+        const unsigned char *stop = memchr(at, '\n', (size_t)(end - at)); /* ours all end so */
+        if (stop - at > 7 && !memcmp(at, "usemtl", 6)) {
+            const char *name = (const char *)at + 6;
+            while (*name == ' ' || *name == '\t') {
+                name++;
+            }
+            const size_t length = (size_t)((const char *)stop - name);
+            const bool first = koksma__obj_set_add(&o->names.used, name, length);
+            if (first && !koksma__obj_set_has(&o->names.made, name, length) && !o->unread->materials++) {
+                snprintf(o->unread->material, sizeof o->unread->material, "%.*s", (int)length, name);
+            }
+        }
+        at = stop + 1;
+    }
+}
+
+koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
+                                koksma__bytes *out)
 {
     static const char *const names[] = {"vertex", "texture vertex", "normal"};
     koksma_status status = KOKSMA_OK;
-    obj *o = malloc(sizeof *o);
+    obj *o = calloc(1, sizeof *o);
     if (!o) {
         return koksma__fail_memory(sizeof *o);
     }
-    *o = (obj){.path = path, .at = file, .end = file + size};
+    const size_t mark = koksma__byte_order_mark(file, size);
+    o->path = path;
+    o->at = file + mark;
+    o->end = file + size;
+    o->unread = unread;
+    o->out = out;
+    static const char first[] = "# as assimp reads it\n"; /* of less than 16 bytes it says that they are too few */
+    status = put(o, first, strlen(first)) ? KOKSMA_OK : koksma__fail_memory(sizeof first);
     while (!status && o->at < o->end) {
         status = next_line(o);
         status = status ? status : take_line(o);
@@ -184,20 +267,9 @@ koksma_status koksma__obj_check(const char *path, const unsigned char *file, siz
                                   o->highest[kind], o->count[kind]);
         }
     }
+    if (!status) {
+        note_unmade(o);
+    }
     free(o);
     return status;
-}
-
-koksma_status koksma__mtl_check(const char *path, const unsigned char *file, size_t size)
-{
-    size_t number = 1, length = 0;
-    for (size_t i = 0; i < size; i++) {
-        length = file[i] == '\n' ? 0 : length + 1;
-        if (!file[i] || length > MAX_NAME) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %s", path, number,
-                                file[i] ? "longer than 1000 characters" : "not text (a zero byte)");
-        }
-        number += file[i] == '\n';
-    }
-    return KOKSMA_OK;
 }
