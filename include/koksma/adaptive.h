@@ -44,7 +44,7 @@ typedef struct koksma_adaptive_options {
     double params[KOKSMA_MAX_PARAMS];
     double budget; /* samples a pixel, in the mean over the image, at most; 0: the method alone decides */
     int probes; /* samples, which count for nothing else, in each stratum that is split, to see whether it needed to
-                   be; 0: not asked */
+                   be; only methods with samples of their own. 0: not asked */
     koksma_strata *strata; /* NULL, or where the strata of one pixel go; only methods with samples of their own */
 } koksma_adaptive_options;
 

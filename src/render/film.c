@@ -2,8 +2,9 @@
 /*
  * A pixel is the mean of its samples; each sample weighs what the filter says (filters.h), and 1 with the box.
  * Splatted samples reach the pixels around: their sums are kept by task and added in the order of tasks, so that
- * threads change nothing. A pixel of an image-wide pattern, or of splatted samples, that got none takes the mean of
- * the pixels around that have some; its count says 0.
+ * threads change nothing; those of a task that is done wait only for the tasks before it. A pixel of an image-wide
+ * pattern, or of splatted samples, that got none takes its value from the pixels around it (fill_gaps); its count
+ * says 0.
  */
 #include "render/film.h"
 
@@ -18,6 +19,7 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
 {
     const int width = frame->options->width, height = frame->options->height;
     *out = (koksma__film){.layers = layers, .all_layers = all_layers, .n_splats = n_tasks};
+    pthread_mutex_init(&out->lock, NULL);
     koksma_status status = koksma_image_init(&layers->image, width, height, frame->channels);
     status = status ? status : koksma_image_init(&layers->samples, width, height, 1);
     if (all_layers) {
@@ -28,8 +30,10 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
     }
     if (!status && frame->options->splat) {
         out->reach = (int)ceil(frame->options->filter->radius - 0.5) + 1;
+        const size_t numbers = (size_t)width * (size_t)height * (size_t)(frame->channels + 1);
         out->splats = calloc(n_tasks + 1, sizeof *out->splats);
-        status = out->splats ? KOKSMA_OK : koksma__fail_memory(n_tasks * sizeof *out->splats);
+        out->sums = calloc(numbers, sizeof *out->sums);
+        status = out->splats && out->sums ? KOKSMA_OK : koksma__fail_memory(numbers * sizeof *out->sums);
     }
     return status;
 }
@@ -40,6 +44,8 @@ void koksma__film_fini(koksma__film *film)
         free(film->splats[i].sums);
     }
     free(film->splats);
+    free(film->sums);
+    pthread_mutex_destroy(&film->lock);
     *film = (koksma__film){0};
 }
 
@@ -51,7 +57,7 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
     }
     koksma__splat *splat = &film->splats[task];
     const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * (size_t)(frame->channels + 1);
-    *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, calloc(n, sizeof(double))};
+    *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, false, calloc(n, sizeof(double))};
     return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
 }
 
@@ -171,95 +177,137 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
 
 /* ---- The end ---------------------------------------------------------------------------------------------- */
 
-static void merge_splats(const koksma__frame *frame, koksma__film *film, double *sums)
+/* Adds what the samples of a task came to, and forgets it. */
+static void merge_splat(const koksma__frame *frame, koksma__film *film, koksma__splat *splat)
 {
-    const size_t width = (size_t)frame->options->width, numbers = (size_t)frame->channels + 1;
-    for (size_t s = 0; s < film->n_splats; s++) {
-        const koksma__splat *splat = &film->splats[s];
-        for (int r = 0; splat->sums && r < splat->rows; r++) {
-            const int y = splat->first_row + r;
-            for (size_t k = 0; y >= 0 && y < frame->options->height && k < width * numbers; k++) {
-                sums[(size_t)y * width * numbers + k] += splat->sums[(size_t)r * width * numbers + k];
-            }
+    const size_t row = (size_t)frame->options->width * (size_t)(frame->channels + 1);
+    for (int r = 0; r < splat->rows; r++) {
+        const int y = splat->first_row + r;
+        for (size_t k = 0; y >= 0 && y < frame->options->height && k < row; k++) {
+            film->sums[(size_t)y * row + k] += splat->sums[(size_t)r * row + k];
         }
     }
+    free(splat->sums);
+    splat->sums = NULL;
 }
 
-/* The pixels' values, and the weights that they come from. */
-static koksma_status finish_splats(const koksma__frame *frame, koksma__film *film, float *weights)
+void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, size_t task)
+{
+    if (!film->splats) {
+        return;
+    }
+    pthread_mutex_lock(&film->lock);
+    film->splats[task].done = true;
+    for (; film->n_merged < film->n_splats && film->splats[film->n_merged].done; film->n_merged++) {
+        merge_splat(frame, film, &film->splats[film->n_merged]);
+    }
+    pthread_mutex_unlock(&film->lock);
+}
+
+/* The pixels' values, and the weights that they come from. After an interrupt some tasks are missing between others;
+   a pixel that was not rendered has next to nothing then, the tails of filters, and stays 0. */
+static void finish_splats(const koksma__frame *frame, koksma__film *film, bool whole, float *weights)
 {
     const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;
     const size_t channels = (size_t)frame->channels;
-    double *sums = calloc(pixels * (channels + 1), sizeof *sums);
-    if (!sums) {
-        return koksma__fail_memory(pixels * (channels + 1) * sizeof *sums);
+    for (size_t s = film->n_merged; s < film->n_splats; s++) {
+        if (film->splats[s].done) {
+            merge_splat(frame, film, &film->splats[s]);
+        }
     }
-    merge_splats(frame, film, sums);
     for (size_t i = 0; i < pixels; i++) {
-        const double *sum = sums + i * (channels + 1), weight = sum[channels];
+        const double *sum = film->sums + i * (channels + 1), weight = sum[channels];
+        const bool shown = weight > 0 && (whole || film->layers->samples.pixels[i] > 0);
         weights[i] = (float)weight;
         for (size_t k = 0; k < channels; k++) {
-            film->layers->image.pixels[i * channels + k] = weight > 0 ? (float)(sum[k] / weight) : 0;
+            film->layers->image.pixels[i * channels + k] = shown ? (float)(sum[k] / weight) : 0;
         }
     }
-    free(sums);
-    return KOKSMA_OK;
 }
 
-/* has: the number of samples, or the sum of weights; empty pixels take the mean of the nearest square ring with any.
- */
-static void fill_pixel(koksma_image *image, const float *has, int x, int y)
+/* Pixels by their distance from those that have something, in steps to any of the eight around; those are 0. */
+typedef struct gaps {
+    int *steps; /* -1: not reached yet */
+    size_t *queue, n;
+} gaps;
+
+typedef struct around {
+    int x0, x1, y0, y1; /* a pixel and its neighbours, the last ones too */
+} around;
+
+static around around_of(const koksma_image *image, size_t pixel)
 {
-    const int most = image->width > image->height ? image->width : image->height;
-    for (int ring = 1; ring < most; ring++) {
-        double sum[3] = {0, 0, 0};
-        int n = 0;
-        for (int yy = y - ring; yy <= y + ring; yy++) {
-            for (int xx = x - ring; xx <= x + ring; xx++) {
-                const bool on_ring = abs(xx - x) == ring || abs(yy - y) == ring;
-                if (!on_ring || xx < 0 || yy < 0 || xx >= image->width || yy >= image->height) {
-                    continue;
+    const int x = (int)(pixel % (size_t)image->width), y = (int)(pixel / (size_t)image->width);
+    return (around){x ? x - 1 : x, x + 1 < image->width ? x + 1 : x, y ? y - 1 : y,
+                    y + 1 < image->height ? y + 1 : y};
+}
+
+/* The mean of the neighbours that are one step nearer; and those that are reached from here queue up. */
+static void fill_pixel(koksma_image *image, gaps *g, size_t pixel)
+{
+    const around a = around_of(image, pixel);
+    const size_t channels = (size_t)image->channels;
+    double sum[3] = {0, 0, 0};
+    int n = 0;
+    for (int y = a.y0; y <= a.y1; y++) {
+        for (int x = a.x0; x <= a.x1; x++) {
+            const size_t i = (size_t)y * (size_t)image->width + (size_t)x;
+            if (g->steps[i] < 0) {
+                g->steps[i] = g->steps[pixel] + 1;
+                g->queue[g->n++] = i;
+            } else if (g->steps[i] < g->steps[pixel]) {
+                for (size_t k = 0; k < channels; k++) {
+                    sum[k] += (double)image->pixels[i * channels + k];
                 }
-                const size_t i = (size_t)yy * (size_t)image->width + (size_t)xx;
-                for (int k = 0; has[i] > 0 && k < image->channels; k++) {
-                    sum[k] += (double)image->pixels[i * (size_t)image->channels + (size_t)k];
-                }
-                n += has[i] > 0;
+                n++;
             }
         }
-        for (int k = 0; n && k < image->channels; k++) {
-            image->pixels[((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels + (size_t)k] =
-                (float)(sum[k] / n);
-        }
-        if (n) {
-            return;
-        }
+    }
+    for (size_t k = 0; n && k < channels; k++) {
+        image->pixels[pixel * channels + k] = (float)(sum[k] / n);
     }
 }
 
-koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film)
+/* has: the number of samples, or the sum of weights. Pixels that have none are filled from the nearest outwards, each
+   by the mean of its neighbours that are one step nearer: once round the image, however wide the gaps are. */
+static koksma_status fill_gaps(koksma_image *image, const float *has)
+{
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    gaps g = {malloc(pixels * sizeof *g.steps), malloc(pixels * sizeof *g.queue), 0};
+    const koksma_status status =
+        g.steps && g.queue ? KOKSMA_OK : koksma__fail_memory(pixels * (sizeof *g.steps + sizeof *g.queue));
+    for (size_t i = 0; !status && i < pixels; i++) {
+        g.steps[i] = has[i] > 0 ? 0 : -1;
+        if (has[i] > 0) {
+            g.queue[g.n++] = i;
+        }
+    }
+    for (size_t at = 0; !status && at < g.n; at++) {
+        fill_pixel(image, &g, g.queue[at]);
+    }
+    free(g.steps);
+    free(g.queue);
+    return status;
+}
+
+koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole)
 {
     koksma_image *image = &film->layers->image;
     const size_t pixels = (size_t)image->width * (size_t)image->height;
-    float *weights = film->layers->samples.pixels, *summed = NULL;
+    float *has = film->layers->samples.pixels, *weights = NULL;
     if (film->splats) {
-        summed = calloc(pixels, sizeof *summed);
-        if (!summed) {
-            return koksma__fail_memory(pixels * sizeof *summed);
+        has = weights = malloc(pixels * sizeof *weights);
+        if (!weights) {
+            return koksma__fail_memory(pixels * sizeof *weights);
         }
-        weights = summed;
-        const koksma_status status = finish_splats(frame, film, weights);
-        if (status) {
-            free(summed);
-            return status;
-        }
+        finish_splats(frame, film, whole, weights);
     }
-    const bool gaps = film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE;
-    for (size_t i = 0; gaps && i < pixels; i++) {
-        if (!(weights[i] > 0)) {
-            fill_pixel(image, weights, (int)(i % (size_t)image->width), (int)(i / (size_t)image->width));
-        }
+    bool any = false;
+    for (size_t i = 0; i < pixels && !any; i++) {
+        any = !(has[i] > 0);
     }
-    free(summed);
-    return KOKSMA_OK;
+    const bool fills = whole && any && (film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE);
+    const koksma_status status = fills ? fill_gaps(image, has) : KOKSMA_OK;
+    free(weights);
+    return status;
 }

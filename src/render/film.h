@@ -3,13 +3,16 @@
 #ifndef KOKSMA_RENDER_FILM_H
 #define KOKSMA_RENDER_FILM_H
 
+#include <pthread.h>
+
 #include "render/frame.h"
 
 /* Rows of a task with those around them that its samples reach, when samples are splatted: channels + 1 numbers a
    pixel, the last one the sum of the filter. Doubles: a pixel may get millions. */
 typedef struct koksma__splat {
     int first_row, rows;
-    double *sums;
+    bool done;
+    double *sums; /* NULL: none yet, or added to the film's */
 } koksma__splat;
 
 typedef struct koksma__film {
@@ -17,7 +20,10 @@ typedef struct koksma__film {
     bool all_layers; /* else only the image */
     int reach;       /* pixels beside its own that a splatted sample touches; 0: no splatting */
     size_t n_splats;
-    koksma__splat *splats; /* one a task */
+    koksma__splat *splats; /* one a task; NULL: no splatting */
+    double *sums;          /* of the image, as those of tasks; of the first n_merged tasks */
+    size_t n_merged;
+    pthread_mutex_t lock; /* guards sums, n_merged and what is done */
 } koksma__film;
 
 /* Allocates the images. Errors: MEMORY. */
@@ -33,12 +39,15 @@ void koksma__film_place(const koksma__frame *frame, const koksma__group *group, 
 koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *film, size_t task, int first_row,
                                      int rows);
 
+/* Its samples are all there. */
+void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, size_t task);
+
 /* The samples of a group into their pixels. */
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
                       const koksma__values *values);
 
-/* When all tasks are done: splats in the order of tasks, and pixels without samples from their neighbours. Errors:
-   MEMORY. */
-koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film);
+/* When no task is at work any more: splats in the order of tasks, and, if the picture is whole, values for pixels
+   without samples from those around them; else they are 0. Errors: MEMORY. */
+koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole);
 
 #endif

@@ -65,6 +65,9 @@ static koksma_status render_rows(void *context, size_t task)
             status = render_group(j, task, &group, &r);
         }
     }
+    if (!status) {
+        koksma__film_close_task(f, &j->film, task);
+    }
     atomic_fetch_add(&j->rays, r.values.rays);
     koksma__workroom_fini(&r);
     return status;
@@ -82,7 +85,7 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
     if (!status || status == KOKSMA_INTERRUPTED) {
-        const koksma_status finish = koksma__film_finish(f, &j->film);
+        const koksma_status finish = koksma__film_finish(f, &j->film, !status);
         status = status ? status : finish;
     }
     out->rays = atomic_load(&j->rays);

@@ -134,7 +134,7 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html
     options->width = scene->width;
     options->height = scene->height;
     adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
-    adaptive.probes = PROBES; /* methods that split no strata leave them alone */
+    adaptive.probes = adaptive.method->own_samples ? PROBES : 0;
     if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
         return status;
     }

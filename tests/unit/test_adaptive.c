@@ -304,6 +304,40 @@ static bool stop_at_once(void *context, double fraction)
     return false;
 }
 
+static bool stop_later(void *context, double fraction)
+{
+    (void)fraction;
+    return --*(int *)context > 0;
+}
+
+/* Wherever a render is stopped, also between the samples that decide and those that count: a pixel that had samples
+   shows them, the others are black. */
+static void a_pixel_that_had_samples_is_never_black(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 40},"
+                                   "\"background\": 0.3, \"materials\": [], \"shapes\": []}");
+    for (size_t m = 0; m < N_METHODS; m++) {
+        int stopped = 0;
+        for (int asked = 2; asked < 12; asked++) {
+            int left = asked;
+            const koksma_run run = {.threads = 1, .keep_going = stop_later, .context = &left};
+            const koksma_render_options options = options_for(scene, 4);
+            const koksma_adaptive_options adaptive = adaptive_of(methods[m], 50);
+            koksma_layers layers;
+            const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, NULL);
+            assert_true(!status || status == KOKSMA_INTERRUPTED);
+            stopped += status != KOKSMA_OK;
+            for (int i = 0; i < PIXELS; i++) {
+                assert_near((double)layers.image.pixels[i], layers.samples.pixels[i] > 0 ? 0.3 : 0, 1e-6);
+            }
+            koksma_layers_fini(&layers);
+        }
+        assert_true(stopped > 2);
+    }
+    koksma_scene_close(scene);
+}
+
 static void errors_are_said(void **state)
 {
     (void)state;
@@ -331,6 +365,8 @@ static void errors_are_said(void **state)
     options.scope = KOKSMA_SCOPE_PIXEL;
     assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, &run, &layers, NULL), KOKSMA_INTERRUPTED);
     koksma_layers_fini(&layers);
+    adaptive.probes = 4;
+    assert_int_equal(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
     koksma_scene_close(scene);
 }
 
@@ -346,6 +382,7 @@ int main(void)
         cmocka_unit_test(quantiles_are_the_published),
         cmocka_unit_test(shown_strata_are_a_partition),
         cmocka_unit_test(rays_are_counted_once),
+        cmocka_unit_test(a_pixel_that_had_samples_is_never_black),
         cmocka_unit_test(errors_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

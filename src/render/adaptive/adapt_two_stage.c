@@ -111,14 +111,21 @@ static koksma_status open(koksma__adaptive *run)
     return status || run->extra ? status : koksma__fail_memory(run->pixels * sizeof(double));
 }
 
+/* The pilot is dropped when what replaces it is there, and not before: of a picture that is interrupted in between
+   it is all that there is. */
+static void take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+{
+    koksma__pixel_sets *sets = koksma__sets_of(run, pixel);
+    *sets = (koksma__pixel_sets){.drawn = sets->drawn};
+    koksma__sets_take(run, pixel, rgb, weights);
+}
+
 static void last(koksma__adaptive *run)
 {
     find_errors(run, run->extra);
     const double scale = find_scale(run);
     for (size_t p = 0; p < run->pixels; p++) {
-        koksma__pixel_sets *sets = koksma__sets_of(run, p);
         const double n = sets_for(run, p, scale);
-        *sets = (koksma__pixel_sets){.drawn = sets->drawn};
         run->asks[p] = (koksma__ask){.now = (uint32_t)(n * (double)koksma__set_size(run)), .served = true};
     }
 }
@@ -128,7 +135,7 @@ static const koksma__adaptive_rules rules = {.fresh = true,
                                              .open = open,
                                              .close = koksma__sets_close,
                                              .draw = koksma__sets_draw,
-                                             .take = koksma__sets_take,
+                                             .take = take,
                                              .decide = decide,
                                              .last = last,
                                              .result = koksma__sets_result};

@@ -235,8 +235,12 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
         return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     }
+    const koksma__adaptive_rules *rules = adaptive->method->rules;
+    if (adaptive->probes && !rules->probes) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to probe", name);
+    }
     const koksma_strata *strata = adaptive->strata;
-    if (strata && !((const koksma__adaptive_rules *)adaptive->method->rules)->show) {
+    if (strata && !rules->show) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
     }
     if (strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height)) {

@@ -7,6 +7,11 @@
  * With `kept` a node's sample is that of its parent when it is the part k where the parent's sample lies in the base
  * use, k = b; in another use that sample lies in quarter c, and so part k gets quarter k ^ b ^ c there: kept for the
  * kept, and one to one for the others. Shuffled, the other three change places at random.
+ *
+ * The samples of the last stage, with `fresh`, must know nothing of those that decided: k ^ b ^ c would always pair
+ * the quarters (b, c) again, where the sample lay whose value had the stratum split. There part k gets a quarter that
+ * is any of the four with equal chances, drawn for that stage; so the mean over the parts is that of the stratum,
+ * whatever the tree.
  */
 #include <math.h>
 
@@ -65,22 +70,24 @@ static spot start(const koksma__strata *s, const koksma__use_cells *use, uint32_
 }
 
 /* Which quarter of the other use part k of a node gets. b, c: where the node's sample lies. */
-static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64_t node, int k, int b, int c)
+static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64_t node, bool last, int k, int b,
+                   int c)
 {
     static const int orders[6][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 1, 3},
                                      {0, 2, 3, 1}, {0, 3, 1, 2}, {0, 3, 2, 1}};
     const bool renewed = s->reuse == KOKSMA__REUSE_RENEWED;
-    if (!s->shuffled) {
+    if (!s->shuffled && !last) {
         return renewed ? k : k ^ b ^ c;
     }
-    const koksma__words r = koksma__random(use->seed, KOKSMA__PURPOSE_SHUFFLE, node, KOKSMA__STAGE_TREE);
+    const koksma__words r =
+        koksma__random(use->seed, KOKSMA__PURPOSE_SHUFFLE, node, last ? KOKSMA__STAGE_LAST : KOKSMA__STAGE_TREE);
     const int *order = orders[koksma__below(r.w[0], 6)];
-    return renewed ? order[k] ^ (int)koksma__below(r.w[1], 4) : order[k ^ b] ^ c;
+    return renewed || last ? order[k] ^ (int)koksma__below(r.w[1], 4) : order[k ^ b] ^ c;
 }
 
-/* Base and use (NULL: only the base) down to a stratum. */
+/* Base and use (NULL: only the base) down to a stratum; last: in the last stage. */
 static void walk(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
-                 const koksma__stratum *stratum, spot *at_base, spot *at_use)
+                 const koksma__stratum *stratum, bool last, spot *at_base, spot *at_use)
 {
     *at_base = start(s, base, stratum->number);
     if (use) {
@@ -92,7 +99,7 @@ static void walk(const koksma__strata *s, const koksma__use_cells *base, const k
         const uint64_t node = node_of(stratum->number, digits, level + 1);
         const bool kept = s->reuse != KOKSMA__REUSE_RENEWED && k == b;
         if (use && use->split) {
-            enter(use, partner(s, use, node_of(stratum->number, digits >> 2, level), k, b, c), at_use->cell);
+            enter(use, partner(s, use, node_of(stratum->number, digits >> 2, level), last, k, b, c), at_use->cell);
         }
         enter(base, k, at_base->cell);
         if (kept) {
@@ -112,7 +119,7 @@ void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base
                           uint32_t cell[2])
 {
     spot at;
-    walk(s, base, NULL, stratum, &at, NULL);
+    walk(s, base, NULL, stratum, false, &at, NULL);
     cell[0] = at.cell[0];
     cell[1] = at.cell[1];
 }
@@ -120,7 +127,7 @@ void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base
 int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum)
 {
     spot at;
-    walk(s, base, NULL, stratum, &at, NULL);
+    walk(s, base, NULL, stratum, false, &at, NULL);
     return quarter_of(base, at.x);
 }
 
@@ -134,7 +141,7 @@ void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *bas
                            const koksma__stratum *stratum, uint32_t stage, float place[2])
 {
     spot at_base, at;
-    walk(s, base, use, stratum, &at_base, &at);
+    walk(s, base, use, stratum, stage == KOKSMA__STAGE_LAST, &at_base, &at);
     if (use->use == base->use) {
         at = at_base;
     }

@@ -19,7 +19,8 @@
  *     kept        the old one in the part where it lies, new ones in the others
  *     renewed     new ones in all four; the old one is dropped
  *     fresh       as kept, and when no stratum is split any more every stratum is sampled afresh, for the estimate
- *                 (Kirk & Arvo 1991: what decides must not be counted)
+ *                 (Kirk & Arvo 1991: what decides must not be counted); the parts of a split stratum are paired
+ *                 afresh, too, in all uses
  */
 #ifndef KOKSMA_RENDER_ADAPTIVE_STRATA_H
 #define KOKSMA_RENDER_ADAPTIVE_STRATA_H
