@@ -188,17 +188,21 @@ static koksma_status add_equal(koksma_study *study, koksma__grid *g, const colum
     koksma_status status =
         koksma__image_mean(study, c->image, c->scene, c->variant, patterns->at[0], EQUAL_TO, NULL, &target);
     for (size_t i = 0; !status && target.n && i < patterns->n; i++) {
-        bool outside;
+        bool outside = false;
         char name[KOKSMA__VARIANT_TEXT + 64];
         status = convergence(study, c, patterns->at[i], n, n + c->n, n + 2 * c->n, &p);
         const koksma__estimate e =
-            koksma__samples_for(&p, target.mean, i ? target.sd / sqrt((double)target.n) : 0, &outside);
+            i ? koksma__samples_for(&p, target.mean, target.sd / sqrt((double)target.n), &outside)
+              : (koksma__estimate){EQUAL_TO, EQUAL_TO, EQUAL_TO};
         koksma__case_name(c->scene, c->variant, name, sizeof name);
         koksma__grid_row(g);
         koksma__grid_text(g, name);
         koksma__grid_text(g, patterns->at[i]);
         koksma__grid_interval(g, e, 3);
-        koksma__grid_text(g, isnan(e.value) ? "its error doesn't fall" : outside ? "extrapolated" : "between sizes");
+        koksma__grid_text(g, i == 0           ? "itself"
+                             : isnan(e.value) ? "its error doesn't fall"
+                             : outside        ? "extrapolated"
+                                              : "between sizes");
     }
     free(n);
     return status;

@@ -220,7 +220,7 @@ koksma_status koksma__report_questions(koksma_study *study, koksma__html *html)
     const koksma__plan *plan = &study->plan;
     koksma_status status = KOKSMA_OK;
     if (plan->n_questions) {
-        koksma__html_add(html, "<h2 id=\"questions\">Questions that the papers leave open</h2>\n");
+        koksma__html_add(html, "<h2 id=\"questions\">Questions</h2>\n");
     }
     for (size_t i = 0; !status && i < plan->n_questions; i++) {
         status = ask(study, html, &plan->questions[i]);

@@ -145,7 +145,9 @@ void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table
     koksma__html_id(h, "table", t->id);
     koksma__html_add(h, ">Table %s: ", t->id);
     koksma__html_text(h, t->title);
-    koksma__html_add(h, "</h3>\n<div class=\"scroll\"><table>\n<thead>");
+    koksma__html_add(
+        h, "</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table %s\"><table>\n<thead>",
+        t->id);
 }
 
 /* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
