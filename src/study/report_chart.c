@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WIDTH = 620, HEIGHT = 380, LEFT = 70, RIGHT = 230, TOP = 14, BOTTOM = 48, COLOURS = 8 };
+enum { WIDTH = 620, HEIGHT = 380, LEFT = 70, RIGHT = 230, TOP = 14, BOTTOM = 48, COLOURS = 8, SHAPES = 3 };
 
 typedef struct axis {
     double low, high;
@@ -108,12 +108,13 @@ static double bar_end(const axis *y, double value)
     return fmin(fmax(at, fmin(y->from, y->to)), fmax(y->from, y->to));
 }
 
-/* Colours come again with another shape: a dot, a square, a triangle. */
+/* A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
+   neighbours don't. */
 static void add_shape(koksma__html *h, size_t index, double x, double y)
 {
-    if (index / COLOURS == 0) {
+    if (index % SHAPES == 0) {
         koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\">", x, y);
-    } else if (index / COLOURS == 1) {
+    } else if (index % SHAPES == 1) {
         koksma__html_add(h, "<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\">", x - 3, y - 3);
     } else {
         koksma__html_add(h, "<polygon points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\">", x - 4, y + 3, x + 4, y + 3, x,
@@ -123,7 +124,7 @@ static void add_shape(koksma__html *h, size_t index, double x, double y)
 
 static const char *end_of_shape(size_t index)
 {
-    return index / COLOURS == 0 ? "</circle>" : index / COLOURS == 1 ? "</rect>" : "</polygon>";
+    return index % SHAPES == 0 ? "</circle>" : index % SHAPES == 1 ? "</rect>" : "</polygon>";
 }
 
 static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t i,
