@@ -73,6 +73,16 @@ static size_t sort(double *values, size_t n)
     return kept;
 }
 
+/* Of the values that are numbers, if any; sorts them. */
+static void set_interval(double *values, size_t n, koksma__estimate *out)
+{
+    const size_t kept = sort(values, n);
+    if (kept) {
+        out->low = quantile(values, kept, 0.025);
+        out->high = quantile(values, kept, 0.975);
+    }
+}
+
 /* Index i of resample s. */
 static size_t drawn(uint64_t seed, size_t s, size_t i, size_t n)
 {
@@ -121,11 +131,7 @@ koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__mean
     if (values) {
         memcpy(values, room, samples * sizeof *values);
     }
-    const size_t kept = sort(room, samples);
-    if (kept) {
-        out->low = quantile(room, kept, 0.025);
-        out->high = quantile(room, kept, 0.975);
-    }
+    set_interval(room, samples, out);
     free(room);
     return KOKSMA_OK;
 }
@@ -141,11 +147,7 @@ koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma_
     for (size_t s = 0; s < samples; s++) {
         room[s] = a->values[s] * a->factor - b->values[s] * b->factor;
     }
-    const size_t kept = sort(room, samples);
-    if (kept) {
-        out->low = quantile(room, kept, 0.025);
-        out->high = quantile(room, kept, 0.975);
-    }
+    set_interval(room, samples, out);
     free(room);
     return KOKSMA_OK;
 }

@@ -8,16 +8,9 @@
 
 #include <koksma/render.h>
 
+#include "meshes.h"
 #include "scene/mesh_file.h"
 #include "scene/model_build.h"
-#include "test.h"
-
-static void need_meshes(void)
-{
-    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
-        skip();
-    }
-}
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
 {

@@ -8,16 +8,9 @@
 
 #include <koksma/render.h>
 
-#include "test.h"
+#include "meshes.h"
 
 enum { SIDE = 48 };
-
-static void need_meshes(void)
-{
-    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
-        skip();
-    }
-}
 
 static koksma_scene *scene_of(const char *text)
 {

@@ -8,23 +8,8 @@
 
 #include <koksma/render.h>
 
+#include "meshes.h"
 #include "scene/scene.h"
-#include "test.h"
-
-static void need_meshes(void)
-{
-    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
-        skip();
-    }
-}
-
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
 
 #define UNIT_VERTICES "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 #define UNIT_PLY(rest)                                                                                               \

@@ -7,22 +7,7 @@
 
 #include <koksma/render.h>
 
-#include "test.h"
-
-static void need_meshes(void)
-{
-    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
-        skip();
-    }
-}
-
-static void write_text(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
+#include "meshes.h"
 
 /* The mean of a picture of one scene, given as a text or a path; its first channel. */
 static double mean(const char *scene_text, const char *path, const char *integrator, int side, int spp)

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What tests of mesh files begin with. */
+#ifndef KOKSMA_TESTS_MESHES_H
+#define KOKSMA_TESTS_MESHES_H
+
+#include <koksma/render.h>
+
+#include "test.h"
+
+/* Skips a test that needs Embree and assimp where the build is without them. */
+static inline void need_meshes(void)
+{
+    if (!koksma_mesh_tracer() || !koksma_mesh_reader()) {
+        skip();
+    }
+}
+
+static inline void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+#endif
