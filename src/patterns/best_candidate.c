@@ -40,8 +40,8 @@ static void choose(uint64_t seed, size_t placed, size_t candidates, const koksma
         for (int k = 0; k < out->dim; k += 2) {
             koksma__random_pair(seed, KOKSMA__PURPOSE_DART, (uint64_t)placed << 24 | c, (uint32_t)k / 2, dart + k);
         }
-        const double d = grid ? koksma__torus_grid_nearest(grid, dart[0], dart[1], KOKSMA__NO_POINT, best)
-                              : nearest(out, placed, dart, best);
+        const double d =
+            grid ? koksma__torus_grid_nearest(grid, dart[0], dart[1], best) : nearest(out, placed, dart, best);
         if (d > best) {
             best = d;
             for (int k = 0; k < out->dim; k++) {

@@ -9,16 +9,6 @@
 #include "core/room.h"
 #include "core/status.h"
 
-static bool has_text(const koksma__texts *texts, const char *text)
-{
-    for (size_t i = 0; i < texts->n; i++) {
-        if (!strcmp(texts->at[i], text)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* Plans have their sizes sorted. */
 static bool has_size(const koksma__wholes *sizes, long long n)
 {
@@ -76,7 +66,7 @@ void koksma__cases_close(koksma__cases *cases)
 static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *at)
 {
     return !d->warps.n && d->dim == at->of->dim && has_size(&d->n, at->spp) &&
-           has_text(&d->measures, at->of->measure);
+           koksma__texts_have(&d->measures, at->of->measure);
 }
 
 /* The topic's block that measures a pattern's points, of several the one with the most sets; NULL: none does. */
@@ -86,7 +76,7 @@ static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, 
     const koksma__discrepancy_block *most = NULL;
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *d = topic->discrepancies[b];
-        if ((!most || d->trials > most->trials) && measures_it(d, at) && has_text(&d->patterns, pattern)) {
+        if ((!most || d->trials > most->trials) && measures_it(d, at) && koksma__texts_have(&d->patterns, pattern)) {
             most = d;
         }
     }
@@ -112,8 +102,9 @@ static bool same_pictures(const koksma_study *study, const koksma__image_block *
 /* Whether a block renders the pictures of the case. */
 static bool renders_it(const koksma_study *study, const koksma__image_block *i, const koksma__case *at)
 {
-    return i == at->image || (has_size(&i->spp, at->spp) && has_text(&i->variants, at->variant) &&
-                              has_text(&i->scenes, at->scene) && same_pictures(study, i, at->image, at->scene));
+    return i == at->image ||
+           (has_size(&i->spp, at->spp) && koksma__texts_have(&i->variants, at->variant) &&
+            koksma__texts_have(&i->scenes, at->scene) && same_pictures(study, i, at->image, at->scene));
 }
 
 /* The topic's block from b on that renders a pattern of the case, of several the one with the most trials. */
@@ -123,7 +114,7 @@ static const koksma__image_block *rendered_in(const koksma__cases *c, const koks
     const koksma__image_block *most = c->topic->images[b];
     for (; b < c->topic->n_images; b++) {
         const koksma__image_block *i = c->topic->images[b];
-        if (i->trials > most->trials && has_text(&i->patterns, pattern) && renders_it(c->study, i, at)) {
+        if (i->trials > most->trials && koksma__texts_have(&i->patterns, pattern) && renders_it(c->study, i, at)) {
             most = i;
         }
     }
@@ -137,7 +128,7 @@ static bool is_before(const koksma__cases *c, const koksma__case *at, const char
 {
     for (size_t k = 0; k < b; k++) {
         const koksma__image_block *i = c->topic->images[k];
-        if ((!pattern || has_text(&i->patterns, pattern)) && renders_it(c->study, i, at)) {
+        if ((!pattern || koksma__texts_have(&i->patterns, pattern)) && renders_it(c->study, i, at)) {
             return true;
         }
     }

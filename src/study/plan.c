@@ -229,7 +229,7 @@ static koksma_status parse_table(const koksma__json_node *node, const koksma__pl
 
 /* ---- The whole ------------------------------------------------------------------------------------------- */
 
-static bool has_text(const koksma__texts *texts, const char *text)
+bool koksma__texts_have(const koksma__texts *texts, const char *text)
 {
     for (size_t i = 0; i < texts->n; i++) {
         if (!strcmp(texts->at[i], text)) {
@@ -252,14 +252,14 @@ static bool has_whole(const koksma__wholes *wholes, long long value)
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
                               long long n, long long dim)
 {
-    return !block->warps.n && block->dim == dim && has_text(&block->measures, measure) &&
-           has_text(&block->patterns, pattern) && has_whole(&block->n, n);
+    return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
+           koksma__texts_have(&block->patterns, pattern) && has_whole(&block->n, n);
 }
 
 static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
 {
-    return has_text(&i->variants, "") && has_text(&i->scenes, t->scene) && has_text(&i->patterns, pattern) &&
-           has_whole(&i->spp, t->n);
+    return koksma__texts_have(&i->variants, "") && koksma__texts_have(&i->scenes, t->scene) &&
+           koksma__texts_have(&i->patterns, pattern) && has_whole(&i->spp, t->n);
 }
 
 /* The first image block that makes all rows of a table: they are compared with the same references, at one size. With

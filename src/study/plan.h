@@ -16,6 +16,7 @@ typedef struct koksma__wholes {
 } koksma__wholes;
 
 void koksma__texts_fini(koksma__texts *texts);
+bool koksma__texts_have(const koksma__texts *texts, const char *text);
 
 /* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {

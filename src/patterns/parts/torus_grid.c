@@ -61,20 +61,19 @@ void koksma__torus_grid_remove(koksma__torus_grid *g, uint32_t point)
 }
 
 /* The nearest in one cell, which may be given by any whole numbers. */
-static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, double x, double y, uint32_t self,
-                         double best)
+static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, double x, double y, double best)
 {
     const long cells = (long)g->cells;
     cell_x -= cell_x >= cells ? cells : cell_x < 0 ? -cells : 0;
     cell_y -= cell_y >= cells ? cells : cell_y < 0 ? -cells : 0;
     for (uint32_t i = g->head[cell_y * cells + cell_x]; i != KOKSMA__NO_POINT; i = g->next[i]) {
         const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
-        best = i != self && a * a + b * b < best ? a * a + b * b : best;
+        best = a * a + b * b < best ? a * a + b * b : best;
     }
     return best;
 }
 
-double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double y, uint32_t self, double enough)
+double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double y, double enough)
 {
     const long cx = cell_of(g, x), cy = cell_of(g, y), most = (long)g->cells / 2;
     double best = 1;
@@ -84,12 +83,12 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double 
             break;
         }
         for (long t = -ring; t <= ring; t++) {
-            best = nearest_in(g, cx + t, cy - ring, x, y, self, best);
-            best = nearest_in(g, cx + t, cy + ring, x, y, self, best);
+            best = nearest_in(g, cx + t, cy - ring, x, y, best);
+            best = nearest_in(g, cx + t, cy + ring, x, y, best);
         }
         for (long t = 1 - ring; t < ring; t++) {
-            best = nearest_in(g, cx - ring, cy + t, x, y, self, best);
-            best = nearest_in(g, cx + ring, cy + t, x, y, self, best);
+            best = nearest_in(g, cx - ring, cy + t, x, y, best);
+            best = nearest_in(g, cx + ring, cy + t, x, y, best);
         }
     }
     return best;

@@ -22,9 +22,9 @@ void koksma__torus_grid_clear(koksma__torus_grid *grid);
 void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
 void koksma__torus_grid_remove(koksma__torus_grid *grid, uint32_t point);
 
-/* The square of the distance from (x, y) to the nearest point in the grid other than `self`; stops with any value at
-   most `enough` when that is certain. 1 with no point. */
-double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, uint32_t self, double enough);
+/* The square of the distance from (x, y) to the nearest point in the grid; stops with any value at most `enough` when
+   that is certain. 1 with no point. */
+double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, double enough);
 
 /* Whether a point in the grid is closer than d to (x, y): on the torus, or in the square alone. */
 bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
