@@ -78,11 +78,25 @@ static void add_tick(koksma__html *h, const axis *a, bool horizontal, double val
     }
 }
 
-/* Decades with 2 and 5 where there is room; or 1, 2, 5 times a power of ten. */
+/* 1, 2 or 5 times a power of ten apart, from low to high. */
+static void add_even_ticks(koksma__html *h, const axis *a, bool horizontal, double low, double high)
+{
+    const double raw = (high - low) / 5, power = pow(10, floor(log10(raw)));
+    const double step = raw / power < 1.5 ? power : raw / power < 3.5 ? 2 * power : 5 * power;
+    for (double v = ceil(low / step); v * step <= high; v++) {
+        add_tick(h, a, horizontal, v * step + 0.0); /* no -0 */
+    }
+}
+
+/* Decades with 2 and 5 where there is room. Of less than a decade those would be too few. */
 static void add_ticks(koksma__html *h, const axis *a, bool horizontal)
 {
-    if (a->is_log) {
-        const double decades = a->high - a->low;
+    const double decades = a->high - a->low;
+    if (!a->is_log) {
+        add_even_ticks(h, a, horizontal, a->low, a->high);
+    } else if (decades < 0.9) {
+        add_even_ticks(h, a, horizontal, pow(10, a->low), pow(10, a->high));
+    } else {
         for (double d = floor(a->low); d <= ceil(a->high); d++) {
             static const double steps[] = {1, 2, 5};
             for (int k = 0; k < (decades < 2.5 ? 3 : 1); k++) {
@@ -92,20 +106,20 @@ static void add_ticks(koksma__html *h, const axis *a, bool horizontal)
                 }
             }
         }
-        return;
-    }
-    const double raw = (a->high - a->low) / 5, power = pow(10, floor(log10(raw)));
-    const double step = raw / power < 1.5 ? power : raw / power < 3.5 ? 2 * power : 5 * power;
-    for (double v = ceil(a->low / step); v * step <= a->high; v++) {
-        add_tick(h, a, horizontal, v * step + 0.0); /* no -0 */
     }
 }
 
-/* The end of a bar, where the axis has it: a bar that goes on beyond, as to 0 on a logarithmic axis, ends with it. */
-static double bar_end(const axis *y, double value)
+/* A bar's end. One that goes on beyond the axis, as to 0 on a logarithmic one, ends with it in an arrowhead. */
+static void add_bar_end(koksma__html *h, const axis *y, double at_x, double value)
 {
-    const double at = fits(y, value) ? place(y, value) : y->from;
-    return fmin(fmax(at, fmin(y->from, y->to)), fmax(y->from, y->to));
+    const double at = fits(y, value) ? place(y, value) : y->from + (y->from - y->to);
+    if (at > y->from || at < y->to) {
+        const double end = at > y->from ? y->from : y->to, back = at > y->from ? -4 : 4;
+        koksma__html_add(h, "V%.1fM%.1f %.1fl3 %.0fM%.1f %.1fl-3 %.0fM%.1f %.1f", end, at_x, end, back, at_x, end,
+                         back, at_x, end);
+    } else {
+        koksma__html_add(h, "V%.1f", at);
+    }
 }
 
 /* A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
@@ -132,7 +146,10 @@ static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma
 {
     const double at_x = place(x, s->x[i]), at_y = place(y, s->y[i]);
     if (s->low[i] < s->high[i]) {
-        koksma__html_add(h, "<path d=\"M%.1f %.1fV%.1f\"/>", at_x, bar_end(y, s->low[i]), bar_end(y, s->high[i]));
+        koksma__html_add(h, "<path d=\"M%.1f %.1f", at_x, at_y);
+        add_bar_end(h, y, at_x, s->low[i]);
+        add_bar_end(h, y, at_x, s->high[i]);
+        koksma__html_add(h, "\"/>");
     }
     add_shape(h, index, at_x, at_y);
     koksma__html_add(h, "<title>");
