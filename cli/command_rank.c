@@ -7,6 +7,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "render_options.h"
 
 enum { MAX_PATTERNS = 64 };
 
@@ -50,8 +51,9 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
     return CLI_YES;
 }
 
+/* What holds for all rows of a ranking is for machines: a reader has it in the advice. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *row,
-                    const koksma_ranking *ranking)
+                    const koksma_ranking *ranking, bool json)
 {
     cli_row_text(rows, "scene", options->scene);
     cli_row_whole(rows, "spp", (uint64_t)options->spp);
@@ -66,6 +68,12 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_whole(rows, "trials", (uint64_t)ranking->trials);
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
+    if (json) {
+        cli_row_text(rows, "integrator", options->integrator->name);
+        cli_row_text(rows, "filter", options->filter->name);
+        cli_row_rounded(rows, "reference_error", ranking->reference_error, 2);
+        cli_row_flag(rows, "settled", ranking->clear);
+    }
     cli_row_end(rows);
 }
 
@@ -89,8 +97,10 @@ static void advise(const koksma_rank_options *options, const koksma_rank_row *ro
             fprintf(stderr, ", %s %.0f %% more", options->patterns[last->pattern], 100 * last->behind);
         }
     }
-    fprintf(stderr, ". %lld trials of %d x %d pixels in %.1f s; the reference's own error is %.1g%s.\n",
-            ranking->trials, ranking->width, ranking->height, ranking->seconds, ranking->reference_error,
+    fprintf(stderr,
+            ". %lld trials of %d x %d pixels (%s, %s filter) in %.1f s; the reference's own error is %.1g%s.\n",
+            ranking->trials, ranking->width, ranking->height, options->integrator->name, options->filter->name,
+            ranking->seconds, ranking->reference_error,
             ranking->clear       ? ""
             : ranking->cut_short ? "; not every place is settled, more time would tell"
                                  : "; not every place is settled, and a ranking takes no more trials");
@@ -107,7 +117,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         return status;
     }
     for (size_t i = 0; i < ranking.n; i++) {
-        put_row(rows, options, &table[i], &ranking);
+        put_row(rows, options, &table[i], &ranking, cli_flag(arguments, "json"));
     }
     if (!cli_flag(arguments, "quiet")) {
         advise(options, table, &ranking);
@@ -139,6 +149,8 @@ static int run(const cli_arguments *arguments)
     patterns p = {.n = 0};
     double time_limit_s;
     int width = 0, height = 0;
+    const koksma_integrator *integrator = koksma_integrator_find("distribution");
+    const koksma_filter *filter = koksma_filter_find("box");
     const char *list = cli_text(arguments, "spp", "4,16,64");
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
@@ -151,7 +163,8 @@ static int run(const cli_arguments *arguments)
     }
     int code = parse_patterns(arguments, &p);
     if (code || !cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
-        !cli_size(arguments, &width, &height) || !cli_work_begin(arguments, "ranking", &work)) {
+        !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
+        !cli_work_begin(arguments, "ranking", &work)) {
         return code ? code : CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
@@ -163,6 +176,8 @@ static int run(const cli_arguments *arguments)
                                              .spp = (int)spp_at(list, i),
                                              .width = width,
                                              .height = height,
+                                             .integrator = integrator,
+                                             .filter = filter,
                                              .time_limit_s = time_limit_s / (double)n_spp};
         status = rank_at(arguments, &options, &work, rows);
     }
@@ -176,6 +191,8 @@ static const cli_option options[] = {
     {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
     {'p', "patterns", "PATTERN,..|thesis|later", "what is ranked (default: thesis)"},
     {0, "size", "WxH", "pixels (default: the scene's, halved until a ranking fits into the time)"},
+    CLI_INTEGRATOR_OPTION,
+    CLI_FILTER_OPTION,
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -185,12 +202,13 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "which pattern leaves the least error in a scene",
-    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--time-limit S] [--json]",
+    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH]\n"
+                "  [--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--json]",
     .details =
         "Renders the scene again and again with every pattern until the ranking is clear or the time is up, 4,096\n"
         "times at most: each pattern's mean absolute error with its 95 % interval; patterns that can't be told\n"
-        "apart share a place. 'behind' is the relative difference to the best, paired by trial. The advice goes to\n"
-        "stderr.\n"
+        "apart share a place. 'behind' is the relative difference to the best. The advice goes to stderr. Light\n"
+        "between surfaces is only in what --integrator path and irradiance-cache render.\n"
         "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
     .options = options,
     .run = run,

@@ -38,12 +38,25 @@ static const char *lights_name(int i)
     return koksma_light_selection_name((koksma_light_selection)i);
 }
 
+bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
+                               const koksma_filter **filter)
+{
+    const char *integrator_name = cli_text(arguments, "integrator", (*integrator)->name);
+    const char *filter_name = cli_text(arguments, "filter", (*filter)->name);
+    *integrator = koksma_integrator_find(integrator_name);
+    *filter = koksma_filter_find(filter_name);
+    if (!*integrator) {
+        cli_usage_error(arguments, "--integrator %s: 'koksma list integrators' names them", integrator_name);
+    } else if (!*filter) {
+        cli_usage_error(arguments, "--filter %s: 'koksma list filters' names them", filter_name);
+    }
+    return *integrator && *filter;
+}
+
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options)
 {
     int pairing = options->pairing, scope = options->scope, lights = options->lights;
     uint64_t depth = 0;
-    const char *integrator = cli_text(arguments, "integrator", options->integrator->name);
-    const char *filter = cli_text(arguments, "filter", options->filter->name);
     if (!parse_choice(arguments, "pairing", pairing_name, &pairing) ||
         !parse_choice(arguments, "scope", scope_name, &scope) ||
         !parse_choice(arguments, "lights", lights_name, &lights) ||
@@ -55,14 +68,7 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
     options->lights = (koksma_light_selection)lights;
     options->depth = cli_flag(arguments, "depth") ? (int)depth : -1;
     options->splat = cli_flag(arguments, "splat");
-    options->integrator = koksma_integrator_find(integrator);
-    options->filter = koksma_filter_find(filter);
-    if (!options->integrator) {
-        cli_usage_error(arguments, "--integrator %s: 'koksma list integrators' names them", integrator);
-    } else if (!options->filter) {
-        cli_usage_error(arguments, "--filter %s: 'koksma list filters' names them", filter);
-    }
-    return options->integrator && options->filter;
+    return cli_integrator_and_filter(arguments, &options->integrator, &options->filter);
 }
 
 /* The use that the line starts with ("lens=…"), or -1. */

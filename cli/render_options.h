@@ -7,19 +7,30 @@
 
 #include "cli.h"
 
+#define CLI_INTEGRATOR_OPTION                                                                                        \
+    {                                                                                                                \
+        0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution)"                       \
+    }
+#define CLI_FILTER_OPTION                                                                                            \
+    {                                                                                                                \
+        0, "filter", "FILTER", "of pixels: see 'koksma list filters' (default: box)"                                 \
+    }
 #define CLI_SAMPLING_OPTIONS                                                                                         \
     {0, "pairing", "shuffled|aligned|native", "of a pixel's uses (default: shuffled)"},                              \
         {0, "scope", "pixel|image", "of a pattern (default: pixel)"},                                                \
         {0, "lights", "all|one|power|uniform",                                                                       \
          "shadow rays go to all, or to one light: by estimate (one), power or uniformly (default: all)"},            \
-        {0, "integrator", "INTEGRATOR", "see 'koksma list integrators' (default: distribution)"},                    \
-        {0, "depth", "D", "bounces at most (default: the integrator's)"},                                            \
-        {0, "filter", "FILTER", "of pixels: see 'koksma list filters' (default: box)"},                              \
+        CLI_INTEGRATOR_OPTION, {0, "depth", "D", "bounces at most (default: the integrator's)"}, CLI_FILTER_OPTION,  \
     {                                                                                                                \
         0, "splat", NULL, "spread samples over all pixels in the filter's reach, instead of drawing from it"         \
     }
 
-/* Values of those options; false after an error that names one. */
+/* Values of --integrator and --filter; *integrator and *filter are the defaults. False after an error that names one.
+ */
+bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
+                               const koksma_filter **filter);
+
+/* Values of all those options; false after an error that names one. */
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
 
 /* Patterns: lines of PATTERN, for all uses, or USE=PATTERN; false after an error, whose code is in *code. */

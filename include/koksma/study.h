@@ -17,6 +17,7 @@
 #define KOKSMA_STUDY_H
 
 #include <koksma/koksma.h>
+#include <koksma/render.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -128,14 +129,18 @@ KOKSMA_API koksma_status koksma_study_images(const char *places, const char *ref
 
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 
+enum { KOKSMA_MAX_RANK_TRIALS = 65536 };
+
 typedef struct koksma_rank_options {
     const char *scene;           /* a name or a file */
     const char *const *patterns; /* specs */
     size_t n_patterns;
     int spp;
-    int width, height;    /* of the picture; 0: the scene's, halved until a ranking fits into the time limit */
-    double time_limit_s;  /* 0: until the ranking is clear, or max_trials */
-    long long max_trials; /* at least 8; 0: 4096 */
+    int width, height;                   /* 0: the scene's, halved until a ranking fits into the time limit */
+    const koksma_integrator *integrator; /* NULL: distribution */
+    const koksma_filter *filter;         /* NULL: box */
+    double time_limit_s;                 /* 0: until the ranking is clear, or max_trials */
+    long long max_trials;                /* 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
 } koksma_rank_options;
 
 /* One pattern of a ranking. */
@@ -143,7 +148,7 @@ typedef struct koksma_rank_row {
     size_t pattern;         /* index into the options' patterns */
     size_t place;           /* from 1; shared by those that can't be told apart from the first of them */
     double mean, low, high; /* of the mean absolute error of the image over the trials, with its 95 % interval */
-    double behind, behind_low, behind_high; /* relative difference to the best's mean, paired by trial */
+    double behind, behind_low, behind_high; /* relative difference to the best's mean */
     char reason[256];                       /* not empty: why the pattern can't serve; it comes last, with place 0 */
 } koksma_rank_row;
 
@@ -159,8 +164,8 @@ typedef struct koksma_ranking {
 
 /* Renders the scene with every pattern, trial by trial, and ranks them by error. Stops when the ranking is clear:
    rounds of doubling numbers of trials, each judged with intervals of 99.5 %, because it is judged several times.
-   rows has room for n_patterns. Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve), MEMORY,
-   INTERRUPTED. */
+   The trials of a pattern are independent of each other and of every other pattern's. rows has room for n_patterns.
+   Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve, or max_trials), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
                                      koksma_ranking *out);
 

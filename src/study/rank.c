@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Which pattern leaves the least error in a scene. Trials come in rounds of 8, 16, 32, …; after each the patterns are
- * ordered by their mean error and neighbours compared, paired by trial. A pair is settled when the interval of its
- * difference excludes 0, or lies within 2 % of the better's mean: equal for all purposes. Looking again and again
- * would make 95 % intervals err too often, so the rounds are judged at 99.5 %: ten looks, and there are no more, keep
- * the chance of a wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95 %.
+ * ordered by their mean error and neighbours compared, trial by trial (which are independent). A pair is settled when
+ * the interval of its difference excludes 0, or lies within 2 % of the better's mean: equal for all purposes. Looking
+ * again and again would make 95 % intervals err too often, so the rounds are judged at 99.5 %: ten looks, and there
+ * are no more, keep the chance of a wrong stop of a pair below 5 % (Bonferroni). What is printed are intervals of 95
+ * %.
  */
 #include <math.h>
 #include <stdatomic.h>
@@ -29,6 +30,7 @@ enum { FIRST_ROUND = 8, MOST_TRIALS = 4096, REFERENCE_SPP = 1024, LEAST_REPLICAT
 typedef struct ranking {
     const koksma_rank_options *options;
     koksma__study_scene scene;
+    char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter, where they are others than by default */
     koksma_image reference;
     double *errors;            /* pattern p, trial t: errors[p * room + t] */
     size_t room, first, n_now; /* trials of the round in work */
@@ -42,7 +44,7 @@ static koksma_status render(const ranking *r, const char *pattern, long long spp
                             const koksma_run *run, koksma_image *out)
 {
     const koksma__picture picture = {.pattern = pattern,
-                                     .variant = "",
+                                     .variant = r->variant,
                                      .spp = spp,
                                      .width = r->scene.width,
                                      .height = r->scene.height,
@@ -59,8 +61,8 @@ static koksma_status do_trial(void *context, size_t i)
     const char *pattern = r->options->patterns[r->patterns[p]];
     koksma_image image;
     koksma_image_error error = {0};
-    const uint64_t seed =
-        koksma__job_seed("rank|%s|%s|%s|%d|%zu", r->scene.name, r->scene.hash, pattern, r->options->spp, trial);
+    const uint64_t seed = koksma__job_seed("rank|%s|%s|%s%s|%d|%zu", r->scene.name, r->scene.hash, pattern,
+                                           r->variant, r->options->spp, trial);
     koksma_status status = render(r, pattern, r->options->spp, seed, &r->watch.job, &image);
     if (!status) {
         status = koksma_image_compare(&image, &r->reference, &error);
@@ -307,9 +309,8 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
 {
     const size_t n = r->options->n_patterns;
     size_t n_refused = 0;
-    r->room = r->options->max_trials > 0 ? (size_t)r->options->max_trials : MOST_TRIALS;
-    r->room = r->room < FIRST_ROUND ? FIRST_ROUND : r->room;
-    r->errors = calloc(n * r->room, sizeof *r->errors);
+    r->room = r->options->max_trials ? (size_t)r->options->max_trials : MOST_TRIALS;
+    r->errors = calloc(n, r->room * sizeof *r->errors);
     r->patterns = calloc(2 * n, sizeof *r->patterns);
     r->done = calloc(FIRST_ROUND * n, sizeof *r->done);
     if (!r->errors || !r->patterns || !r->done) {
@@ -342,6 +343,11 @@ koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *
     if (!options->n_patterns) {
         return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");
     }
+    if (options->max_trials && (options->max_trials < FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0",
+                            options->max_trials, FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
+    }
+    koksma__variant_text(options->integrator, options->filter, r.variant);
     koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
     if (!status) {
         koksma_render_options defaults;

@@ -129,6 +129,19 @@ void koksma__variant_of_reference(const char *text, char *out)
     }
 }
 
+void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
+                          char out[KOKSMA__VARIANT_TEXT])
+{
+    out[0] = '\0';
+    for (int i = 0; i < N_KNOWN; i++) {
+        if (known[i].set == set_filter && filter) {
+            append(out, &known[i], filter->name);
+        } else if (known[i].set == set_integrator && integrator) {
+            append(out, &known[i], integrator->name);
+        }
+    }
+}
+
 /* ---- Rendering ----------------------------------------------------------------------------------------- */
 
 /* Samples of the first round: a method that begins with several sets takes a set for each. */

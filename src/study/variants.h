@@ -33,6 +33,10 @@ koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_
 koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
                                      koksma_image *out);
 
+/* The canonical text of an integrator and a filter, each NULL for the default. */
+void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
+                          char out[KOKSMA__VARIANT_TEXT]);
+
 /* The canonical text of the options that change the exact image. */
 void koksma__variant_of_reference(const char *text, char *out);
 

@@ -224,13 +224,37 @@ static void study_without_folder(void **state)
     assert_ok(koksma_study_close(study));
 }
 
+/* Room for the trials is taken at once. */
+static void rankings_have_eight_trials_or_more(void **state)
+{
+    (void)state;
+    const char *patterns[] = {"random", "n-rooks"};
+    const long long refused[] = {-1, 1, 7, KOKSMA_MAX_RANK_TRIALS + 1, 1LL << 62};
+    koksma_rank_row rows[2];
+    koksma_ranking ranking;
+    koksma_rank_options options = {
+        .scene = "checker", .patterns = patterns, .n_patterns = 2, .spp = 4, .width = 8, .height = 6};
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        options.max_trials = refused[i];
+        assert_int_equal(koksma_rank(&options, NULL, rows, &ranking), KOKSMA_ARGUMENT);
+    }
+    options.max_trials = 8;
+    assert_ok(koksma_rank(&options, NULL, rows, &ranking));
+    assert_int_equal(ranking.trials, 8);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand),       cmocka_unit_test(student_table),
-        cmocka_unit_test(largest_of_blocks),     cmocka_unit_test(wrong_plans),
-        cmocka_unit_test(shipped_plans_parse),   cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows), cmocka_unit_test(study_without_folder),
+        cmocka_unit_test(summary_by_hand),
+        cmocka_unit_test(student_table),
+        cmocka_unit_test(largest_of_blocks),
+        cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(shipped_plans_parse),
+        cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(store_keeps_many_rows),
+        cmocka_unit_test(study_without_folder),
+        cmocka_unit_test(rankings_have_eight_trials_or_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
