@@ -58,6 +58,56 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
                : koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
+/* Whether a list of channels ends with its value: entries are a name and 16 bytes, and an empty name is the end. */
+static bool is_channel_list(const unsigned char *value, size_t size)
+{
+    size_t at = 0;
+    while (at < size && value[at]) {
+        const unsigned char *end = memchr(value + at, 0, size - at);
+        at = end ? (size_t)(end - value) + 17 : size;
+    }
+    return at + 1 == size;
+}
+
+/* Whether a value has the size of its type. The C++ library reads what the type takes, whatever the size says, and
+   would find the next attribute elsewhere than who goes by sizes. Other types it reads by their size. */
+static bool value_fits(const char *type, const unsigned char *value, size_t size)
+{
+    static const struct {
+        const char *type;
+        size_t size;
+    } known[] = {{"box2i", 16},
+                 {"box2f", 16},
+                 {"chromaticities", 32},
+                 {"compression", 1},
+                 {"deepImageState", 1},
+                 {"double", 8},
+                 {"envmap", 1},
+                 {"float", 4},
+                 {"int", 4},
+                 {"keycode", 28},
+                 {"lineOrder", 1},
+                 {"m33f", 36},
+                 {"m33d", 72},
+                 {"m44f", 64},
+                 {"m44d", 128},
+                 {"rational", 8},
+                 {"tiledesc", 9},
+                 {"timecode", 8},
+                 {"v2i", 8},
+                 {"v2f", 8},
+                 {"v2d", 16},
+                 {"v3i", 12},
+                 {"v3f", 12},
+                 {"v3d", 24}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(known[i].type, type)) {
+            return size == known[i].size;
+        }
+    }
+    return strcmp(type, "chlist") != 0 || is_channel_list(value, size);
+}
+
 /* Whether the attributes of the headers lie within the file: the C++ library takes as much memory as they claim. An
    attribute is name, type, size and value; an empty name ends a header, and an empty header those of several parts
    (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
@@ -66,7 +116,9 @@ static bool header_fits(const unsigned char *bytes, size_t size)
     size_t at = 8;
     const bool parts = size > 8 && (bytes[5] & 0x10);
     while (at < size && bytes[at]) {
+        const char *type = NULL;
         for (int text = 0; text < 2; text++) { /* name and type */
+            type = (const char *)bytes + at;
             const unsigned char *end = memchr(bytes + at, 0, size - at);
             if (!end) {
                 return false;
@@ -79,7 +131,7 @@ static bool header_fits(const unsigned char *bytes, size_t size)
         const size_t value =
             bytes[at] | (size_t)bytes[at + 1] << 8 | (size_t)bytes[at + 2] << 16 | (size_t)bytes[at + 3] << 24;
         at += 4;
-        if (value > size - at) {
+        if (value > size - at || !value_fits(type, bytes + at, value)) {
             return false;
         }
         at += value;
@@ -94,7 +146,7 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
     const char *folder = getenv("TMPDIR");
     char path[4096];
     if (!header_fits(bytes, size)) {
-        return koksma__fail(KOKSMA_MALFORMED, "an attribute of its header goes beyond the file's end");
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: an attribute of its header has another size than it says");
     }
     if ((size_t)snprintf(path, sizeof path, "%s/koksma-XXXXXX", folder && *folder ? folder : "/tmp") >= sizeof path) {
         return koksma__fail(KOKSMA_SYSTEM, "TMPDIR is too long");
