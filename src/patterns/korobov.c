@@ -5,7 +5,7 @@
  *     x_k = {i a^k / n}, k = 0 .. dim - 1
  *
  * Source: Korobov 1959. a=0 takes the multiplier with the lowest worst-case error P_2 of those that lattice-rank1
- * tries. Latin when a has no divisor in common with n; the searched a never has.
+ * tries, by the formula there. Latin when a has no divisor in common with n; the searched a never has.
  */
 #include <stdlib.h>
 
@@ -28,18 +28,19 @@ static koksma_status best_multiplier(size_t n, int dim, const koksma_run *run, d
 {
     uint64_t a, z[MAX_DIM];
     double least = 0;
-    for (size_t c = 0; (a = koksma__lattice_candidate(n, c)); c++) {
+    if (dim == 2) {
+        return koksma__lattice_second(n, run, product, best);
+    }
+    for (size_t c = 0; c < koksma__lattice_tries(n) && (a = koksma__lattice_candidate(n, c)); c++) {
         powers(a, n, dim, z);
-        for (size_t i = 0; i < n; i++) {
-            product[i] = 1;
-        }
-        for (int k = 0; k < dim - 1; k++) {
+        koksma__lattice_start(n, product);
+        double error = 0;
+        for (int k = 0; k < dim; k++) {
             if (n > 4096 && !koksma__keep_going(run, 0)) {
                 return koksma__fail_interrupted();
             }
-            koksma__lattice_extend(n, z[k], product);
+            error += koksma__lattice_extend(n, z[k], product);
         }
-        const double error = koksma__lattice_error(n, z[dim - 1], product);
         if (c == 0 || error < least) {
             least = error;
             *best = a;
@@ -72,14 +73,15 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"a", "the multiplier; 0: the best that is found", 0, 0, 1 << 28, NULL, true},
+    {"a", "the multiplier, Latin when it has no divisor in common with n; 0: the best that is found", 0, 0, 1 << 28,
+     NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_korobov = {
     .name = "korobov",
     .title = "rank-1 lattice of the powers of one multiplier",
-    .cite = "korobov1959",
+    .cite = "korobov1959 hickernell1998",
     .min_dim = 1,
     .max_dim = MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_LATIN,

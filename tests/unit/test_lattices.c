@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The searched lattices: their multipliers against a search in long double, that none comes twice, and that they
+   integrate better than random points in many dimensions. */
+#include <string.h>
+
+#include "test.h"
+
+enum { MAX_DIM = 256 };
+
+/* The multipliers stand in the second point: x_k = z_k / n. */
+static void multipliers(const char *pattern, size_t n, int dim, size_t *z)
+{
+    koksma_points points = test_points(pattern, n, dim, 0);
+    for (int k = 0; k < dim; k++) {
+        z[k] = (size_t)(points.xs[dim + k] * (double)n + 0.5);
+    }
+    koksma_points_fini(&points);
+}
+
+static size_t common_divisor(size_t a, size_t b)
+{
+    return b ? common_divisor(b, a % b) : a;
+}
+
+static bool is_among(size_t z, size_t n, const size_t *taken, int count)
+{
+    for (int k = 0; k < count; k++) {
+        if (z == taken[k] || z == n - taken[k]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The sum over i > 0 of prod_k (1 + 3/4 B_2({i z_k / n})): a multiple of the error, but for a constant. */
+static long double error_of(size_t n, const size_t *z, int dim)
+{
+    long double sum = 0;
+    for (size_t i = 1; i < n; i++) {
+        long double product = 1;
+        for (int k = 0; k < dim; k++) {
+            const long double x = (long double)(i * z[k] % n) / (long double)n;
+            product *= 1 + 0.75L * (x * x - x + 1.0L / 6);
+        }
+        sum += product;
+    }
+    return sum;
+}
+
+/* The least error that a coordinate k can bring whose multiplier is not among z[first .. k-1]; infinite without one.
+ */
+static long double least_error(size_t n, const size_t *z, int k, int first)
+{
+    size_t other[8];
+    long double least = HUGE_VALL;
+    memcpy(other, z, (size_t)k * sizeof *z);
+    for (other[k] = 1; other[k] < n; other[k]++) {
+        if (common_divisor(other[k], n) == 1 && !is_among(other[k], n, z + first, k - first)) {
+            least = fminl(least, error_of(n, other, k + 1));
+        }
+    }
+    return least;
+}
+
+static void components_are_the_best(void **state)
+{
+    (void)state;
+    for (size_t n = 5; n <= 40; n++) {
+        size_t z[8];
+        multipliers("lattice-rank1", n, 8, z);
+        assert_int_equal(z[0], 1);
+        int first = 0;
+        for (int k = 1; k < 8; k++) {
+            first = least_error(n, z, k, first) < HUGE_VALL ? first : k;
+            assert_int_equal(common_divisor(z[k], n), 1);
+            assert_false(is_among(z[k], n, z + first, k - first));
+            assert_near((double)error_of(n, z, k + 1), (double)least_error(n, z, k, first), 1e-13 * (double)n);
+        }
+    }
+}
+
+/* In 256 dimensions the origin's term is 10^13, and all others together about n. */
+static void powers_are_the_best(void **state)
+{
+    (void)state;
+    static const int dims[] = {2, 3, 5, 12, 60, 256};
+    for (size_t n = 29; n <= 61; n += 16) {
+        for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+            size_t z[MAX_DIM], other[MAX_DIM] = {1};
+            multipliers("korobov", n, dims[d], z);
+            long double least = HUGE_VALL;
+            for (size_t a = 1; a < n; a++) {
+                for (int k = 1; k < dims[d]; k++) {
+                    other[k] = other[k - 1] * a % n;
+                }
+                least = common_divisor(a, n) == 1 ? fminl(least, error_of(n, other, dims[d])) : least;
+            }
+            const double error = (double)error_of(n, z, dims[d]);
+            assert_near(error, (double)least, 1e-12 * error);
+        }
+    }
+}
+
+/* The mean over i of those products, the origin's too, less 1 is the square of l2-wraparound over (4/3)^dim. */
+static void error_is_wraparound(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= 6; dim++) {
+        size_t z[6];
+        koksma_points points = test_points("lattice-rank1", 55, dim, 0);
+        multipliers("lattice-rank1", 55, dim, z);
+        const long double mean = (error_of(55, z, dim) + powl(1.125L, dim)) / 55;
+        const double value = test_measure("l2-wraparound", &points).value;
+        assert_near(value * value, (double)(powl(4.0L / 3, dim) * (mean - 1)), 1e-13);
+        koksma_points_fini(&points);
+    }
+}
+
+/* None comes twice, as itself or mirrored, while there are others: phi(n)/2 of them. */
+static void multipliers_are_distinct(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *pattern;
+        size_t n;
+        int dim, distinct;
+    } cases[] = {
+        {"lattice-rank1", 16, 12, 4},      {"lattice-rank1", 61, 60, 30},     {"lattice-rank1", 64, 256, 16},
+        {"lattice-rank1", 256, 64, 64},    {"lattice-rank1", 1021, 256, 256}, {"lattice-rank1", 4096, 64, 64},
+        {"lattice-rank1", 262144, 24, 24}, {"korobov", 61, 30, 30},           {"korobov", 256, 32, 32},
+        {"korobov", 1021, 12, 12},         {"korobov", 1021, 64, 64},         {"korobov", 4096, 12, 12},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        size_t z[MAX_DIM];
+        multipliers(cases[c].pattern, cases[c].n, cases[c].dim, z);
+        for (int k = 0; k < cases[c].dim; k++) {
+            const int first = k - k % cases[c].distinct;
+            if (is_among(z[k], cases[c].n, z + first, k - first)) {
+                fail_msg("%s, n = %zu: multiplier %zu comes again at %d", cases[c].pattern, cases[c].n, z[k], k);
+            }
+        }
+    }
+}
+
+/* The mean of the sum over k < l of (x_k - 1/2)(x_l - 1/2), the points moved along the torus. */
+static double mean_of_pairs(const koksma_points *points, const double *shift)
+{
+    double mean = 0;
+    for (size_t i = 0; i < points->n; i++) {
+        double sum = 0, squares = 0;
+        for (int k = 0; k < points->dim; k++) {
+            const double moved = points->xs[i * (size_t)points->dim + (size_t)k] + shift[k];
+            const double x = moved - floor(moved) - 0.5;
+            sum += x;
+            squares += x * x;
+        }
+        mean += (sum * sum - squares) / 2 / (double)points->n;
+    }
+    return mean;
+}
+
+/* Random points have the variance pairs / 144 n. */
+static void many_dimensions_are_better_than_random(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"lattice-rank1", "korobov"};
+    static const struct {
+        size_t n;
+        int dim;
+        double ratio; /* about 1.4 times the greater ratio of the two in the limit of many shifts */
+    } cases[] = {{256, 8, 0.5}, {256, 16, 0.6}, {1021, 8, 0.36}, {1021, 16, 0.47}, {4096, 16, 0.4}};
+    enum { SHIFTS = 100 };
+    for (size_t c = 0; c < 2 * sizeof cases / sizeof *cases; c++) {
+        const size_t n = cases[c / 2].n;
+        const int dim = cases[c / 2].dim;
+        koksma_points points = test_points(patterns[c % 2], n, dim, 0);
+        koksma_points shifts = test_points("random", SHIFTS, dim, 0);
+        double square = 0;
+        for (int s = 0; s < SHIFTS; s++) {
+            square += pow(mean_of_pairs(&points, &shifts.xs[s * dim]), 2) / SHIFTS;
+        }
+        const double random = dim * (dim - 1) / 2.0 / 144 / (double)n;
+        if (!(sqrt(square / random) < cases[c / 2].ratio)) {
+            fail_msg("%s, n = %zu, dim = %d: %.3f of random", patterns[c % 2], n, dim, sqrt(square / random));
+        }
+        koksma_points_fini(&points);
+        koksma_points_fini(&shifts);
+    }
+}
+
+/* In the plane many multipliers are equally good; which of them is taken is part of the points. */
+static void planar_multipliers_stay(void **state)
+{
+    (void)state;
+    static const size_t rows[][2] = {{12, 7},     {20, 11},    {57, 16},    {64, 27},      {1021, 374},
+                                     {1024, 275}, {1999, 872}, {2048, 857}, {10136, 4205}, {19897, 6037}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        size_t z[2];
+        multipliers("lattice-rank1", rows[i][0], 2, z);
+        assert_int_equal(z[1], rows[i][1]);
+        multipliers("korobov", rows[i][0], 2, z);
+        assert_int_equal(z[1], rows[i][1]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(components_are_the_best),
+        cmocka_unit_test(powers_are_the_best),
+        cmocka_unit_test(error_is_wraparound),
+        cmocka_unit_test(multipliers_are_distinct),
+        cmocka_unit_test(many_dimensions_are_better_than_random),
+        cmocka_unit_test(planar_multipliers_stay),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
