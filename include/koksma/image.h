@@ -56,8 +56,9 @@ typedef struct koksma_layer {
     const koksma_image *image;
 } koksma_layer;
 
-/* The same for n layers: all of them in an EXR, the first in the other formats. Errors also: ARGUMENT (sizes differ,
-   or a name is too long). */
+/* The same for n layers: all of them in an EXR, the first in the other formats. The channels of an EXR are called R,
+   G and B, or Y, after the layer's name and a dot if it has one; a layer of one channel gives it its own name.
+   Errors also: ARGUMENT (sizes differ, a name is too long, or two channels have one name). */
 KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
                                                    const char *metadata);
 

@@ -16,14 +16,17 @@
 #include "core/status.h"
 #include "image/formats.h"
 
-enum { NAME = 80 }; /* characters of a channel's name */
+enum { SHORT_NAME = 31 }; /* letters of a channel's name that every reader takes */
 
 typedef struct source {
     const unsigned char *bytes;
     size_t size;
     koksma__bytes *out;
-    char message[256]; /* the first error's */
 } source;
+
+/* The first error's. Not in a source: OpenEXRCore 3.1 calls the handler with a lock on the context that it writes by,
+   and asking the context for its source would wait for that lock. */
+static _Thread_local char message[256];
 
 static bool recognises(const unsigned char *bytes, size_t size)
 {
@@ -31,28 +34,22 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 4 && !memcmp(bytes, magic, 4);
 }
 
-static source *source_of(exr_const_context_t file)
+static void on_error(exr_const_context_t file, exr_result_t code, const char *text)
 {
-    void *data = NULL;
-    exr_get_user_data(file, &data);
-    return data;
-}
-
-static void on_error(exr_const_context_t file, exr_result_t code, const char *message)
-{
+    (void)file;
     (void)code;
-    source *s = file ? source_of(file) : NULL;
-    if (s && !*s->message) {
-        strncpy(s->message, message, sizeof s->message - 1);
+    if (!*message) {
+        strncpy(message, text, sizeof message - 1);
     }
 }
 
-static koksma_status fail(const source *s, exr_result_t code)
+/* otherwise: of what has no status of its own. What is written goes into memory, so that it fails by lack of it. */
+static koksma_status fail(exr_result_t code, koksma_status otherwise)
 {
-    const char *text = *s->message ? s->message : exr_get_default_error_message(code);
-    const koksma_status status = code == EXR_ERR_OUT_OF_MEMORY             ? KOKSMA_MEMORY
-                                 : code == EXR_ERR_FEATURE_NOT_IMPLEMENTED ? KOKSMA_UNSUPPORTED
-                                                                           : KOKSMA_MALFORMED;
+    const char *text = *message ? message : exr_get_default_error_message(code);
+    const koksma_status status = code == EXR_ERR_OUT_OF_MEMORY || code == EXR_ERR_WRITE_IO ? KOKSMA_MEMORY
+                                 : code == EXR_ERR_FEATURE_NOT_IMPLEMENTED                 ? KOKSMA_UNSUPPORTED
+                                                                                           : otherwise;
     return koksma__fail(status, "as an EXR: %s", text);
 }
 
@@ -183,7 +180,7 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
-static koksma_status read_part(exr_const_context_t file, source *s, koksma_image *out)
+static koksma_status read_part(exr_const_context_t file, const source *s, koksma_image *out)
 {
     exr_storage_t storage;
     exr_attr_box2i_t window;
@@ -194,7 +191,7 @@ static koksma_status read_part(exr_const_context_t file, source *s, koksma_image
     r = r ? r : exr_get_data_window(file, 0, &window);
     r = r ? r : exr_get_channels(file, 0, &list);
     if (r) {
-        return fail(s, r);
+        return fail(r, KOKSMA_MALFORMED);
     }
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
         return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: deep images are not read");
@@ -221,7 +218,7 @@ static koksma_status read_part(exr_const_context_t file, source *s, koksma_image
     r = storage == EXR_STORAGE_TILED ? read_tiles(file, &decoder, out)
                                      : read_lines(file, window.min.y, &decoder, out);
     exr_decoding_destroy(file, &decoder);
-    return r ? fail(s, r) : KOKSMA_OK;
+    return r ? fail(r, KOKSMA_MALFORMED) : KOKSMA_OK;
 }
 
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
@@ -230,13 +227,14 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     exr_context_t file;
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = on_error;
+    *message = 0;
     how.user_data = &s;
     how.read_fn = read_bytes;
     how.size_fn = query_size;
     how.max_image_width = how.max_image_height = KOKSMA_MAX_IMAGE_SIDE;
     const exr_result_t r = exr_start_read(&file, "image", &how);
     if (r) {
-        return fail(&s, r);
+        return fail(r, KOKSMA_MALFORMED);
     }
     const koksma_status status = read_part(file, &s, out);
     exr_finish(&file);
@@ -253,29 +251,20 @@ static int64_t write_bytes(exr_const_context_t file, void *user, const void *buf
     return koksma__bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
 }
 
-/* What channel k of a layer is called; returns how long the name is. */
-static int channel_name(const koksma_layer *layer, int k, char *name, size_t size)
-{
-    const char *dot = *layer->name ? "." : "";
-    if (layer->image->channels == 1 && *layer->name) {
-        return snprintf(name, size, "%s", layer->name);
-    }
-    return snprintf(name, size, "%s%s%c", layer->name, dot, "YRGB"[layer->image->channels == 3 ? k + 1 : 0]);
-}
-
 static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, size_t n, const char *metadata,
                                exr_compression_t compression)
 {
     int part;
-    char name[NAME];
+    char name[KOKSMA__CHANNEL_NAME];
     const koksma_image *image = layers->image;
     exr_result_t r = exr_add_part(file, NULL, EXR_STORAGE_SCANLINE, &part);
     r = r ? r : exr_initialize_required_attr_simple(file, 0, image->width, image->height, compression);
     for (size_t l = 0; l < n; l++) {
         for (int k = 0; !r && k < layers[l].image->channels; k++) {
             const exr_perceptual_treatment_t kind = l ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC;
-            channel_name(&layers[l], k, name, sizeof name);
-            r = exr_add_channel(file, 0, name, EXR_PIXEL_FLOAT, kind, 1, 1);
+            koksma__layer_channel(&layers[l], k, name);
+            r = strlen(name) > SHORT_NAME ? exr_set_longname_support(file, 1) : r;
+            r = r ? r : exr_add_channel(file, 0, name, EXR_PIXEL_FLOAT, kind, 1, 1);
         }
     }
     if (!r && *metadata) {
@@ -284,31 +273,15 @@ static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, s
     return r ? r : exr_write_header(file);
 }
 
-/* Where the channel of that name is. */
-static const float *find_channel(const koksma_layer *layers, size_t n, const char *wanted, int *channels)
-{
-    char name[NAME];
-    for (size_t l = 0; l < n; l++) {
-        *channels = layers[l].image->channels;
-        for (int k = 0; k < *channels; k++) {
-            channel_name(&layers[l], k, name, sizeof name);
-            if (!strcmp(name, wanted)) {
-                return layers[l].image->pixels + k;
-            }
-        }
-    }
-    return NULL;
-}
-
 static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_layer *layers, size_t n, int y)
 {
     const size_t width = (size_t)layers->image->width;
     for (int c = 0; c < encoder->channel_count; c++) {
         exr_coding_channel_info_t *channel = &encoder->channels[c];
-        int channels = 1;
-        const float *pixels = find_channel(layers, n, channel->channel_name, &channels);
-        const size_t pixel = sizeof(float) * (size_t)channels;
-        channel->encode_from_ptr = (const uint8_t *)(pixels + (size_t)y * width * (size_t)channels);
+        int k;
+        const koksma_image *image = layers[koksma__layers_find(layers, n, channel->channel_name, &k)].image;
+        const size_t channels = (size_t)image->channels, pixel = sizeof(float) * channels;
+        channel->encode_from_ptr = (const uint8_t *)(image->pixels + (size_t)k + (size_t)y * width * channels);
         channel->user_bytes_per_element = sizeof(float);
         channel->user_data_type = EXR_PIXEL_FLOAT;
         channel->user_pixel_stride = (int32_t)pixel;
@@ -343,6 +316,7 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
     exr_context_t file;
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = on_error;
+    *message = 0;
     how.user_data = &s;
     how.write_fn = write_bytes;
     exr_result_t r = exr_start_write(&file, "image", EXR_WRITE_FILE_DIRECTLY, &how);
@@ -354,8 +328,7 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
         const exr_result_t finish = exr_finish(&file);
         r = r ? r : finish;
     }
-    return r ? koksma__fail(KOKSMA_IO, "as an EXR: %s", *s.message ? s.message : exr_get_default_error_message(r))
-             : KOKSMA_OK;
+    return r ? fail(r, KOKSMA_IO) : KOKSMA_OK;
 }
 
 /* Errors: MEMORY. */

@@ -29,6 +29,17 @@ typedef struct koksma__image_format {
 #include "image/formats.def"
 #undef FORMAT
 
+enum { KOKSMA__LAYER_NAME = 63, KOKSMA__CHANNEL_NAME = KOKSMA__LAYER_NAME + 3 }; /* letters; room for ".R" and 0 */
+
+/* What channel k of a layer is called. */
+void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
+
+/* The first layer with a channel of that name, and which of its channels it is; n: none has it. */
+size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
+
+/* ARGUMENT unless these are of one size and their channels have a name each. Errors name no file. */
+koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
+
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 

@@ -170,18 +170,11 @@ koksma_status koksma_image_write_layers(const char *path, const koksma_layer *la
     koksma__bytes bytes = {0};
     koksma__atomic_file file;
     koksma_status status = koksma_image_check_path(path);
-    for (size_t i = 0; !status && i < n; i++) {
-        if (layers[i].image->width != layers->image->width || layers[i].image->height != layers->image->height) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: layer '%s' is of another size", path, layers[i].name);
-        }
-        if (strlen(layers[i].name) > 63) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: the layer's name '%s' is too long", path, layers[i].name);
-        }
-    }
     if (status) {
         return status;
     }
-    status = format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
+    status = koksma__layers_check(layers, n);
+    status = status ? status : format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
     if (status) {
         koksma__fail_in(status, path);
     } else if (!(status = koksma__atomic_open(path, &file))) {

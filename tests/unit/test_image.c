@@ -200,6 +200,63 @@ static void sizes_are_checked(void **state)
     koksma_image_fini(NULL);
 }
 
+/* Names as long as image.h allows are in the file; files without such names are as older readers take them. */
+static void layers_have_long_names(void **state)
+{
+    (void)state;
+    static const char longest[] = "abcdefghijklmnopqrstuvwxyz.ABCDEFGHIJKLMNOPQRSTUVWXYZ.012345678";
+    koksma_image image = noise(5, 3, 3), grey = noise(5, 3, 1), back;
+    alarm(60); /* an error's handler that waits for a lock waits for ever */
+    for (size_t length = 29; length <= 63; length++) {
+        const koksma_layer layers[] = {
+            {"", &image}, {longest + 63 - length, &grey}, {"colours", &image}, {"x", &grey}};
+        koksma__bytes bytes = {0};
+        assert_ok(koksma__format_exr.write(layers, 4, "", &bytes));
+        assert_int_equal(bytes.data[5] & 4, length > 31 ? 4 : 0); /* the flag of long names */
+        free(bytes.data);
+        assert_ok(koksma_image_write_layers("names.exr", layers, 4, NULL));
+        assert_ok(koksma_image_read("names.exr", &back));
+        assert_memory_equal(back.pixels, image.pixels, 45 * sizeof(float));
+        koksma_image_fini(&back);
+        unlink("names.exr");
+    }
+    const koksma_layer coloured[] = {{"", &grey}, {longest, &image}};
+    assert_ok(koksma_image_write_layers("names.exr", coloured, 2, NULL));
+    unlink("names.exr");
+    char longer[65];
+    snprintf(longer, sizeof longer, "a%s", longest);
+    const koksma_layer too_long[] = {{"", &grey}, {longer, &grey}};
+    assert_int_equal(koksma_image_write_layers("names.exr", too_long, 2, NULL), KOKSMA_ARGUMENT);
+    assert_int_equal(access("names.exr", F_OK), -1);
+    alarm(0);
+    koksma_image_fini(&image);
+    koksma_image_fini(&grey);
+}
+
+static void names_are_given_once(void **state)
+{
+    (void)state;
+    koksma_image image = noise(5, 3, 3), grey = noise(5, 3, 1);
+    const koksma_layer twice[][2] = {{{"", &grey}, {"", &grey}},
+                                     {{"", &image}, {"", &image}},
+                                     {{"", &image}, {"G", &grey}},
+                                     {{"", &grey}, {"Y", &grey}},
+                                     {{"a", &image}, {"a.B", &grey}}};
+    alarm(60);
+    for (size_t i = 0; i < sizeof twice / sizeof *twice; i++) {
+        assert_int_equal(koksma_image_write_layers("twice.exr", twice[i], 2, NULL), KOKSMA_ARGUMENT);
+        assert_non_null(strstr(koksma_error_text(), "twice.exr: two layers have a channel '"));
+        assert_int_equal(access("twice.exr", F_OK), -1);
+        koksma__bytes bytes = {0}; /* what OpenEXRCore says of it comes back, too */
+        assert_int_equal(koksma__format_exr.write(twice[i], 2, "", &bytes), KOKSMA_IO);
+        assert_non_null(strstr(koksma_error_text(), "as an EXR: "));
+        free(bytes.data);
+    }
+    alarm(0);
+    koksma_image_fini(&image);
+    koksma_image_fini(&grey);
+}
+
 /* A world map that Debian's blender-data installs: DWAB, which OpenEXRCore can't decode. */
 static void dwa_files_are_read(void **state)
 {
@@ -231,6 +288,8 @@ int main(void)
         cmocka_unit_test(errors_by_hand),
         cmocka_unit_test(readers_survive),
         cmocka_unit_test(sizes_are_checked),
+        cmocka_unit_test(layers_have_long_names),
+        cmocka_unit_test(names_are_given_once),
         cmocka_unit_test(dwa_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
