@@ -47,7 +47,8 @@ KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
 /* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be
-   NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending), IO, MEMORY. */
+   NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending; an image that has no
+   pixels, or sizes or channels that koksma_image_init refuses), UNSUPPORTED (left out), IO, MEMORY. */
 KOKSMA_API koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata);
 
 /* An image among others of its size in one file; the first has the name "". */
@@ -58,11 +59,12 @@ typedef struct koksma_layer {
 
 /* The same for n layers: all of them in an EXR, the first in the other formats. The channels of an EXR are called R,
    G and B, or Y, after the layer's name and a dot if it has one; a layer of one channel gives it its own name.
-   Errors also: ARGUMENT (sizes differ, a name is too long, or two channels have one name). */
+   Errors also: ARGUMENT (no layers, sizes differ, a name is too long, or two channels have one name). */
 KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
                                                    const char *metadata);
 
-/* The image as an 8-bit sRGB PNG file in memory; the caller frees *bytes. */
+/* The image as an 8-bit sRGB PNG file in memory; the caller frees *bytes. Errors: ARGUMENT (as for write),
+   UNSUPPORTED (left out), MEMORY. */
 KOKSMA_API koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size);
 
 /* The error e = luminance - reference luminance over the pixels (luminance is Rec. 709's). */

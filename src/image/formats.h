@@ -37,8 +37,11 @@ void koksma__layer_channel(const koksma_layer *layer, int k, char name[KOKSMA__C
 /* The first layer with a channel of that name, and which of its channels it is; n: none has it. */
 size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wanted, int *k);
 
-/* ARGUMENT unless these are of one size and their channels have a name each. Errors name no file. */
+/* ARGUMENT unless these are images, of one size, whose channels have a name each. Errors name no file. */
 koksma_status koksma__layers_check(const koksma_layer *layers, size_t n);
+
+/* ARGUMENT unless an image may have these. */
+koksma_status koksma__image_check_shape(int width, int height, int channels);
 
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);

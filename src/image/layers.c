@@ -33,6 +33,14 @@ size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wan
 
 static koksma_status check_layer(const koksma_layer *layer, const koksma_image *first)
 {
+    if (!layer->name || !layer->image || !layer->image->pixels) {
+        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels, or a layer without a name");
+    }
+    const koksma_status status =
+        koksma__image_check_shape(layer->image->width, layer->image->height, layer->image->channels);
+    if (status) {
+        return status;
+    }
     if (strlen(layer->name) > KOKSMA__LAYER_NAME) {
         return koksma__fail(KOKSMA_ARGUMENT, "the layer's name '%s' is too long", layer->name);
     }
@@ -45,7 +53,7 @@ static koksma_status check_layer(const koksma_layer *layer, const koksma_image *
 koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
 {
     char name[KOKSMA__CHANNEL_NAME];
-    koksma_status status = KOKSMA_OK;
+    koksma_status status = n ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "no image to write");
     for (size_t l = 0; !status && l < n; l++) {
         status = check_layer(&layers[l], layers->image);
     }

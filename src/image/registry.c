@@ -41,9 +41,8 @@ bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, si
     return true;
 }
 
-koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
+koksma_status koksma__image_check_shape(int width, int height, int channels)
 {
-    *image = (koksma_image){0};
     if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
         (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS) {
         return koksma__fail(KOKSMA_ARGUMENT, "%d x %d pixels: a side is 1 to %d, and all are at most %zu", width,
@@ -51,6 +50,16 @@ koksma_status koksma_image_init(koksma_image *image, int width, int height, int 
     }
     if (channels != 1 && channels != 3) {
         return koksma__fail(KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
+{
+    *image = (koksma_image){0};
+    const koksma_status status = koksma__image_check_shape(width, height, channels);
+    if (status) {
+        return status;
     }
     const size_t count = (size_t)width * (size_t)height * (size_t)channels;
     image->pixels = calloc(count, sizeof *image->pixels);
@@ -195,8 +204,11 @@ koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **
 {
     koksma__bytes out = {0};
     const koksma_layer only = {"", image};
-    const koksma_status status =
-        koksma__format_png.left_out ? no_library(&koksma__format_png) : koksma__format_png.write(&only, 1, "", &out);
+    koksma_status status = koksma__layers_check(&only, 1);
+    if (!status) {
+        status = koksma__format_png.left_out ? no_library(&koksma__format_png)
+                                             : koksma__format_png.write(&only, 1, "", &out);
+    }
     if (status) {
         free(out.data);
         out = (koksma__bytes){0};

@@ -257,6 +257,49 @@ static void names_are_given_once(void **state)
     koksma_image_fini(&grey);
 }
 
+/* What is no image is refused, and a file of that name stays as it is. */
+static void only_images_are_written(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"kept.exr", "kept.png", "kept.pfm"};
+    koksma_image image = noise(4, 2, 3), back;
+    const koksma_image none[] = {{0},
+                                 {4, 2, 3, NULL},
+                                 {4, 2, 2, image.pixels},
+                                 {4, 2, 4, image.pixels},
+                                 {4, 0, 3, image.pixels},
+                                 {-4, 2, 3, image.pixels},
+                                 {4, KOKSMA_MAX_IMAGE_SIDE + 1, 1, image.pixels}};
+    const koksma_layer nameless[] = {{"", &image}, {NULL, &image}}, empty[] = {{"", &image}, {"a", NULL}};
+    unsigned char *bytes;
+    size_t size;
+    alarm(60);
+    for (size_t f = 0; f < sizeof names / sizeof *names; f++) {
+        assert_ok(koksma_image_write(names[f], &image, NULL));
+        for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+            const koksma_layer second[] = {{"", &image}, {"a", &none[i]}};
+            assert_int_equal(koksma_image_write(names[f], &none[i], NULL), KOKSMA_ARGUMENT);
+            assert_int_equal(strncmp(koksma_error_text(), names[f], 8), 0);
+            assert_int_equal(koksma_image_write_layers(names[f], second, 2, NULL), KOKSMA_ARGUMENT);
+        }
+        assert_int_equal(koksma_image_write_layers(names[f], NULL, 0, NULL), KOKSMA_ARGUMENT);
+        assert_int_equal(koksma_image_write_layers(names[f], nameless, 2, NULL), KOKSMA_ARGUMENT);
+        assert_int_equal(koksma_image_write_layers(names[f], empty, 2, NULL), KOKSMA_ARGUMENT);
+        assert_ok(koksma_image_read(names[f], &back));
+        koksma_image_fini(&back);
+        unlink(names[f]);
+        assert_int_equal(koksma_image_write(names[f], &none[0], NULL), KOKSMA_ARGUMENT);
+        assert_int_equal(access(names[f], F_OK), -1);
+    }
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+        bytes = (unsigned char *)&size; /* none come */
+        assert_int_equal(koksma_image_png_bytes(&none[i], &bytes, &size), KOKSMA_ARGUMENT);
+        assert_true(!bytes && size == 0);
+    }
+    alarm(0);
+    koksma_image_fini(&image);
+}
+
 /* A world map that Debian's blender-data installs: DWAB, which OpenEXRCore can't decode. */
 static void dwa_files_are_read(void **state)
 {
@@ -290,6 +333,7 @@ int main(void)
         cmocka_unit_test(sizes_are_checked),
         cmocka_unit_test(layers_have_long_names),
         cmocka_unit_test(names_are_given_once),
+        cmocka_unit_test(only_images_are_written),
         cmocka_unit_test(dwa_files_are_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
