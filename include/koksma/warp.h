@@ -25,7 +25,7 @@ typedef struct koksma_warp {
     const char *name, *title, *cite;
     koksma_warp_domain domain;
     int dim;                                      /* coordinates of a mapped point: 2 or 3 */
-    void (*map)(const double in[2], double *out); /* one point */
+    void (*map)(const double in[2], double *out); /* one point; out may be in where that has room for dim */
 } koksma_warp;
 
 /* Member i of the table, NULL past the end; by name, NULL if unknown. */

@@ -7,9 +7,9 @@
 
 static void map(const double *u, double *x)
 {
-    const bool above = u[1] > u[0];
-    x[0] = above ? u[0] / 2 : u[0] - u[1] / 2;
-    x[1] = above ? u[1] - u[0] / 2 : u[1] / 2;
+    const double a = u[0], b = u[1]; /* x may be u */
+    x[0] = b > a ? a / 2 : a - b / 2;
+    x[1] = b > a ? b - a / 2 : b / 2;
 }
 
 const koksma_warp koksma__warp_triangle_heitz = {

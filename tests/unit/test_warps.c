@@ -43,6 +43,20 @@ static void potentials_are_means_over_the_square(void **state)
     assert_null(koksma_warp_find("bilinear"));
 }
 
+static void maps_may_write_over_what_they_map(void **state)
+{
+    (void)state;
+    const koksma_warp *warp;
+    for (size_t w = 0; (warp = koksma_warp_at(w)) != NULL; w++) {
+        for (uint64_t i = 0; i < 1000; i++) {
+            double place[3] = {sets_unit(3, i), sets_unit(4, i), 0}, mapped[3];
+            warp->map(place, mapped);
+            warp->map(place, place);
+            assert_memory_equal(place, mapped, (size_t)warp->dim * sizeof *mapped);
+        }
+    }
+}
+
 static koksma_value measure_warped(const char *warp, const char *measure, const koksma_points *points)
 {
     koksma_spec spec;
@@ -224,6 +238,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(potentials_are_means_over_the_square),
+        cmocka_unit_test(maps_may_write_over_what_they_map),
         cmocka_unit_test(edges_agree_with_random_lines),
         cmocka_unit_test(triangle_is_affine),
         cmocka_unit_test(edges_beat_every_line),
