@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sampling patterns for your renderer: one header, no library, no allocation, no tables to set up. C99, C11, C++,
- * CUDA.
+ * Sampling patterns for your renderer: one header, no library, no allocation, no tables to set up. C99, C11, C++ from
+ * C++98 on, CUDA.
  *
  * A sample is a pure function of a domain and an index; there is no cursor and no running dimension. A domain is a
  * 64-bit key: begin with the pixel's, derive one for each use of the samples (lens, light, bounce 3's direction ...),
@@ -30,11 +30,7 @@
 #ifndef KOKSMA_SAMPLER_H
 #define KOKSMA_SAMPLER_H
 
-#ifdef __cplusplus
-#include <cstdint>
-#else
 #include <stdint.h>
-#endif
 
 #if defined(__CUDACC__)
 #define KOKSMA_INLINE static __host__ __device__ inline
@@ -101,7 +97,7 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, ui
 
 /* ---- Numbers ------------------------------------------------------------------------------------------- */
 
-/* The float below or at x in [0,1): never 1. */
+/* The multiple of 2^-24 below or at x in [0,1): never 1, and 0 for an x below the first. */
 KOKSMA_INLINE float koksma_to_float(double x)
 {
     return (float)(uint32_t)(x * 16777216.0) * (1.0f / 16777216.0f);
@@ -345,12 +341,12 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 /* Sample i of the additive recurrence of the plastic number, shifted on the torus by the domain's random vector. */
 KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 {
-    const uint64_t alpha[2] = {0xC13FA9A902A6328Full, 0x91E10DA5C79E7B1Dull};
+    const uint64_t alpha[2] = {(uint64_t)0xC13FA9A9u << 32 | 0x02A6328Fu, (uint64_t)0x91E10DA5u << 32 | 0xC79E7B1Du};
     uint32_t w[4];
     int k;
     koksma_words(domain.key, KOKSMA_FOR_SHIFT, 0, 0, w);
     for (k = 0; k < 2; k++) {
-        const uint64_t x = 0x8000000000000000ull + (i + 1) * alpha[k];
+        const uint64_t x = ((uint64_t)1 << 63) + (i + 1) * alpha[k];
         xy[k] = (double)(x >> 11) * (1.0 / 9007199254740992.0) + koksma_to_unit(w[2 * k], w[2 * k + 1]);
         xy[k] -= xy[k] >= 1;
     }
