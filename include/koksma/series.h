@@ -33,7 +33,7 @@ KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);
 
-/* The 97.5 % point of Student's t with the given degrees of freedom, at least 1. */
+/* The 97.5 % point of Student's t with the given degrees of freedom; NaN for 0. */
 KOKSMA_API double koksma_student_975(size_t degrees);
 
 /* log y = slope log x + intercept by least squares, with the error that the residuals give the slope. */

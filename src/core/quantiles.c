@@ -2,12 +2,17 @@
 /*
  * By bisection of the distribution functions: the regularised incomplete beta function by its continued fraction, and
  * the incomplete gamma function by its series (Abramowitz & Stegun 1964, 26.5.8, 26.7.1, 6.5.29, 26.4.19).
+ *
+ * The logarithms of gamma in the former cancel: of nu degrees of freedom some 1e-17 nu log nu of t is lost. Beyond
+ * MANY t is the normal quantile z with the first terms of its expansion in 1/nu (26.7.5):
+ *     t = z + (z^3 + z) / (4 nu) + (5 z^5 + 16 z^3 + 3 z) / (96 nu^2) + O(nu^-3)
  */
 #include "core/quantiles.h"
 
 #include <math.h>
 
 enum { TERMS = 100000, HALVINGS = 200 };
+#define MANY 1e6
 
 static double away(double x)
 {
@@ -31,12 +36,16 @@ static double beta_fraction(double a, double b, double x)
             break;
         }
     }
-    return exp(lgamma(a + b) - lgamma(a) - lgamma(b) + a * log(x) + b * log1p(-x)) * f / a;
+    return exp(koksma__log_gamma(a + b) - koksma__log_gamma(a) - koksma__log_gamma(b) + a * log(x) + b * log1p(-x)) *
+           f / a;
 }
 
-/* P(T > t), t > 0. */
+/* P(T > t), t > 0; of many degrees P(Z > t). */
 static double student_tail(double t, double degrees)
 {
+    if (degrees > MANY) {
+        return 0.5 * erfc(t * sqrt(0.5));
+    }
     const double a = 0.5 * degrees, x = degrees / (degrees + t * t);
     return 0.5 * (x < (a + 1) / (a + 2.5) ? beta_fraction(a, 0.5, x) : 1 - beta_fraction(0.5, a, 1 - x));
 }
@@ -58,7 +67,10 @@ double koksma__student_quantile(double p, double degrees)
             hi = middle;
         }
     }
-    return 0.5 * (lo + hi);
+    const double t = 0.5 * (lo + hi), square = t * t;
+    return degrees > MANY ? t + t * (1 + square) / (4 * degrees) +
+                                t * (3 + square * (16 + 5 * square)) / (96 * degrees * degrees)
+                          : t;
 }
 
 /* P(X <= x). */
@@ -70,7 +82,7 @@ static double chi_squared(double x, double degrees)
         term *= z / (a + n);
         sum += term;
     }
-    return sum * exp(a * log(z) - z - lgamma(a));
+    return sum * exp(a * log(z) - z - koksma__log_gamma(a));
 }
 
 double koksma__chi_squared_quantile(double p, double degrees)

@@ -32,7 +32,7 @@ double koksma_tally_interval(const koksma_tally *t)
 
 double koksma_student_975(size_t degrees)
 {
-    return koksma__student_quantile(0.975, (double)degrees);
+    return degrees ? koksma__student_quantile(0.975, (double)degrees) : (double)NAN;
 }
 
 /* Two passes: sums of squares of what is left when the means are taken off lose no digits. */

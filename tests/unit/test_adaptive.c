@@ -2,7 +2,6 @@
 /* Adaptive sampling: what it costs, what it may not exceed, bits, and the strata. */
 #include <koksma/adaptive.h>
 
-#include "core/quantiles.h"
 #include "rendering.h"
 
 enum { WIDTH = 26, HEIGHT = 18, PIXELS = WIDTH * HEIGHT };
@@ -219,20 +218,6 @@ static void shuffled_strata_are_split_needlessly(void **state)
     koksma_scene_close(scene);
 }
 
-/* Abramowitz & Stegun 1964, tables 26.8 and 26.10; and in closed form: t with 1 degree is Cauchy's, chi-squared with
-   2 is exponential. */
-static void quantiles_are_the_published(void **state)
-{
-    (void)state;
-    assert_near(koksma__student_quantile(0.975, 1), tan(M_PI * 0.475), 1e-8);
-    assert_near(koksma__student_quantile(0.975, 10), 2.228138852, 1e-8);
-    assert_near(koksma__student_quantile(0.95, 30), 1.697260887, 1e-8);
-    assert_near(koksma__student_quantile(0.975, 1e6), 1.959966, 1e-5);
-    assert_near(koksma__chi_squared_quantile(0.1, 2), -2 * log(0.9), 1e-9);
-    assert_near(koksma__chi_squared_quantile(0.95, 10), 18.307038053, 1e-8);
-    assert_near(koksma__chi_squared_quantile(0.05, 100), 77.929465165, 1e-7);
-}
-
 /* Copies of samples that only fill lanes are no rays. */
 static void rays_are_counted_once(void **state)
 {
@@ -379,7 +364,6 @@ int main(void)
         cmocka_unit_test(limits_and_budgets_are_kept),
         cmocka_unit_test(strata_weigh_their_volume),
         cmocka_unit_test(shuffled_strata_are_split_needlessly),
-        cmocka_unit_test(quantiles_are_the_published),
         cmocka_unit_test(shown_strata_are_a_partition),
         cmocka_unit_test(rays_are_counted_once),
         cmocka_unit_test(a_pixel_that_had_samples_is_never_black),

@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#include "core/quantiles.h"
+
 static const double square_optima[] = {
     1.4142135624, 1.0352761804, 1,
     0.7071067812, 0.6009252126, 0.5358983849,
@@ -41,7 +43,7 @@ double koksma__packing_distance(size_t n, int dim, bool torus)
     if (dim == 2) {
         return (1 + sqrt(1 + 2 / sqrt(3) * (count - 1))) / (count - 1);
     }
-    const double ball = exp(0.5 * dim * log(M_PI) - lgamma(0.5 * dim + 1)); /* volume of the unit ball */
+    const double ball = exp(0.5 * dim * log(M_PI) - koksma__log_gamma(0.5 * dim + 1)); /* volume of the unit ball */
     const double d = 2 * pow(1 / (count * ball), 1.0 / dim);
     if (torus) {
         return fmin(d, sqrt(dim) / 2);
