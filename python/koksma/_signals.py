@@ -2,7 +2,9 @@
 """Signals while the library runs."""
 from __future__ import annotations
 
+import ctypes
 import threading
+from functools import lru_cache
 from types import FrameType
 from typing import Callable, Dict, List, Optional
 
@@ -11,12 +13,47 @@ import _signal  # type: ignore[import-not-found]
 
 _ALL = sorted(_signal.valid_signals())
 
+_Disposition = ctypes.c_char * 512  # room for a struct sigaction, whose members differ from system to system
+_sigaction = ctypes.PyDLL(None).sigaction  # CDLL would let other threads of Python run between two calls
+_sigaction.argtypes = [ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p]
+_c_handler = ctypes.pythonapi.PyOS_getsig  # what the system calls
+_c_handler.argtypes, _c_handler.restype = [ctypes.c_int], ctypes.c_void_p
+
+
+def _put(number: int, handler: object) -> None:
+    """Python's handler of a signal, and nothing else: signal alone would also have the system call Python's, whatever
+    it called before, and forget whether system calls go on after the signal (siginterrupt)."""
+    before = _Disposition()
+    _sigaction(number, None, before)
+    try:
+        _signal.signal(number, handler)
+    finally:
+        _sigaction(number, before, None)
+
+
+@lru_cache(maxsize=None)
+def _pythons() -> Optional[int]:
+    """What the system calls for a signal that Python handles: found by one that nobody listens to. In the main
+    thread only."""
+    for number in reversed(_ALL):
+        if _signal.getsignal(number) == _signal.SIG_DFL and not _c_handler(number):
+            before = _Disposition()
+            _sigaction(number, None, before)
+            try:
+                _signal.signal(number, lambda _number, _frame: None)
+                return int(_c_handler(number))
+            finally:
+                _signal.signal(number, _signal.SIG_DFL)
+                _sigaction(number, before, None)
+    return None
+
 
 class Signals:
     """Keeps what the handlers of signals raise during a call, for the caller to raise when the library has returned.
 
     Python runs its handlers in the callback by which the library asks whether to go on, and ctypes drops what a
-    callback raises. So during the call each of Python's handlers is replaced by this object, which runs it.
+    callback raises. So during the call each of Python's handlers is replaced by this object, which runs it. A signal
+    whose handler in C is another's (the host's, where Python is a guest) stays as it is: Python's is not called.
     """
 
     def __init__(self) -> None:
@@ -37,16 +74,16 @@ class Signals:
         if threading.current_thread() is not threading.main_thread():
             return
         for number, handler in zip(_ALL, map(_signal.getsignal, _ALL)):
-            if callable(handler):
+            if callable(handler) and _c_handler(number) == _pythons():
                 self._theirs[number] = handler
-                _signal.signal(number, self)
+                _put(number, self)
 
     def give_back(self) -> None:
         """Puts back what take has replaced, also when that was interrupted. A handler that is back may raise here."""
         try:
             for number, handler in self._theirs.items():
                 if _signal.getsignal(number) is self:  # a handler may have put another in its place
-                    _signal.signal(number, handler)
+                    _put(number, handler)
         except BaseException:
             self.give_back()  # the rest
             raise

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What a signal's handler raises while the library runs stops the call and comes out of it; nothing else changes."""
+import ctypes
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -144,6 +146,79 @@ class NotRaised(Case):
         thread.join()
         self.assertEqual(results, [False])
         self.assertIs(signal.getsignal(signal.SIGUSR1), handler)
+
+
+LIBC = ctypes.CDLL(None)
+LIBC.signal.argtypes, LIBC.signal.restype = [ctypes.c_int, ctypes.c_void_p], ctypes.c_void_p
+NOTHING = ctypes.cast(LIBC.abs, ctypes.c_void_p).value  # a function in C that takes a signal's number and leaves no trace
+
+
+class OfTheHost(Case):
+    """What a program that Python is a part of has set in C."""
+
+    def tearDown(self):
+        if getattr(self, "pythons", None):
+            LIBC.signal(signal.SIGUSR1, self.pythons)
+        super().tearDown()
+
+    def test_a_handler_in_c_stays(self):
+        self.on(signal.SIGUSR1, raising(Timeout("the host's handler was not called")))
+        self.pythons = LIBC.signal(signal.SIGUSR1, NOTHING)
+
+        def body(_run):
+            os.kill(os.getpid(), signal.SIGUSR1)
+            return 0
+
+        os.kill(os.getpid(), signal.SIGUSR1)
+        koksma.generate("random", 4)
+        _library.call(body, run_at=0)
+        os.kill(os.getpid(), signal.SIGUSR1)
+        self.assertEqual(LIBC.signal(signal.SIGUSR1, NOTHING), NOTHING)
+
+    def test_a_handler_in_c_that_comes_during_the_call_stays(self):
+        self.on(signal.SIGUSR1, raising(Timeout("the host's handler was not called")))
+
+        def body(_run):
+            self.pythons = LIBC.signal(signal.SIGUSR1, NOTHING)
+            return 0
+
+        _library.call(body, run_at=0)
+        os.kill(os.getpid(), signal.SIGUSR1)
+        self.assertEqual(LIBC.signal(signal.SIGUSR1, NOTHING), NOTHING)
+
+    def interrupted(self):
+        """Whether a signal ends a read of the system's that waits."""
+        source, target = os.pipe()
+        timer = threading.Timer(0.3, os.write, (target, b"x"))
+        timer.start()
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        read = LIBC.read(source, ctypes.create_string_buffer(1), 1)
+        timer.join()
+        os.close(source)
+        os.close(target)
+        return read < 0
+
+    def test_system_calls_go_on_as_before(self):
+        handler = self.on(signal.SIGALRM, lambda _number, _frame: None)
+        for ends in (True, False):
+            signal.siginterrupt(signal.SIGALRM, ends)
+            self.assertEqual(self.interrupted(), ends)
+            koksma.generate("random", 4)
+            self.assertEqual(self.interrupted(), ends)
+            during = []
+            _library.call(lambda _run: during.append(self.interrupted()) or 0, run_at=0)
+            self.assertEqual(during, [ends])
+            self.assertIs(signal.getsignal(signal.SIGALRM), handler)
+
+    def test_signals_without_handlers_are_left_alone(self):
+        code = ("import ctypes, signal, koksma\n"
+                "of = ctypes.pythonapi.PyOS_getsig\n"
+                "of.restype = ctypes.c_void_p\n"
+                "before = [(of(n), signal.getsignal(n)) for n in sorted(signal.valid_signals())]\n"
+                "koksma.generate('random', 4)\n"
+                "print(before == [(of(n), signal.getsignal(n)) for n in sorted(signal.valid_signals())])\n")
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual((run.stdout, run.stderr), ("True\n", ""))
 
 
 class PuttingBack(Case):
