@@ -131,21 +131,24 @@ def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes
     weakref.finalize(array.base if array.base is not None else array, fini, byref(memory)).atexit = False
 
 
-def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, seed: SupportsIndex = 0, *,
-             threads: SupportsIndex = 0, out: Optional[PointArray] = None) -> PointArray:
+def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,
+             seed: SupportsIndex = 0, *, threads: SupportsIndex = 0, out: Optional[PointArray] = None) -> PointArray:
     """The points of a pattern, as an (n, dim) array in [0,1).
 
     pattern: a spec such as "n-rooks" or "poisson-disk:d=0.2".
     n: how many; may be left out for patterns that know it themselves ("file:PATH", "poisson-disk-maximal:d=0.1").
-    out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one.
+    dim: 2 where it is left out, but all that a file has where n is left out, too.
+    out: an aligned C-contiguous array of doubles of shape (n, dim) to fill, instead of a new one; n and dim may be left
+    out, or are those of its shape.
 
     Equal arguments give equal bits, and the same as `koksma generate`.
     """
-    parsed, seed, dim = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED), whole("dim", dim, 1, s.MAX_DIM)
+    parsed, seed = spec("pattern", pattern), whole("seed", seed, 0, s.MAX_SEED)
+    dim = dim if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     n = n if n is None else whole("n", n, 1, s.MAX_COORDINATES)
     if n is None and out is None:
         points = s.Points()
-        known = dim if not parsed.pattern.contents.takes_path else 0
+        known = dim or (0 if parsed.pattern.contents.takes_path else 2)
         try:
             call(core().koksma_generate_whole, byref(parsed), seed, known, byref(points), threads=threads, run_at=2)
         except BaseException:  # a signal's handler's, perhaps, when the points were there
@@ -153,12 +156,14 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex
             raise
         return adopt(points)
     if out is None:
+        dim = dim or 2
         if n * dim > s.MAX_COORDINATES:
             raise ArgumentError(f"{n} points in {dim} dimensions: n times dim is at most {s.MAX_COORDINATES}")
         out = np.zeros((n, dim))
-    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.carray
-              and out.size and (n is None or out.shape == (n, dim))):
+    elif not (isinstance(out, np.ndarray) and out.dtype == np.float64 and out.ndim == 2 and out.flags.carray and out.size):
         raise ArgumentError("out is a writable, aligned, C-contiguous array of doubles, of shape (n, dim)")
+    elif out.shape != (n or out.shape[0], dim or out.shape[1]):
+        raise ArgumentError(f"out has the shape {out.shape}, not ({n or out.shape[0]}, {dim or out.shape[1]})")
     points = view(out)
     call(core().koksma_generate, byref(parsed), seed, byref(points), threads=threads, run_at=2)
     return out

@@ -59,6 +59,38 @@ class Points(unittest.TestCase):
             with self.assertRaises(koksma.ArgumentError):
                 koksma.generate("random", out=bad)
 
+    def test_dimensions(self):
+        """2 of their own accord, the file's or out's; those that are asked for are there, or there is an error."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p3.npy")
+            rows = koksma.generate("random", 7, 3, seed=4)
+            koksma.write(path, rows)
+            for arguments, columns in (({}, 3), ({"dim": 1}, 1), ({"dim": 2}, 2), ({"dim": 3}, 3), ({"n": 7}, 2),
+                                       ({"n": 5, "dim": 3}, 3)):
+                with self.subTest(**arguments):
+                    options = [x for key, value in arguments.items() for x in (f"-{key[0]}", str(value))]
+                    copy = os.path.join(folder, "copy.npy")
+                    program("generate", "file:" + path, *options, "-o", copy)
+                    points = koksma.generate("file:" + path, **arguments)
+                    np.testing.assert_array_equal(points, rows[:arguments.get("n"), :columns])
+                    np.testing.assert_array_equal(points, np.load(copy))
+            for arguments in ({"dim": 4}, {"n": 7, "dim": 4}):
+                with self.assertRaisesRegex(koksma.ArgumentError, "3 dimensions, not 4"):
+                    koksma.generate("file:" + path, **arguments)
+        self.assertEqual(koksma.generate("random", 5).shape, (5, 2))
+        self.assertEqual(koksma.generate("poisson-disk-maximal:d=0.3").shape[1], 2)
+        with self.assertRaisesRegex(koksma.ArgumentError, "no 3-dimensional form"):
+            koksma.generate("poisson-disk-maximal:d=0.3", dim=3)
+        out = np.zeros((5, 4))
+        for arguments in ({}, {"n": 5}, {"dim": 4}, {"n": 5, "dim": 4}):
+            np.testing.assert_array_equal(koksma.generate("random", seed=1, out=out, **arguments),
+                                          koksma.generate("random", 5, 4, seed=1))
+        for arguments in ({"n": 4}, {"dim": 2}, {"dim": 3}, {"n": 5, "dim": 2}, {"n": 4, "dim": 4}):
+            out[:] = 7
+            with self.assertRaisesRegex(koksma.ArgumentError, "out has the shape"):
+                koksma.generate("random", out=out, **arguments)
+            self.assertTrue((out == 7).all())
+
     def test_adopted_memory_lives_as_long_as_its_views(self):
         view = koksma.generate("poisson-disk-maximal:d=0.05", seed=1)[1:]
         copy = view.copy()
