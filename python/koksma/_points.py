@@ -119,16 +119,30 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     return array
 
 
+class _Memory:
+    """Memory of the library's, as NumPy asks what is there."""
+
+    __slots__ = ("__array_interface__", "__weakref__")
+
+
+def shown(pointer: Any, *shape: int) -> npt.NDArray[Any]:
+    """An array over the library's memory. (Not by np.ctypeslib.as_array: ctypes keeps a type of each shape for ever.)"""
+    memory = _Memory()
+    memory.__array_interface__ = {"version": 3, "shape": shape, "typestr": np.dtype(pointer._type_).str,
+                                  "data": (ctypes.addressof(pointer.contents), False)}
+    return np.asarray(memory)
+
+
 def adopt(points: s.Points) -> PointArray:
     """An array over memory that the library allocated, freed with the array."""
-    array = np.ctypeslib.as_array(points.xs, shape=(points.n, points.dim))
-    free_with(array, core().koksma_points_fini, points)
+    return free_with(shown(points.xs, points.n, points.dim), core().koksma_points_fini, points)
+
+
+def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes.Structure) -> npt.NDArray[Any]:
+    """The array that is shown; calls fini(memory) when it and its views are gone; never when Python ends, which may
+    be before that."""
+    weakref.finalize(array.base, fini, byref(memory)).atexit = False
     return array
-
-
-def free_with(array: npt.NDArray[Any], fini: Callable[..., None], memory: ctypes.Structure) -> None:
-    """Calls fini(memory) when the array and its views are gone; never when Python ends, which may be before that."""
-    weakref.finalize(array.base if array.base is not None else array, fini, byref(memory)).atexit = False
 
 
 def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[SupportsIndex] = None,

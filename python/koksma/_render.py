@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, check, core, lab, spec, text, whole
-from ._points import free_with
+from ._points import free_with, shown
 
 
 def scenes() -> List[str]:
@@ -78,9 +78,8 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
 
 def adopt_image(image: s.Image) -> npt.NDArray[np.float32]:
     """An array over an image's own memory, freed with the array."""
-    array = np.ctypeslib.as_array(image.pixels, shape=(image.height, image.width, image.channels))
-    free_with(array, lab().koksma_image_fini, image)
-    return array
+    array = shown(image.pixels, image.height, image.width, image.channels)
+    return free_with(array, lab().koksma_image_fini, image)
 
 
 def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:

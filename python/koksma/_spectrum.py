@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, call, check, core, whole
-from ._points import as_points, view
+from ._points import as_points, shown, view
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Spectrum:
 
 def _result(raw: s.Spectrum) -> Spectrum:
     half, width = raw.half, 2 * raw.half + 1
-    upper = np.ctypeslib.as_array(raw.power, shape=(half + 1, width))  # ky >= 0; the rest is its mirror
+    upper = shown(raw.power, half + 1, width)  # ky >= 0; the rest is its mirror
     power = np.concatenate([upper[:0:-1, ::-1], upper])
     rings = (s.Ring * half)()
     check(core().koksma_spectrum_rings(byref(raw), rings))

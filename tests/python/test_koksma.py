@@ -335,6 +335,40 @@ class Memory(unittest.TestCase):
             self.assertEqual(freed, [True])
 
 
+    def test_shapes_leave_nothing(self):
+        """ctypes keeps what types it makes of arrays."""
+        def types():
+            gc.collect()
+            return sum(isinstance(thing, type) for thing in gc.get_objects())
+
+        def shapes(first):
+            for n in range(first, first + 1000):
+                points = koksma.generate("file:" + path, dim=n)
+                self.assertEqual((points.shape, points[0, -1]), ((1, n), (n - 1) / 4096))
+            for n in range(first // 50, first // 50 + 20):
+                self.assertEqual(koksma.render("balls", spp=1, size=(n + 1, 2)).shape, (2, n + 1, 3))
+                self.assertEqual(koksma.spectrum(points[:, :2], n + 1).power.shape, (2 * n + 3, 2 * n + 3))
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "p.npy")
+            np.save(path, np.arange(4096)[None, :] / 4096)
+            shapes(1)
+            before = types()
+            shapes(1001)
+            shapes(2001)
+            self.assertLess(types() - before, 50)
+
+    def test_memory_goes_with_the_last_view(self):
+        freed, really = [], _library.core().koksma_points_fini
+        with mock.patch.object(_library.core(), "koksma_points_fini", lambda p: freed.append(1) or really(p)):
+            view = koksma.generate("poisson-disk-maximal:d=0.1")[1:].T
+            self.assertIsInstance(view, np.ndarray)
+            self.assertEqual(freed, [])
+            del view
+            gc.collect()
+            self.assertEqual(freed, [1])
+
+
 class Library(unittest.TestCase):
     def test_the_folder_where_one_is(self):
         package = os.path.dirname(os.path.dirname(os.path.abspath(koksma.__file__)))
