@@ -54,7 +54,8 @@ class Engine(_Base):
 
     Of a sequence (a pattern whose first k of n points are the set of k points), random(n) goes on where the last call
     ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
-    points came before.
+    points came before. But where the pattern itself is deterministic, such as "regular", "hammersley" and the
+    lattices, every call gives the same n points, whatever the seed: with "hammersley:shift=1" the sets differ.
     """
 
     def __init__(self, pattern: str, d: SupportsIndex = 2, *, optimization: Optional[str] = None, seed: Any = None,

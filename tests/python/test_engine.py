@@ -59,6 +59,15 @@ class Engines(unittest.TestCase):
             np.testing.assert_array_equal(parts, whole)
             self.assertEqual(engine.num_generated, 16)
 
+    def test_deterministic_sets_are_one_set(self):
+        for spec in ("regular", "hammersley", "korobov"):
+            with self.subTest(spec=spec):
+                engine = Engine(spec, 2, seed=12)
+                np.testing.assert_array_equal(engine.random(16), engine.random(16))
+                np.testing.assert_array_equal(engine.random(16), Engine(spec, 2, seed=13).random(16))
+                shifted = Engine(spec + ":shift=1", 2, seed=12)
+                self.assertFalse((shifted.random(16) == shifted.random(16)).any())
+
     def test_reset(self):
         for _spec, engine in self.each(SEQUENCES + SETS):
             first = engine.random(8)
