@@ -10,15 +10,16 @@ Points are NumPy arrays of shape (n, dim) over the memory that the library itsel
 bits, the same as the program's. What fails raises koksma.Error with the library's own line.
 """
 from ._engine import Engine
-from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError, SystemError,
-                       UnsupportedError)
+from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
+                       SystemError as SystemError, UnsupportedError)
 from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
                       write)
 from ._render import read_image, render, scenes, version
 from ._spectrum import Spectrum, spectrum
 
+# Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError", "OutOfMemoryError",
-    "Spectrum", "SystemError", "UnsupportedError", "Value", "Witness", "canonical", "generate", "measure", "measures",
-    "patterns", "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
+    "Spectrum", "UnsupportedError", "Value", "Witness", "canonical", "generate", "measure", "measures", "patterns",
+    "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
 ]

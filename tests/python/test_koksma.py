@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The Python package against the program KOKSMA (in the environment) and against numpy."""
+import builtins
 import ctypes
 import dataclasses
 import gc
@@ -380,8 +381,14 @@ class Library(unittest.TestCase):
 
 
 class Texts(unittest.TestCase):
+    def test_no_builtin_name_is_replaced(self):
+        names = {}
+        exec("from koksma import *", names)
+        self.assertEqual({name for name in set(names) & set(dir(builtins)) if not name.startswith("__")}, set())
+        self.assertTrue(issubclass(koksma.SystemError, koksma.Error))
+
     def test_every_public_name_has_hints_and_words(self):
-        for name in koksma.__all__:
+        for name in [*koksma.__all__, "SystemError"]:
             thing = getattr(koksma, name)
             self.assertTrue(inspect.getdoc(thing), name)
             members = [thing] if inspect.isfunction(thing) else [
