@@ -164,10 +164,12 @@ static void note_first(koksma__values *values, size_t sample, const koksma__path
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
+/* Paths that start on a diffuse surface (of a record of the irradiance cache) see no luminaires in mirrors. */
 static koksma_status go_on(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
                            const koksma__scatter *way, float scale)
 {
-    koksma__path next = {.density = way->density, .time = path->time, .from = s->primitive, .sample = path->sample};
+    const float density = trace->first > 0 && !(way->density > 0) ? -1 : way->density;
+    koksma__path next = {.density = density, .time = path->time, .from = s->primitive, .sample = path->sample};
     for (int k = 0; k < 3; k++) {
         next.o[k] = s->p[k];
         next.d[k] = way->w[k];

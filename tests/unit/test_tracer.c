@@ -268,6 +268,49 @@ static void cache_knows_no_units(void **state)
     }
 }
 
+/* A lamp that shines up at a mirror alone: what lights the floor and the wall comes by that mirror, which is left
+   out, whichever rays of a record find the lamp. */
+static void cache_leaves_out_what_mirrors_throw(void **state)
+{
+    (void)state;
+    koksma_scene *scene =
+        scene_of("{\"camera\": {\"eye\": [0, 1, 6], \"target\": [0, 0, 0], \"fov_deg\": 20},"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9},"
+                 "{\"name\": \"mirror\", \"kind\": \"mirror\", \"reflectance\": 0.9}], \"shapes\": ["
+                 "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"},"
+                 "{\"kind\": \"rectangle\", \"centre\": [0, 0.75, -2], \"normal\": [0, 0, 1], \"half\": [2, 0.75], "
+                 "\"material\": \"m\"},"
+                 "{\"kind\": \"plane\", \"centre\": [0, 4, 0], \"normal\": [0, -1, 0], \"material\": \"mirror\"}],"
+                 "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, 1, 0],"
+                 "\"half\": [0.5, 0.5], \"radiance\": 10, \"visible\": true}]}");
+    koksma_render_options options = options_of(scene, "random", "path", 16, 16);
+    assert_true(mean_of(scene, &options, NULL) > 0.05);
+    options.integrator = koksma_integrator_find("irradiance-cache");
+    options.spp = 1;
+    for (options.seed = 0; options.seed < 3; options.seed++) {
+        assert_near(mean_of(scene, &options, NULL), 0, 0);
+    }
+    koksma_scene_close(scene);
+}
+
+/* Without bounces there is no light between surfaces, with either integrator. */
+static void cache_has_the_depth_of_paths(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_image images[2];
+    assert_ok(koksma_scene_open("cornell", &scene));
+    for (int i = 0; i < 2; i++) {
+        koksma_render_options options = options_of(scene, "n-rooks", i ? "irradiance-cache" : "path", 4, 16);
+        options.depth = 0;
+        assert_ok(koksma_render(scene, &options, NULL, &images[i]));
+    }
+    assert_memory_equal(images[0].pixels, images[1].pixels, 16 * 16 * 3 * sizeof(float));
+    koksma_image_fini(&images[0]);
+    koksma_image_fini(&images[1]);
+    koksma_scene_close(scene);
+}
+
 /* Records are computed by several threads and entered in order. */
 static void cache_is_the_same_for_any_number_of_threads(void **state)
 {
@@ -329,6 +372,8 @@ int main(void)
         cmocka_unit_test(seen_lights_give_the_same),
         cmocka_unit_test(paths_of_every_length_count),
         cmocka_unit_test(cache_knows_no_units),
+        cmocka_unit_test(cache_leaves_out_what_mirrors_throw),
+        cmocka_unit_test(cache_has_the_depth_of_paths),
         cmocka_unit_test(cache_is_the_same_for_any_number_of_threads),
         cmocka_unit_test(one_light_stands_for_all),
     };

@@ -9,8 +9,9 @@
  * Records are made before the picture, on ever finer grids of pixels: those places of a grid that no record covers
  * are computed by all threads, and entered one after the other, so that threads change nothing. A place of the
  * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
- * scenes by as much as a third of the indirect light (at 192 x 144 pixels); without light that a mirror throws on a
- * diffuse surface from a lamp.
+ * scenes by as much as a third of the indirect light (at 192 x 144 pixels). Light that mirrors or glass throw from a
+ * luminaire on a diffuse surface is left out: the few rays of a record that find it would make one place far too
+ * bright and others dark. A depth of 0 has no records, for there is no light between surfaces.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -233,9 +234,9 @@ static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma
 static koksma_status indirect(const koksma__frame *frame, const koksma__surface *s, float time, float out[3])
 {
     const cache *c = frame->cache;
-    float light[3];
+    float light[3] = {0, 0, 0};
     koksma_status status = KOKSMA_OK;
-    if (!look_up(c, s->p, s->n, light)) {
+    if (c && !look_up(c, s->p, s->n, light)) {
         desk d;
         record r;
         uint32_t bits[4];
@@ -351,9 +352,9 @@ static void close_cache(koksma__frame *frame)
 
 static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
 {
-    cache *c = calloc(1, sizeof *c);
+    cache *c = frame->depth ? calloc(1, sizeof *c) : NULL;
     if (!c) {
-        return koksma__fail_memory(sizeof *c);
+        return frame->depth ? koksma__fail_memory(sizeof *c) : KOKSMA_OK;
     }
     frame->cache = c;
     c->paths = *frame;
