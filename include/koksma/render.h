@@ -153,8 +153,9 @@ typedef struct koksma_layers {
     koksma_image normal;   /* likewise, towards the eye; 3 channels */
     koksma_image depth;    /* distance of what is seen first, over the samples that hit something; 0: none */
     koksma_image samples;  /* how many a pixel had */
-    koksma_image variance; /* of the pixel's luminance, from its samples as if they were independent, over their
-                              number: for a stratified pattern too large */
+    koksma_image variance; /* of the pixel's luminance, from the samples that it is made of (splatted: also those of
+                              pixels around) as if they were independent: for a stratified pattern too large; 0 for
+                              less than two of them */
     uint64_t rays;         /* cast */
 } koksma_layers;
 

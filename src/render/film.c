@@ -5,6 +5,15 @@
  * threads change nothing; those of a task that is done wait only for the tasks before it. A pixel of an image-wide
  * pattern, or of splatted samples, that got none takes its value from the pixels around it (fill_gaps); its count
  * says 0.
+ *
+ * The layer `variance` is that of a pixel's luminance m, from its samples y_i of weight w_i as if independent. Drawn
+ * from the filter, m is the mean of n products w y, so it is their variance over n. Splatted, m = sum w y / W with
+ * W = sum w is a ratio, whose variance is, to first order (Cochran 1977, chapter 6),
+ *
+ *     sum w^2 (y - m)^2 / W^2   times   S2 / (S2 - 2 S3 / W + S2^2 / W^2),   Sk = sum w^k
+ *
+ * where the factor makes up for m coming from the same samples: exactly, whatever the weights, if all y have one
+ * variance. For equal weights it is n / (n - 1); for a single sample 0 / 0, and the layer has 0 there as elsewhere.
  */
 #include "render/film.h"
 
@@ -13,6 +22,9 @@
 
 #include "core/status.h"
 #include "render/vector3.h"
+
+/* What the variance of splatted samples takes beside W and the sum of w y, in this order. */
+enum { SUM_W2, SUM_W3, SUM_W2_Y, SUM_W2_Y2, N_MOMENTS };
 
 koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, size_t n_tasks, koksma_layers *layers,
                                 koksma__film *out)
@@ -30,7 +42,8 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
     }
     if (!status && frame->options->splat) {
         out->reach = (int)ceil(frame->options->filter->radius - 0.5) + 1;
-        const size_t numbers = (size_t)width * (size_t)height * (size_t)(frame->channels + 1);
+        out->numbers = (size_t)frame->channels + 1 + (all_layers ? N_MOMENTS : 0);
+        const size_t numbers = (size_t)width * (size_t)height * out->numbers;
         out->splats = calloc(n_tasks + 1, sizeof *out->splats);
         out->sums = calloc(numbers, sizeof *out->sums);
         status = out->splats && out->sums ? KOKSMA_OK : koksma__fail_memory(numbers * sizeof *out->sums);
@@ -56,7 +69,7 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
         return KOKSMA_OK;
     }
     koksma__splat *splat = &film->splats[task];
-    const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * (size_t)(frame->channels + 1);
+    const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * film->numbers;
     *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, false, calloc(n, sizeof(double))};
     return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
 }
@@ -95,11 +108,26 @@ static double mean_of(const float *values, const float *weights, size_t first, s
     return sum / (double)(end - first);
 }
 
+static double luminance_of(const float *rgb, size_t channels)
+{
+    return channels == 1 ? (double)rgb[0] : (double)koksma__luminance3(rgb);
+}
+
+static void add_moments(double *moments, double weight, double y)
+{
+    const double square = weight * weight;
+    moments[SUM_W2] += square;
+    moments[SUM_W3] += square * weight;
+    moments[SUM_W2_Y] += square * y;
+    moments[SUM_W2_Y2] += square * y * y;
+}
+
 static void splat_sample(const koksma__frame *frame, const koksma__film *film, const koksma__splat *splat,
                          const float place[2], const float *rgb)
 {
     const int width = frame->options->width, channels = frame->channels;
     const int x0 = (int)floorf(place[0]) - film->reach, y0 = (int)floorf(place[1]) - film->reach;
+    const double luminance = film->all_layers ? luminance_of(rgb, (size_t)channels) : 0;
     for (int y = y0; y <= y0 + 2 * film->reach; y++) {
         const float wy = koksma__filter_value(frame->filter, place[1] - ((float)y + 0.5f));
         if (wy == 0 || y < splat->first_row || y >= splat->first_row + splat->rows) {
@@ -107,23 +135,29 @@ static void splat_sample(const koksma__frame *frame, const koksma__film *film, c
         }
         for (int x = x0 < 0 ? 0 : x0; x <= x0 + 2 * film->reach && x < width; x++) {
             const float weight = wy * koksma__filter_value(frame->filter, place[0] - ((float)x + 0.5f));
-            double *sum =
-                splat->sums + ((size_t)(y - splat->first_row) * (size_t)width + (size_t)x) * (size_t)(channels + 1);
+            double *sum = splat->sums + ((size_t)(y - splat->first_row) * (size_t)width + (size_t)x) * film->numbers;
             for (int k = 0; k < channels; k++) {
                 sum[k] += (double)weight * (double)rgb[k];
             }
             sum[channels] += (double)weight;
+            if (film->all_layers) {
+                add_moments(sum + channels + 1, (double)weight, luminance);
+            }
         }
     }
 }
 
-static double luminance_of(const float *rgb, size_t channels)
+/* The variance of a pixel of value `mean` from the weights' sum and the moments. */
+static double splat_variance(const double *moments, double weight, double mean)
 {
-    return channels == 1 ? (double)rgb[0] : (double)koksma__luminance3(rgb);
+    const double w2 = moments[SUM_W2], ratio = w2 / weight;
+    const double off = moments[SUM_W2_Y2] - mean * (2 * moments[SUM_W2_Y] - mean * w2);
+    const double left = w2 - 2 * moments[SUM_W3] / weight + ratio * ratio;
+    /* One sample leaves rounding, and so do others that weigh next to nothing beside it. */
+    return off > 0 && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
-/* weights: NULL, or of the filter; the variance is that of the pixel's value, which is the mean of weight x sample.
- */
+/* weights: NULL, or of the filter. Splatted pixels get their variance in the end. */
 static void add_layers(koksma_layers *layers, const koksma__values *v, const float *weights, size_t channels,
                        size_t pixel, size_t first, size_t end)
 {
@@ -180,7 +214,7 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
 /* Adds what the samples of a task came to, and forgets it. */
 static void merge_splat(const koksma__frame *frame, koksma__film *film, koksma__splat *splat)
 {
-    const size_t row = (size_t)frame->options->width * (size_t)(frame->channels + 1);
+    const size_t row = (size_t)frame->options->width * film->numbers;
     for (int r = 0; r < splat->rows; r++) {
         const int y = splat->first_row + r;
         for (size_t k = 0; y >= 0 && y < frame->options->height && k < row; k++) {
@@ -216,11 +250,15 @@ static void finish_splats(const koksma__frame *frame, koksma__film *film, bool w
         }
     }
     for (size_t i = 0; i < pixels; i++) {
-        const double *sum = film->sums + i * (channels + 1), weight = sum[channels];
+        const double *sum = film->sums + i * film->numbers, weight = sum[channels];
         const bool shown = weight > 0 && (whole || film->layers->samples.pixels[i] > 0);
         weights[i] = (float)weight;
         for (size_t k = 0; k < channels; k++) {
             film->layers->image.pixels[i * channels + k] = shown ? (float)(sum[k] / weight) : 0;
+        }
+        if (film->all_layers) {
+            const double mean = luminance_of(film->layers->image.pixels + i * channels, channels);
+            film->layers->variance.pixels[i] = shown ? (float)splat_variance(sum + channels + 1, weight, mean) : 0;
         }
     }
 }

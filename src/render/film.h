@@ -7,8 +7,9 @@
 
 #include "render/frame.h"
 
-/* Rows of a task with those around them that its samples reach, when samples are splatted: channels + 1 numbers a
-   pixel, the last one the sum of the filter. Doubles: a pixel may get millions. */
+/* Rows of a task with those around them that its samples reach, when samples are splatted. A pixel has the sums of
+   the filter's weights x channels and that of the weights, and with all layers those that its variance takes.
+   Doubles: a pixel may get millions. */
 typedef struct koksma__splat {
     int first_row, rows;
     bool done;
@@ -19,6 +20,7 @@ typedef struct koksma__film {
     koksma_layers *layers;
     bool all_layers; /* else only the image */
     int reach;       /* pixels beside its own that a splatted sample touches; 0: no splatting */
+    size_t numbers;  /* sums of a pixel, when samples are splatted */
     size_t n_splats;
     koksma__splat *splats; /* one a task; NULL: no splatting */
     double *sums;          /* of the image, as those of tasks; of the first n_merged tasks */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What stands in pixels without samples: in a whole picture what is around them, after an interrupt nothing. */
+/* What stands in pixels without samples: in a whole picture what is around them, after an interrupt nothing; and what
+   the layers say of splatted ones. */
 #include <limits.h>
 #include <time.h>
 
@@ -137,11 +138,78 @@ static void what_is_not_rendered_stays_black(void **state)
     koksma_scene_close(scene);
 }
 
+/* A ball that is before everything half of the time makes every sample 0 or 1, wherever it lies; then pixels have the
+   variance that their layer says, by every filter, splatted or not, down to a sample a pixel; borders apart, where
+   splatted pixels have fewer. */
+static void variance_is_told(void **state)
+{
+    (void)state;
+    enum { SIDE = 64, EDGE = 3, SEEDS = 8 };
+    static const struct {
+        const char *filter;
+        int spp;
+        bool splat;
+    } cases[] = {{"box", 4, false},     {"gaussian", 4, false}, {"box", 4, true},      {"tent", 2, true},
+                 {"gaussian", 1, true}, {"gaussian", 4, true},  {"mitchell", 4, true}, {"b-spline", 4, true}};
+    koksma_scene *scene =
+        scene_of("{\"camera\": {\"eye\": [0, 0, 50], \"target\": [0, 0, 0], \"fov_deg\": 0.01}, \"ambient\": 1,"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
+                 "{\"kind\": \"sphere\", \"centre\": [-2, 0, 0], \"radius\": 1, \"motion\": [4, 0, 0],"
+                 "\"material\": \"m\"}]}");
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        koksma_render_options options = options_of(scene, "random", "distribution", cases[c].spp, SIDE);
+        options.filter = koksma_filter_find(cases[c].filter);
+        options.splat = cases[c].splat;
+        double told = 0, seen = 0, n = 0;
+        for (options.seed = 0; options.seed < SEEDS; options.seed++) {
+            koksma_layers layers;
+            assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+            for (int y = EDGE; y < SIDE - EDGE; y++) {
+                for (int x = EDGE; x < SIDE - EDGE; x++, n++) {
+                    told += (double)layers.variance.pixels[y * SIDE + x];
+                    seen += pow((double)layers.image.pixels[y * SIDE + x] - 0.5, 2);
+                }
+            }
+            koksma_layers_fini(&layers);
+        }
+        if (fabs(told / seen - 1) > 0.06) {
+            fail_msg("%s, %d samples%s: told %.5f, seen %.5f", cases[c].filter, cases[c].spp,
+                     cases[c].splat ? ", splatted" : "", told / n, seen / n);
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* The layers of splatted samples are the same for any number of threads, and the image with them as without. */
+static void splatted_layers_are_the_same_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    koksma_scene *scene = fading();
+    koksma_render_options options = options_of(scene, "random", "distribution", 64, 48);
+    koksma_layers one, many, bare;
+    koksma_run run = {.threads = 1};
+    options.filter = koksma_filter_find("mitchell");
+    options.splat = true;
+    assert_ok(koksma_render_layers(scene, &options, &run, &one));
+    run.threads = 3;
+    assert_ok(koksma_render_layers(scene, &options, &run, &many));
+    assert_ok(koksma_render_only(scene, &options, &run, &bare));
+    assert_memory_equal(one.variance.pixels, many.variance.pixels, 48 * 48 * sizeof(float));
+    assert_memory_equal(one.image.pixels, many.image.pixels, 48 * 48 * sizeof(float));
+    assert_memory_equal(one.image.pixels, bare.image.pixels, 48 * 48 * sizeof(float));
+    koksma_layers_fini(&one);
+    koksma_layers_fini(&many);
+    koksma_layers_fini(&bare);
+    koksma_scene_close(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wide_gaps_are_filled_from_their_sides),
         cmocka_unit_test(what_is_not_rendered_stays_black),
+        cmocka_unit_test(variance_is_told),
+        cmocka_unit_test(splatted_layers_are_the_same_for_any_number_of_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
