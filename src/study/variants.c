@@ -14,7 +14,7 @@ enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
 /* Something that a variant sets; set checks a word. */
 typedef struct option {
     const char *name, *fallback;
-    bool changes_image;
+    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact one: then it has references of its own */
     koksma_status (*set)(koksma__variant *variant, const char *word);
 } option;
 
@@ -70,12 +70,13 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* One line an option that studies may vary. */
+/* One line an option that studies may vary. Splatting stands before the filter, for in older folders it stood behind:
+   their rows of both were compared with references that weren't splatted, and no text of today finds them. */
 static const option known[] = {
-    {"pairing", "shuffled", false, set_pairing}, {"scope", "pixel", false, set_scope},
-    {"lights", "all", false, set_lights},        {"filter", "box", true, set_filter},
-    {"splat", "no", false, set_splat},           {"integrator", "distribution", true, set_integrator},
-    {"adaptive", "none", false, set_adaptive},
+    {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
+    {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
+    {"filter", "box", ALWAYS, set_filter},       {"integrator", "distribution", ALWAYS, set_integrator},
+    {"adaptive", "none", NEVER, set_adaptive},
 };
 
 enum { N_KNOWN = sizeof known / sizeof *known };
@@ -103,6 +104,18 @@ static void word_of(const char *text, const option *o, char word[MAX_WORD])
     }
 }
 
+/* Splatted pixels at the frame's edge have no samples from beyond it, where a filter wider than a pixel reaches. */
+static bool changes_image(const char *text, const option *o)
+{
+    char filter[MAX_WORD] = "box";
+    for (int i = 0; i < N_KNOWN && o->changes_image == UNLESS_BOX; i++) {
+        if (known[i].set == set_filter) {
+            word_of(text, &known[i], filter);
+        }
+    }
+    return o->changes_image == ALWAYS || strcmp(filter, "box") != 0;
+}
+
 koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant)
 {
     koksma_status status = KOKSMA_OK;
@@ -110,7 +123,7 @@ koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma_
     for (int i = 0; !status && i < N_KNOWN; i++) {
         char word[MAX_WORD];
         word_of(text, &known[i], word);
-        if (known[i].changes_image || !of_reference) {
+        if (!of_reference || changes_image(text, &known[i])) {
             status = known[i].set(variant, word);
         }
     }
@@ -123,7 +136,7 @@ void koksma__variant_of_reference(const char *text, char *out)
     for (int i = 0; i < N_KNOWN; i++) {
         char word[MAX_WORD];
         word_of(text, &known[i], word);
-        if (known[i].changes_image) {
+        if (changes_image(text, &known[i])) {
             append(out, &known[i], word);
         }
     }
