@@ -86,20 +86,21 @@ static koksma_status parse_sphere(const field *f, int material, koksma_scene *sc
     return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", shape->motion) : status;
 }
 
-/* Side `side` (0 to 5: -x +x -y +y -z +z of its own axes) of a box: a rectangle that faces outwards. */
+/* Side `side` (0 to 5: -x +x -y +y -z +z of its own axes) of a box: a rectangle that faces outwards, in the frame
+   that a rectangle with this normal has: v is y, and -z for top and bottom, the box's own; u = v x normal. */
 static void make_side(koksma__shape *shape, const double centre[3], double axes[3][3], const double half[3], int side)
 {
-    const int along = side / 2, next = (along + 1) % 3, last = (along + 2) % 3;
+    const int along = side / 2;
     const double sign = side % 2 ? 1 : -1;
     shape->kind = KOKSMA__SHAPE_RECTANGLE;
     for (int k = 0; k < 3; k++) {
         shape->centre[k] = centre[k] + sign * half[along] * axes[along][k];
         shape->normal[k] = sign * axes[along][k];
-        shape->axis_u[k] = axes[next][k];
-        shape->axis_v[k] = sign * axes[last][k];
+        shape->axis_v[k] = along == 1 ? -axes[2][k] : axes[1][k];
     }
-    shape->half[0] = half[next];
-    shape->half[1] = half[last];
+    koksma__cross(shape->axis_v, shape->normal, shape->axis_u);
+    shape->half[0] = half[along == 0 ? 2 : 0];
+    shape->half[1] = half[along == 1 ? 2 : 1];
 }
 
 static koksma_status parse_box(const field *f, int material, koksma_scene *scene)

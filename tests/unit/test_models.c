@@ -130,6 +130,45 @@ static void images_are_albedos(void **state)
     unlink("texture.pfm");
 }
 
+/* On each side of a box an image stands as one sees it from there: upright on the four that do, and with its upper
+   edge to the box's own -z on top and bottom. */
+static void images_stand_upright_on_boxes(void **state)
+{
+    (void)state;
+    static const double half[3] = {1, 1.5, 0.5}, values[4] = {0.1, 0.2, 0.3, 0.4};
+    const double c = cos(M_PI / 6), s = sin(M_PI / 6), axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, 2, 2, 1));
+    for (int i = 0; i < 4; i++) {
+        image.pixels[i] = (float)values[i]; /* the upper row first */
+    }
+    assert_ok(koksma_image_write("texture.pfm", &image, NULL));
+    koksma_image_fini(&image);
+    for (int i = 0; i < 24; i++) {
+        const int along = i / 8, turn = (i / 4) % 2 ? 1 : -1, corner = i % 4;
+        /* Right of who looks at the side is up x the way out. */
+        const int right = along == 0 ? 2 : 0, up = along == 1 ? 2 : 1;
+        const double way_up = along == 1 ? -1 : 1, way_right = along == 1 || along == 2 ? turn : -turn;
+        const double x = (corner % 2 ? 0.5 : -0.5) * way_right * half[right];
+        const double y = (corner / 2 ? -0.5 : 0.5) * way_up * half[up];
+        double at[3], eye[3];
+        for (int k = 0; k < 3; k++) {
+            at[k] = turn * half[along] * axes[along][k] + x * axes[right][k] + y * axes[up][k];
+            eye[k] = at[k] + turn * axes[along][k];
+        }
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "{\"camera\": {\"eye\": [%.9g, %.9g, %.9g], \"target\": [%.9g, %.9g, %.9g], \"up\": [%.9g, %.9g, "
+                 "%.9g], \"fov_deg\": 0.01}, \"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": "
+                 "\"lambert\", \"albedo\": {\"image\": \"texture.pfm\"}}], \"shapes\": [{\"kind\": \"box\", "
+                 "\"centre\": [0, 0, 0], \"half\": [%g, %g, %g], \"angle_deg\": 30, \"material\": \"m\"}]}",
+                 eye[0], eye[1], eye[2], at[0], at[1], at[2], axes[up][0], axes[up][1], axes[up][2], half[0], half[1],
+                 half[2]);
+        assert_near(mean(text, NULL, "distribution", 1, 1), values[corner], 1e-3);
+    }
+    unlink("texture.pfm");
+}
+
 /* A square of 2 x 2 at z = 0 that faces +z. */
 #define SQUARE                                                                                                       \
     "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"material\": 0}]}],"        \
@@ -262,6 +301,7 @@ int main(void)
         cmocka_unit_test(luminous_meshes_have_their_form_factor),
         cmocka_unit_test(luminous_meshes_light_meshes),
         cmocka_unit_test(images_are_albedos),
+        cmocka_unit_test(images_stand_upright_on_boxes),
         cmocka_unit_test(bare_files_bring_or_get_cameras_and_lights),
         cmocka_unit_test(hashes_cover_the_files_that_a_scene_names),
         cmocka_unit_test(textures_of_models_are_read),
