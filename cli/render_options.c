@@ -110,6 +110,17 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
     return true;
 }
 
+void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                   const koksma_render_options *options)
+{
+    for (size_t i = 0; koksma_use_at(i); i++) {
+        if (options->patterns[i].pattern && !koksma_use_is_spent(scene, options, i)) {
+            fprintf(stderr, "koksma %s: %s: warning: no sample is spent on %s here; its pattern changes nothing\n",
+                    arguments->command->name, name, koksma_use_at(i)->name);
+        }
+    }
+}
+
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene, size_t most)
 {
     char text[512];

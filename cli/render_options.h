@@ -36,6 +36,10 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 /* Patterns: lines of PATTERN, for all uses, or USE=PATTERN; false after an error, whose code is in *code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
+/* A line on stderr for each use that was given a pattern and on which nothing is spent here. */
+void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                   const koksma_render_options *options);
+
 /* The scene's warnings on stderr, `most` lines of them at most and one that tells how many more there are; returns
    how many there are. */
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene, size_t most);

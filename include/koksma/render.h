@@ -146,6 +146,10 @@ KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const
 /* Rays that one sample casts at its first hit: one from the camera, and one to each luminaire. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
 
+/* Whether samples of this scene by these options are spent on use i: a pattern for another (of the lens, where there
+   is a pinhole) changes nothing. */
+KOKSMA_API bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i);
+
 /* A picture and what else is known of its pixels, all of one size. The image has 3 channels, or 1 for a scene without
    colour. */
 typedef struct koksma_layers {

@@ -56,20 +56,32 @@ static koksma_status make_materials(koksma__frame *f)
 
 /* ---- The frame ------------------------------------------------------------------------------------------- */
 
-/* What samples will be spent on. */
-static koksma__use_list list_uses(const koksma__frame *f)
+static int depth_of(const koksma_render_options *options)
 {
+    return options->depth < 0 ? options->integrator->depth : options->depth;
+}
+
+/* What samples will be spent on. */
+static koksma__use_list list_uses(const koksma_scene *scene, const koksma_render_options *options)
+{
+    const koksma__rules *rules = options->integrator->rules;
     unsigned lobes = 0;
-    for (size_t i = 0; i < f->scene->n_materials; i++) {
-        lobes |= f->substances[i].lobes;
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        lobes |= koksma__substance_of(&scene->materials[i]).lobes;
     }
-    const bool one = f->options->lights != KOKSMA_LIGHTS_ALL && f->lights.n > 0;
-    const int lights = one ? 1 : (int)f->lights.n;
-    return (koksma__use_list){.lens = f->scene->camera.lens_radius > 0,
-                              .time = f->scene->moves,
-                              .lights = f->rules->areas ? lights : 0,
+    const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
+    const int lights = one ? 1 : (int)scene->n_lights;
+    return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
+                              .time = scene->moves,
+                              .lights = rules->areas ? lights : 0,
                               .light_choice = one,
-                              .vertices = lobes & f->rules->followed ? f->depth + 1 : 1};
+                              .vertices = lobes & rules->followed ? depth_of(options) + 1 : 1};
+}
+
+bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)
+{
+    const koksma__use_list uses = list_uses(scene, options);
+    return i < KOKSMA_N_USES && koksma__use_is_there(&uses, (int)i);
 }
 
 static void release_geometry(void *made)
@@ -113,7 +125,7 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
         return status;
     }
     f->camera = make_camera(&f->scene->camera, options->width, options->height);
-    f->uses = list_uses(f);
+    f->uses = list_uses(f->scene, options);
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
@@ -192,7 +204,7 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
         return status;
     }
     out->rules = options->integrator->rules;
-    out->depth = options->depth < 0 ? options->integrator->depth : options->depth;
+    out->depth = depth_of(options);
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();
     return make_frame(out, run);
