@@ -140,7 +140,7 @@ static int run(const cli_arguments *arguments)
         cli_adaptive_options(arguments, &adaptive, &code)) {
         options.spp = (int)spp;
         if (!cli_flag(arguments, "quiet")) {
-            cli_scene_warnings(arguments, arguments->operands[0], scene, 3);
+            cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
         }
         code = render(arguments, scene, &options, &adaptive);

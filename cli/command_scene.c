@@ -16,7 +16,7 @@ static int run(const cli_arguments *arguments)
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
-    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, SIZE_MAX) > 0;
+    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
     cli_row_text(rows, "scene", arguments->operands[1]);
     cli_row_whole(rows, "shapes", counts.shapes);
     cli_row_whole(rows, "meshes", counts.meshes);

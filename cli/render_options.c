@@ -121,11 +121,14 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
     }
 }
 
-size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene, size_t most)
+size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                          const koksma_render_options *options, size_t most)
 {
     char text[512];
     size_t n = 0;
-    for (; koksma_scene_warning(scene, n, text, sizeof text); n++) {
+    for (; options ? koksma_render_warning(scene, options, n, text, sizeof text)
+                   : koksma_scene_warning(scene, n, text, sizeof text);
+         n++) {
         if (n < most) {
             fprintf(stderr, "koksma %s: %s: warning: %s\n", arguments->command->name, name, text);
         }

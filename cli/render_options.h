@@ -40,8 +40,9 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                    const koksma_render_options *options);
 
-/* The scene's warnings on stderr, `most` lines of them at most and one that tells how many more there are; returns
-   how many there are. */
-size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene, size_t most);
+/* The scene's warnings on stderr, `most` lines of them at most and one that tells how many more there are; with
+   options those that matter to them, with NULL all. Returns how many there are. */
+size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                          const koksma_render_options *options, size_t most);
 
 #endif

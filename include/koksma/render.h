@@ -150,6 +150,10 @@ KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
    is a pinhole) changes nothing. */
 KOKSMA_API bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i);
 
+/* Those of the scene's warnings that matter to a picture by these options: warning i; false past the end. */
+KOKSMA_API bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i,
+                                      char *text, size_t size);
+
 /* A picture and what else is known of its pixels, all of one size. The image has 3 channels, or 1 for a scene without
    colour. */
 typedef struct koksma_layers {

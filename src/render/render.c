@@ -106,6 +106,13 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
     koksma_pattern_spec("n-rooks", &options->pattern);
 }
 
+bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i, char *text,
+                           size_t size)
+{
+    const koksma__rules *rules = options->integrator->rules;
+    return koksma__scene_warning(scene, (rules->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
+}
+
 static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
                             bool all_layers, koksma_layers *out)
 {

@@ -124,6 +124,9 @@ int koksma__find_material(const koksma_scene *scene, const char *name);
 /* The map of the square to a lens: "concentric" or "polar"; NULL for another name. */
 const koksma_warp *koksma__lens_map(const char *name);
 
+/* What koksma_scene_warning says; without by_paths less what only matters to integrators that follow all paths. */
+bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size);
+
 /* A scene of a text; name is for errors. Errors: MALFORMED, MISSING, ARGUMENT, MEMORY. */
 koksma_status koksma__scene_open_text(const char *name, const char *text, size_t size, koksma_scene **out);
 

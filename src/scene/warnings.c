@@ -89,6 +89,28 @@ static bool of_lights(const koksma_scene *scene, asked *a)
     return false;
 }
 
+/* Only a path that meets a luminaire brings its light round by a mirror or through glass. */
+static bool of_hidden_lights(const koksma_scene *scene, asked *a)
+{
+    size_t hidden = 0;
+    bool thrown = false;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        hidden += !scene->lights[i].visible && !is_dark(scene->lights[i].radiance);
+    }
+    for (size_t i = 0; i < scene->n_materials && !thrown; i++) {
+        const koksma__material_kind kind = scene->materials[i].kind;
+        thrown = (kind == KOKSMA__MATERIAL_MIRROR || kind == KOKSMA__MATERIAL_DIELECTRIC) && is_used(scene, (int)i);
+    }
+    if (!hidden || !thrown || !here(a)) {
+        return false;
+    }
+    snprintf(a->text, a->size,
+             "no ray meets some luminaires (%zu): with path, mirrors and glass throw none of their light on other "
+             "surfaces",
+             hidden);
+    return true;
+}
+
 static bool of_materials(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_materials; i++) {
@@ -166,15 +188,20 @@ static bool of_all(const koksma_scene *scene, asked *a)
     return of_unread(&scene->unread, a) || of_names(&scene->unread, a);
 }
 
-bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size)
 {
     asked a = {i, text, size};
     const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
-                       of_placements(scene, &a) || of_lights(scene, &a);
+                       of_placements(scene, &a) || of_lights(scene, &a) || (by_paths && of_hidden_lights(scene, &a));
     if (found && size) {
         koksma__make_printable(text);
     }
     return found;
+}
+
+bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+{
+    return koksma__scene_warning(scene, true, i, text, size);
 }
 
 koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
