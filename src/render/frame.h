@@ -44,7 +44,8 @@ typedef struct koksma__group {
 
 /* What the samples of a group come to. capacity floats a channel; layers are NULL when no one wants them. */
 typedef struct koksma__values {
-    float *film;    /* places on the film, in pixels: 2 a sample */
+    float *film;    /* places on the film, in pixels: 2 a sample. In pixel 2^k they are multiples of 2^(k - 23) of a
+                       pixel (at 65,536 of 1/256), no coarser than the directions that are made of them */
     float *weights; /* of the filter; NULL: all 1 */
     float *rgb;     /* channels a sample */
     float *albedo, *normal, *depth;
