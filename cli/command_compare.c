@@ -16,6 +16,12 @@ static int put_row(const cli_arguments *arguments, const koksma_image_error *err
     return cli_rows_close(rows);
 }
 
+static koksma_status read_numbers(const char *path, koksma_image *image)
+{
+    const koksma_status status = koksma_image_read(path, image);
+    return status ? status : koksma_image_check_finite(image, path);
+}
+
 static koksma_status write_difference(const char *path, const koksma_image *image, const koksma_image *reference)
 {
     koksma_image difference;
@@ -39,8 +45,8 @@ static int run(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const char *output = cli_text(arguments, "output", NULL);
-    koksma_status status = koksma_image_read(arguments->operands[0], &image);
-    status = status ? status : koksma_image_read(arguments->operands[1], &reference);
+    koksma_status status = read_numbers(arguments->operands[0], &image);
+    status = status ? status : read_numbers(arguments->operands[1], &reference);
     status = status ? status : koksma_image_compare(&image, &reference, &error);
     if (!status && output) {
         status = write_difference(output, &image, &reference);
@@ -51,7 +57,7 @@ static int run(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     const int code = put_row(arguments, &error);
-    return code ? code : error.mean <= most ? CLI_YES : CLI_NO; /* NaN is a no */
+    return code ? code : error.mean <= most ? CLI_YES : CLI_NO;
 }
 
 static const cli_option options[] = {
@@ -66,7 +72,8 @@ const cli_command cli_command_compare = {
     .summary = "the error of an image against a reference",
     .synopsis = "IMAGE REFERENCE [-o DIFFERENCE] [--max-mean E]",
     .details =
-        "Mean, standard deviation and maximum of the absolute error in luminance, and the root mean square error.",
+        "Mean, standard deviation and maximum of the absolute error in luminance, and the root mean square error.\n"
+        "An image with a pixel that is no finite number is malformed.",
     .options = options,
     .run = run,
 };

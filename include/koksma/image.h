@@ -75,6 +75,10 @@ typedef struct koksma_image_error {
     double rmse; /* root of the mean of e^2 */
 } koksma_image_error;
 
+/* Whether all pixels are finite numbers: one that is not would make the error of the whole image none. Errors:
+   MALFORMED, which names the first after `name`, the file's or another. */
+KOKSMA_API koksma_status koksma_image_check_finite(const koksma_image *image, const char *name);
+
 /* Errors: ARGUMENT (the sizes differ). */
 KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference,
                                               koksma_image_error *out);

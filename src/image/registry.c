@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Images as such, and their files by way of the table of formats. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -142,13 +143,33 @@ koksma_status koksma_image_read(const char *path, koksma_image *out)
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
 
+static size_t count_numbers(const koksma_image *image)
+{
+    return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+}
+
+static koksma_status refuse_number(const koksma_image *image, size_t i, const char *name)
+{
+    const size_t pixel = i / (size_t)image->channels, width = (size_t)image->width;
+    return koksma__fail(KOKSMA_MALFORMED, "%s: pixel %zu,%zu has the value %g", name, pixel % width, pixel / width,
+                        (double)image->pixels[i]);
+}
+
 koksma_status koksma__image_check(const koksma_image *image, const char *name)
 {
-    const size_t width = (size_t)image->width, n = width * (size_t)image->height, channels = (size_t)image->channels;
-    for (size_t i = 0; i < n * channels; i++) {
+    for (size_t i = 0; i < count_numbers(image); i++) {
         if (!(image->pixels[i] < 1e30f)) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: pixel %zu,%zu has the value %g", name, i / channels % width,
-                                i / channels / width, (double)image->pixels[i]);
+            return refuse_number(image, i, name);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_image_check_finite(const koksma_image *image, const char *name)
+{
+    for (size_t i = 0; i < count_numbers(image); i++) {
+        if (!isfinite(image->pixels[i])) {
+            return refuse_number(image, i, name);
         }
     }
     return KOKSMA_OK;

@@ -62,20 +62,6 @@ static koksma_status collect(const char *places, const glob_t *found, pictures *
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
 
-/* One pixel that is no number would make a whole group's error none. */
-static koksma_status check_finite(const koksma_image *image, const char *path)
-{
-    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    for (size_t i = 0; i < n; i++) {
-        if (!isfinite(image->pixels[i])) {
-            const size_t pixel = i / (size_t)image->channels;
-            return koksma__fail(KOKSMA_MALFORMED, "%s: pixel (%zu, %zu) is not a finite number", path,
-                                pixel % (size_t)image->width, pixel / (size_t)image->width);
-        }
-    }
-    return KOKSMA_OK;
-}
-
 static koksma_status compare_one(void *context, size_t i)
 {
     pictures *all = context;
@@ -83,7 +69,9 @@ static koksma_status compare_one(void *context, size_t i)
     koksma_status status = koksma_image_read(all->at[i].path, &image);
     if (!status) {
         status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
-        status = status ? koksma__fail_in(status, all->at[i].path) : check_finite(&image, all->at[i].path);
+        /* One pixel that is no number would make a whole group's error none. */
+        status =
+            status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
         koksma_image_fini(&image);
     }
     return status;
@@ -169,7 +157,7 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
                                                             : collect(places, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
-    status = status ? status : check_finite(&all.reference, reference);
+    status = status ? status : koksma_image_check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
     status = status ? status : make_rows(&all, rows, n);
     if (status) {
