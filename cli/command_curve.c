@@ -127,6 +127,12 @@ static int spectrum_of(curve_job *j, const char *kind, const char *source)
     return code;
 }
 
+#define SPECTRA "power rings quality"
+
+static const cli_kinds options_of_kinds[] = {
+    {"half", SPECTRA}, {"exact", SPECTRA}, {"output", "power"}, {"r-max", "pairs"}, {"bins", "pairs"}, {NULL, NULL},
+};
+
 static int run(const cli_arguments *arguments)
 {
     static const char *const kinds[] = {"power", "rings", "quality", "pairs"};
@@ -139,7 +145,10 @@ static int run(const cli_arguments *arguments)
     if (!known || arguments->n_operands < 2) {
         return cli_usage_error(arguments, "it takes one of power, rings, quality, pairs, and points");
     }
-    if (j.output && (strcmp(kind, "power") != 0 || arguments->n_operands > 2)) {
+    if (!cli_options_fit(arguments, options_of_kinds, kind, "")) {
+        return CLI_USAGE;
+    }
+    if (j.output && arguments->n_operands > 2) {
         return cli_usage_error(arguments, "--output: it takes power of one source");
     }
     if (!cli_curves_begin(arguments, &j.curves) || !cli_sources_check(arguments, 1, j.curves.trials, 0)) {
@@ -156,7 +165,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    CLI_CURVE_OPTIONS,
+    CLI_CURVE_OPTIONS("", "all but pairs", "2 sqrt(n); quality: 7 sqrt(n)"),
     {'o', "output", "OUT", "power: the grid to a file: .npy, .csv, text, or grey .exr, .pfm, .png"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,

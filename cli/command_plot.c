@@ -112,13 +112,58 @@ static int plot_power(plot_job *j)
     return code;
 }
 
+typedef struct plot_kind {
+    const char *name;
+    int (*plot)(plot_job *j);
+} plot_kind;
+
+static const plot_kind kinds[] = {
+    {"points", plot_points},     {"power", plot_power}, {"radial", plot_radial},
+    {"anisotropy", plot_radial}, {"pairs", plot_pairs}, {"convergence", plot_convergence},
+};
+
+static const plot_kind *find_kind(const char *name)
+{
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        if (!strcmp(name, kinds[k].name)) {
+            return &kinds[k];
+        }
+    }
+    return NULL;
+}
+
+#define SPECTRA "power radial anisotropy"
+
+static const cli_kinds options_of_kinds[] = {
+    {"columns", "points"},
+    {"rows", "points"},
+    {"grid", "points"},
+    {"rooks", "points"},
+    {"witness", "points"},
+    {"white", "power"},
+    {"half", SPECTRA},
+    {"exact", SPECTRA},
+    {"r-max", "pairs"},
+    {"bins", "pairs"},
+    {"measure", "convergence"},
+    {"sizes", "convergence"},
+    {"trials", SPECTRA " pairs convergence"},
+    {NULL, NULL},
+};
+
+/* Trials that every source must have a set for: convergence draws a file, which is one, beside means of patterns. */
+static uint64_t trials_of_all(const plot_job *j)
+{
+    const cli_arguments *arguments = j->curves.arguments;
+    bool has_pattern = false;
+    for (int i = 0; i < arguments->n_operands; i++) {
+        has_pattern = has_pattern || plot_label(arguments->operands[i]) != arguments->operands[i];
+    }
+    return has_pattern && !strcmp(j->curve, "convergence") ? 1 : j->curves.trials;
+}
+
 static int run(const cli_arguments *arguments)
 {
-    static const struct {
-        const char *name;
-        int (*plot)(plot_job *j);
-    } kinds[] = {{"points", plot_points},     {"power", plot_power}, {"radial", plot_radial},
-                 {"anisotropy", plot_radial}, {"pairs", plot_pairs}, {"convergence", plot_convergence}};
     plot_job j = {.output = cli_text(arguments, "output", NULL),
                   .witness = cli_text(arguments, "witness", NULL),
                   .curve = cli_text(arguments, "curve", "points")};
@@ -126,24 +171,18 @@ static int run(const cli_arguments *arguments)
         return cli_usage_error(
             arguments, "it takes points (up to %d sets) and a picture, as in points.txt -o points.svg", MAX_PANELS);
     }
-    if (!cli_whole(arguments, "size", 0, 16, 8192, &j.size) || !cli_curves_begin(arguments, &j.curves)) {
-        return CLI_USAGE;
+    const plot_kind *kind = find_kind(j.curve);
+    if (!kind) {
+        return cli_usage_error(
+            arguments, "--curve %s: it takes points, power, radial, anisotropy, pairs or convergence", j.curve);
     }
-    const bool one_set = !strcmp(j.curve, "points") || !strcmp(j.curve, "convergence"); /* of a file */
-    if (!cli_sources_check(arguments, 0, one_set ? 1 : j.curves.trials, 0)) {
+    if (!cli_options_fit(arguments, options_of_kinds, j.curve, "--curve ") ||
+        !cli_whole(arguments, "size", 0, 16, 8192, &j.size) || !cli_curves_begin(arguments, &j.curves) ||
+        !cli_sources_check(arguments, 0, trials_of_all(&j), 0)) {
         return CLI_USAGE;
     }
     const koksma_status status = koksma_plot_format_of(j.output, &j.format);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        if (!strcmp(j.curve, kinds[k].name)) {
-            return kinds[k].plot(&j);
-        }
-    }
-    return cli_usage_error(arguments, "--curve %s: it takes points, power, radial, anisotropy, pairs or convergence",
-                           j.curve);
+    return status ? cli_fail(arguments, status) : kind->plot(&j);
 }
 
 static const cli_option options[] = {
@@ -158,7 +197,7 @@ static const cli_option options[] = {
     {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence: of this measure (default: l2-star)"},
     {0, "sizes", "N,..", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},
-    CLI_CURVE_OPTIONS,
+    CLI_CURVE_OPTIONS("all but points: ", "power, radial, anisotropy", "2 sqrt(n)"),
     CLI_RUN_OPTIONS,
     {0},
 };

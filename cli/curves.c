@@ -2,7 +2,9 @@
 #include "curves.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "source.h"
 
@@ -15,6 +17,33 @@ bool cli_curves_begin(const cli_arguments *arguments, cli_curves *c)
            cli_whole(arguments, "half", 0, 1, KOKSMA_SPECTRUM_MAX_HALF, &c->half) &&
            cli_whole(arguments, "bins", 100, 1, 1000000, &c->bins) &&
            cli_real(arguments, "r-max", 0, 1e-6, 0.5, &c->r_max) && cli_work_begin(arguments, "curves", &c->work);
+}
+
+/* Whether word is one of words; all of them as in "a, b or c" in text, of `size` characters. */
+static bool find_word(const char *words, const char *word, char *text, size_t size)
+{
+    bool found = false;
+    size_t used = 0;
+    for (const char *at = words; *at; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        const char *joint = at == words ? "" : at[length] ? ", " : " or ";
+        found = found || (strlen(word) == length && !strncmp(at, word, length));
+        used += (size_t)snprintf(text + used, size - used, "%s%.*s", joint, (int)length, at);
+        at += length;
+    }
+    return found;
+}
+
+bool cli_options_fit(const cli_arguments *arguments, const cli_kinds *table, const char *kind, const char *before)
+{
+    for (const cli_kinds *row = table; row->option; row++) {
+        char kinds[128];
+        if (cli_flag(arguments, row->option) && !find_word(row->kinds, kind, kinds, sizeof kinds)) {
+            cli_usage_error(arguments, "--%s goes with %s%s", row->option, before, kinds);
+            return false;
+        }
+    }
+    return true;
 }
 
 /* Calls add for the points of each trial; a set that is not of the plane ends it. */

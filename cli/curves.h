@@ -15,15 +15,25 @@ typedef struct cli_curves {
     cli_work work;
 } cli_curves;
 
-#define CLI_CURVE_OPTIONS                                                                                            \
+/* means, spectra: strings that say in the help which kinds they go with. */
+#define CLI_CURVE_OPTIONS(means, spectra, default_half)                                                              \
     {'s', "seed", "S", "seed for pattern: sources (default: 0)"},                                                    \
-        {'t', "trials", "T", "the mean over T sets with seeds S, S+1, .., with standard errors"},                    \
-        {0, "half", "H", "frequencies up to H in each coordinate (default: 2 sqrt(n); quality: 7 sqrt(n))"},         \
-        {0, "exact", NULL, "sum over all points at each frequency instead of the fast transform"},                   \
+        {'t', "trials", "T", means "the mean over T sets with seeds S, S+1, .., with standard errors"},              \
+        {0, "half", "H", spectra ": frequencies up to H in each coordinate (default: " default_half ")"},            \
+        {0, "exact", NULL, spectra ": sum over all points at each frequency instead of the fast transform"},         \
         {0, "r-max", "R", "pairs: distances up to R (default: 4 / sqrt(n), at most 1/2)"},                           \
     {                                                                                                                \
         0, "bins", "B", "pairs: rings of distances (default: 100)"                                                   \
     }
+
+/* An option that only some kinds have a use for: these, with blanks between. A table ends at a NULL option. */
+typedef struct cli_kinds {
+    const char *option, *kinds;
+} cli_kinds;
+
+/* False after an error when an option is given that the kind has no use for. before: what stands before a kind on the
+   command line. */
+bool cli_options_fit(const cli_arguments *arguments, const cli_kinds *table, const char *kind, const char *before);
 
 /* Reads CLI_CURVE_OPTIONS and CLI_RUN_OPTIONS; false after an error. */
 bool cli_curves_begin(const cli_arguments *arguments, cli_curves *curves);
