@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "source.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,6 +60,23 @@ int cli_source_open(const cli_arguments *arguments, const char *text, cli_source
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* For the end of an error about a file: what was meant, if its name begins as a pattern's spec does; else "". */
+static const char *hint(const char *operand, char *text, size_t size)
+{
+    char name[64];
+    const size_t length = strcspn(operand, "@:");
+    bool plausible = operand[length] && length < sizeof name && strlen(operand) + 32 < size;
+    for (const char *s = operand; *s; s++) {
+        plausible = plausible && !iscntrl((unsigned char)*s); /* an error is one line */
+    }
+    snprintf(name, sizeof name, "%.*s", plausible ? (int)length : 0, operand);
+    if (!koksma_pattern_find(name)) {
+        return "";
+    }
+    snprintf(text, size, "; did you mean %s%s%s?", prefix, operand, strchr(operand, '@') ? "" : "@N");
+    return text;
+}
+
 int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t seed, const koksma_run *run,
                       koksma_points *points)
 {
@@ -75,6 +93,11 @@ int cli_source_points(const cli_arguments *arguments, const char *text, uint64_t
     } else {
         status = koksma_points_read(text, points);
     }
+    if (status == KOKSMA_MISSING && !source.is_pattern) {
+        char meant[KOKSMA_MAX_SPEC];
+        cli_usage_error(arguments, "%s%s", koksma_error_text(), hint(text, meant, sizeof meant));
+        return koksma_status_exit_code(status);
+    }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
@@ -89,7 +112,9 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
             return false;
         }
         if (trials > 1 && strncmp(text, prefix, sizeof prefix - 1) != 0) {
-            cli_usage_error(arguments, "--trials: '%s' is one set; it takes pattern: sources", text);
+            char meant[KOKSMA_MAX_SPEC];
+            cli_usage_error(arguments, "--trials: '%s' is one set; it takes pattern: sources%s", text,
+                            hint(text, meant, sizeof meant));
             return false;
         }
     }
