@@ -44,6 +44,9 @@ struct cli_arguments {
 /* Command i in the order of the help; NULL past the end. */
 const cli_command *cli_command_at(size_t i);
 
+/* NULL when there is none. */
+const cli_command *cli_command_find(const char *name);
+
 /* The options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
     {                                                                                                                \

@@ -156,7 +156,7 @@ static void put_options(const cli_command *command)
         }
         printf("--%s ", o->name);
     }
-    fputs("--help", stdout);
+    fputs("-h --help", stdout);
 }
 
 /* Assignments of both bash and zsh. */
@@ -309,6 +309,7 @@ static void put_fish(void)
            "    test \"$typed[2]\" = $argv[1]; or return\n    test (count $argv) -eq 1; and return\n"
            "    set -e typed[1..2]\n    for word in $argv[2..-1]\n        contains -- $word $typed; and return\n"
            "    end\n    return 1\nend\n");
+    printf("complete -c koksma -s h -l help -d 'what it does'\n");
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         printf("complete -c koksma -n __fish_use_subcommand -f -a %s -d '", command->name);
         put_quoted(command->summary);

@@ -41,7 +41,7 @@ static void put_options(const cli_command *command)
         put(o->help);
         printf("\n");
     }
-    printf(".TP\n\\fB\\-\\-help\\fR\nthe same as this page\n");
+    printf(".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe same as this page\n");
 }
 
 static void put_synopsis(const char *name, const char *synopsis)
@@ -104,12 +104,10 @@ static int run(const cli_arguments *arguments)
         put_overview();
         return CLI_YES;
     }
-    const cli_command *command;
-    for (size_t i = 0; arguments->n_operands == 1 && (command = cli_command_at(i)); i++) {
-        if (!strcmp(arguments->operands[0], command->name)) {
-            put_page(command);
-            return CLI_YES;
-        }
+    const cli_command *command = cli_command_find(arguments->operands[0]);
+    if (command && arguments->n_operands == 1) {
+        put_page(command);
+        return CLI_YES;
     }
     return cli_usage_error(arguments, "it takes the name of one command, or nothing for the page of koksma itself");
 }

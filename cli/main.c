@@ -18,19 +18,14 @@ const cli_command *cli_command_at(size_t i)
     return commands[i];
 }
 
-static void print_help(FILE *stream)
+const cli_command *cli_command_find(const char *name)
 {
-    fputs("koksma: sampling patterns for ray tracing, how irregular they are, and the error that they leave\n\n"
-          "usage: koksma COMMAND [OPTION]... [OPERAND]...\n\n",
-          stream);
     for (int i = 0; commands[i]; i++) {
-        fprintf(stream, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
+        if (!strcmp(commands[i]->name, name)) {
+            return commands[i];
+        }
     }
-    fputs("\n'koksma COMMAND --help' says more. Exit codes: 0 done; 1 it ran and the answer is no; 2 the command "
-          "line is\n"
-          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, what was done is "
-          "kept.\n",
-          stream);
+    return NULL;
 }
 
 /* Of the environment: an instruction set that is not there would be answered by another's speed. */
@@ -51,19 +46,16 @@ int main(int argc, char **argv)
         return CLI_USAGE;
     }
     if (argc < 2) {
-        print_help(stderr);
+        cli_print_overview(stderr);
         return CLI_USAGE;
     }
-    if (!strcmp(argv[1], "--help") || !strcmp(argv[1], "-h") || !strcmp(argv[1], "help")) {
-        print_help(stdout);
-        return cli_end_output(CLI_YES);
+    const char *first = argv[1];
+    const cli_command *command = cli_command_find(!strcmp(first, "--help") || !strcmp(first, "-h") ? "help"
+                                                  : !strcmp(first, "--version")                    ? "version"
+                                                                                                   : first);
+    if (!command) {
+        fprintf(stderr, "koksma: no command '%s'; 'koksma --help' names them\n", first);
+        return CLI_USAGE;
     }
-    const char *name = !strcmp(argv[1], "--version") ? "version" : argv[1];
-    for (int i = 0; commands[i]; i++) {
-        if (!strcmp(commands[i]->name, name)) {
-            return cli_run(commands[i], argc - 1, argv + 1);
-        }
-    }
-    fprintf(stderr, "koksma: no command '%s'; 'koksma --help' names them\n", argv[1]);
-    return CLI_USAGE;
+    return cli_run(command, argc - 1, argv + 1);
 }

@@ -9,11 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LONG_BASE = 1000, HELP = 999 };
+/* No table has the letter of --help. */
+enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
 
 static bool complained; /* one error, one line */
 
-static void print_help(const cli_command *command)
+void cli_print_help(const cli_command *command)
 {
     printf("koksma %s: %s\n\nusage: koksma %s%s%s\n\n", command->name, command->summary, command->name,
            *command->synopsis ? " " : "", command->synopsis);
@@ -23,7 +24,7 @@ static void print_help(const cli_command *command)
         printf(o->letter ? "  -%c, %-22s" : "  %c   %-22s", o->letter ? o->letter : ' ', left);
         printf(used > 22 ? "\n%28s %s\n" : "%.0s %s\n", "", o->help);
     }
-    printf("      %-22s %s\n", "--help", "this text");
+    printf("  -%c, %-22s %s\n", HELP_LETTER, "--help", "this text");
     if (command->details) {
         printf("\n%s\n", command->details);
     }
@@ -66,7 +67,7 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
 {
     const cli_command *command = arguments->command;
     struct option longs[CLI_MAX_OPTIONS + 2] = {{0}};
-    char shorts[2 * CLI_MAX_OPTIONS + 4] = ":";
+    char shorts[2 * CLI_MAX_OPTIONS + 4] = {':', HELP_LETTER};
     int n = 0;
     for (; command->options[n].name; n++) {
         const cli_option *o = &command->options[n];
@@ -80,8 +81,8 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
     opterr = 0;
     optind = 0; /* glibc: afresh, even when a parse before stopped in the middle of a word */
     for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
-        if (code == HELP) {
-            print_help(command);
+        if (code == HELP || code == HELP_LETTER) {
+            cli_print_help(command);
             return CLI_YES;
         }
         if (code == '?' || code == ':') {

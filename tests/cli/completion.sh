@@ -100,6 +100,8 @@ list ^ patterns measures scenes integrators filters uses adaptive warps paramete
 list patterns ^
 completion ^ bash zsh fish
 manual scen^ scene
+help scen^ scene
+help -^ -h --help
 version ^
 END
 sort_words() { awk '{ at = index($0, "^"); n = split(substr($0, at + 1), w, " "); printf "%s", substr($0, 1, at)

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <stdio.h>
+#include <string.h>
+
+#include "options.h"
+
+void cli_print_overview(FILE *stream)
+{
+    const cli_command *command;
+    fputs("koksma: sampling patterns for ray tracing, how irregular they are, and the error that they leave\n\n"
+          "usage: koksma COMMAND [OPTION]... [OPERAND]...\n\n",
+          stream);
+    for (size_t i = 0; (command = cli_command_at(i)); i++) {
+        fprintf(stream, "  %-10s %s\n", command->name, command->summary);
+    }
+    fputs("\n'koksma COMMAND --help' says more. Exit codes: 0 done; 1 it ran and the answer is no; 2 the command "
+          "line is\n"
+          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, what was done is "
+          "kept.\n",
+          stream);
+}
+
+static int run(const cli_arguments *arguments)
+{
+    if (arguments->n_operands > 1) {
+        return cli_usage_error(arguments, "it takes the name of one command, or nothing for what all of them do");
+    }
+    if (arguments->n_operands == 0) {
+        cli_print_overview(stdout);
+        return CLI_YES;
+    }
+    const cli_command *command = cli_command_find(arguments->operands[0]);
+    if (!command) {
+        return cli_usage_error(arguments, "no command '%s'; 'koksma --help' names them", arguments->operands[0]);
+    }
+    cli_print_help(command);
+    return CLI_YES;
+}
+
+static const cli_option options[] = {{0}};
+
+const cli_command cli_command_help = {
+    .name = "help",
+    .summary = "what the commands do, or all about one of them",
+    .synopsis = "[COMMAND]",
+    .details = "The same as koksma --help, and koksma COMMAND --help or -h.",
+    .options = options,
+    .run = run,
+};
