@@ -22,7 +22,7 @@ export const claims = [
   ["fraction", "On the torus no two points are closer than f times the densest packing's distance."],
   ["maximal", "No point can be added without coming closer than the smallest distance."],
   ["lattice", "The differences of the points are a group on the torus."],
-  ["blue", "From 100 points: the smallest distance is above half of the densest packing's."],
+  ["blue", "From 4 points, of a sequence 64: the smallest distance is above half of the densest packing's."],
   ["latin-prefixes", "The first bᵐ points are Latin in coordinate k, b being the k-th prime."],
   ["independent", "The points are random and independent of each other."],
 ];

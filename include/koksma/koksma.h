@@ -185,8 +185,8 @@ enum {
     KOKSMA_CLAIM_MAXIMAL = 1u << 16,       /* 2D: no place of the torus is further from all points than their smallest
                                               distance: no point can be added */
     KOKSMA_CLAIM_LATTICE = 1u << 17,       /* the differences of the points are a group on the torus */
-    KOKSMA_CLAIM_BLUE = 1u << 18,          /* 2D, 100 points or more: the smallest distance on the torus is above half
-                                              of the densest packing's */
+    KOKSMA_CLAIM_BLUE = 1u << 18,          /* 2D, 4 points or more, of a sequence 64: the smallest distance on the
+                                              torus is above half of the densest packing's */
     KOKSMA_CLAIM_LATIN_PREFIXES = 1u << 19, /* the first b^m points have one point in each [j/b^m, (j+1)/b^m) of
                                                coordinate k, b being the k-th prime */
     KOKSMA_CLAIM_INDEPENDENT = 1u << 20     /* the points are random and independent of each other */

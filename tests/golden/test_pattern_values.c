@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Known discrepancies of patterns: Mitchell's (1992) table rows to all printed digits, and values of exact algorithms
    that were checked independently, to 1e-9. */
+#include <koksma/verify.h>
+
 #include "test.h"
 
 typedef struct row {
@@ -137,6 +139,25 @@ static void mean_squares_are_known(void **state)
     }
 }
 
+/* Two and five points on the torus are a square lattice at best (Dickinson et al. 2011), and these forces find it. */
+static void few_points_repel_each_other_all_around(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n;
+        double square;
+    } best[] = {{2, 0.5}, {5, 0.2}};
+    for (int i = 0; i < 2; i++) {
+        for (uint64_t seed = 0; seed < 5; seed++) {
+            koksma_points points = test_points("gaussian-blue-noise", best[i].n, 2, seed);
+            double distance;
+            assert_ok(koksma_smallest_distance(&points, true, NULL, &distance));
+            assert_near(distance, sqrt(best[i].square), 1e-3);
+            koksma_points_fini(&points);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,6 +165,7 @@ int main(void)
         cmocka_unit_test(zaremba_has_mitchells_numbers),
         cmocka_unit_test(first_points),
         cmocka_unit_test(mean_squares_are_known),
+        cmocka_unit_test(few_points_repel_each_other_all_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
