@@ -2,9 +2,11 @@
 /*
  * larcher-pillichshammer: a digital (0,m,2)-net in base 2 with a lower discrepancy than Hammersley's.
  *
- *     x = i / n,   y = the sum modulo 2 of 2^-(b+1) + 2^-(b+2) + … over the set bits b of i (32 bits)
+ *     x = i / n,   y = the sum modulo 2, digit by digit, of 2^-1 + 2^-2 + … + 2^-(b+1) over the set bits b of i
  *
- * Source: Larcher & Pillichshammer 2001; the generator in the form of Kollig & Keller 2002.
+ * The matrix of y has ones on and above its diagonal. Source: Larcher & Pillichshammer 2001; the generator in the
+ * form of Kollig & Keller 2002. Known exactly, n = 16: D* = 0.140625; n = 1024: 3.41796875 / n. For n = 2^m, n D*
+ * grows like m / 5 (Larcher & Pillichshammer 2003), Hammersley's like m / 3.
  */
 #include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
@@ -19,7 +21,7 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
     }
     uint32_t directions[32], v[KOKSMA__COLUMN_BLOCK], start = 0;
     for (int b = 0; b < 32; b++) {
-        directions[b] = 0xffffffffu >> b;
+        directions[b] = 0xffffffffu << (31 - b);
         start ^= first >> b & 1 ? directions[b] : 0;
     }
     koksma__kernels()->digital(count, directions, start, v);
@@ -36,7 +38,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .name = "larcher-pillichshammer",
     .title = "a digital net that beats Hammersley's",
-    .cite = "larcher2001 kollig2002",
+    .cite = "larcher2001 larcher2003 kollig2002",
     .min_dim = 2,
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,

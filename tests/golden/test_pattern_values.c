@@ -42,6 +42,11 @@ static const row rows[] = {
     {"zaremba", 256, 2, 0.010986328, 0.002550635},
     {"zaremba", 1024, 2, 0.003138224, 0.000675254},
     {"zaremba", 4096, 2, 0.000882149, 0.000177757},
+    {"larcher-pillichshammer", 16, 2, 0.140625000, 0.047945583},
+    {"larcher-pillichshammer", 64, 2, 0.041015625, 0.012391156},
+    {"larcher-pillichshammer", 256, 2, 0.011901855, 0.003216577},
+    {"larcher-pillichshammer", 1024, 2, 0.003337860, 0.000834039},
+    {"larcher-pillichshammer", 4096, 2, 0.000939131, 0.000215800},
     {"fibonacci", 13, 2, 0.165680473, 0.065208186},
     {"fibonacci", 55, 2, 0.044958678, 0.015151575},
     {"fibonacci", 233, 2, 0.012930796, 0.003963653},
@@ -139,6 +144,27 @@ static void mean_squares_are_known(void **state)
     }
 }
 
+/* The points of Kollig & Keller's function, and n D* = m / 5 + O(1) for n = 2^m: 1.30 to 1.45 more up to m = 13. */
+static void larcher_pillichshammers_net(void **state)
+{
+    (void)state;
+    for (uint32_t m = 1; m <= 13; m++) {
+        const size_t n = (size_t)1 << m;
+        koksma_points points = test_points("larcher-pillichshammer", n, 2, 0);
+        for (uint32_t i = 0; i < n; i++) {
+            uint32_t y = 0, v = 1u << 31;
+            for (uint32_t rest = i; rest; rest >>= 1, v |= v >> 1) {
+                y ^= rest & 1 ? v : 0;
+            }
+            assert_near(points.xs[2 * i], i / (double)n, 0);
+            assert_near(points.xs[2 * i + 1], y * 0x1p-32, 0);
+        }
+        const double more = (double)n * test_measure("star", &points).value - m / 5.0;
+        assert_true(more > 1.29 && more < 1.46);
+        koksma_points_fini(&points);
+    }
+}
+
 /* Two and five points on the torus are a square lattice at best (Dickinson et al. 2011), and these forces find it. */
 static void few_points_repel_each_other_all_around(void **state)
 {
@@ -165,6 +191,7 @@ int main(void)
         cmocka_unit_test(zaremba_has_mitchells_numbers),
         cmocka_unit_test(first_points),
         cmocka_unit_test(mean_squares_are_known),
+        cmocka_unit_test(larcher_pillichshammers_net),
         cmocka_unit_test(few_points_repel_each_other_all_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
