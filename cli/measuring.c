@@ -105,7 +105,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     cli_row_number(j->rows, "min", NAN);
     cli_row_number(j->rows, "max", NAN);
     cli_row_number(j->rows, "standard_error", line.slope_error);
-    put_tail(j, NAN, NAN, NAN, known ? -koksma_rate(parts.spec.pattern, m, dim) : (double)NAN,
+    put_tail(j, NAN, NAN, NAN, known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
              j->warp ? (double)NAN : -koksma_best_rate(m, dim));
 }
 

@@ -252,7 +252,7 @@ static int add_convergence(plot_job *j, const koksma_spec *measure, const char *
     push_curve(s, count, colour, label);
     s->curves[s->n - 1].marks = true;
     if (fitted) {
-        const double rate = source.is_pattern ? koksma_rate(source.spec.pattern, measure->measure, dim) : (double)NAN;
+        const double rate = source.is_pattern ? koksma_rate(&source.spec, measure->measure, dim) : (double)NAN;
         const bool known = isfinite(rate);
         push_slopes(s, &line, known ? rate : koksma_best_rate(measure->measure, dim),
                     known ? "theory, without logarithms" : "no points are faster, logarithms aside");

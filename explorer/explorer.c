@@ -286,7 +286,7 @@ const char *explorer_line(uint32_t n, int dim)
     put(",");
     put_value("intercept", fits ? line.intercept : (double)NAN);
     put(",");
-    put_value("theory", -koksma_rate(pattern.pattern, measure.measure, dim));
+    put_value("theory", -koksma_rate(&pattern, measure.measure, dim));
     put(",");
     put_value("best", -koksma_best_rate(measure.measure, dim));
     put("}");

@@ -51,9 +51,9 @@ KOKSMA_API koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, co
                                                   const size_t *sizes, size_t n_sizes, const koksma_run *run,
                                                   koksma_value *values);
 
-/* The exponent a of the measure's decay n^-a for a pattern in dim dimensions, powers of log n left out, where a
-   theorem covers what the pattern claims; else NaN. */
-KOKSMA_API double koksma_rate(const koksma_pattern *pattern, const koksma_measure *measure, int dim);
+/* The exponent a of the measure's decay n^-a for a pattern with its parameters in dim dimensions, powers of log n
+   left out, where a theorem covers what the pattern claims; else NaN. */
+KOKSMA_API double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim);
 
 /* The largest exponent that any points can have, powers of log n left out; NaN where none is known. */
 KOKSMA_API double koksma_best_rate(const koksma_measure *measure, int dim);

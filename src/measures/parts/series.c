@@ -7,12 +7,15 @@
  *   points that are independent                         1/2: the sum of n independent terms
  *   also one uniform in each cell of a cubic grid       1/2 + 1/(2 dim): only the cells that a border cuts have any
  *                                                       variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
- *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly
+ *   and with a given number of columns                  1/2: a border cuts a fixed share of the cells
+ *   centres of a cubic grid, or near them, for boxes    1/dim: a side can cut a whole layer of cells unfairly; none
+ *                                                       with a given number of columns, whose layers do not shrink
  *   Latin sets without more, unbiased                   1/2: the variance that is left beside the main effects
  *                                                       (Stein 1987)
  *   nets, and Halton's sequence, for boxes              1 (Niederreiter 1992)
  */
 #include <math.h>
+#include <string.h>
 
 #include <koksma/series.h>
 
@@ -32,9 +35,21 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     return status;
 }
 
-double koksma_rate(const koksma_pattern *pattern, const koksma_measure *measure, int dim)
+/* Whether the cells grow longer and longer with n: as many columns for every n. */
+static bool columns_are_given(const koksma_spec *spec)
 {
-    const unsigned claims = pattern->claims;
+    for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {
+        if (!strcmp(spec->pattern->params[k].name, "columns") && spec->params[k] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim)
+{
+    const bool narrow = columns_are_given(pattern);
+    const unsigned claims = pattern->pattern->claims & ~(narrow ? KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_GRID : 0u);
     const unsigned more = KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_LATTICE;
     const unsigned nets = KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_NET_PREFIXES;
     const bool boxes = measure->family == KOKSMA_FAMILY_BOXES, unbiased = claims & KOKSMA_CLAIM_UNBIASED;
