@@ -29,8 +29,8 @@ extern "C" {
    origin-repeated
        value: points at the origin. Holds when at most 1
    origin-missing
-       value: points at the origin. Holds unless all points lie on a grid of 2^-m with 2^m > n, as an unscrambled
-       sequence does, and none is the origin
+       value: points at the origin. Holds unless each coordinate has different multiples of 2^-m, 2^m > n, none of
+       them 0 nor all odd: an unscrambled sequence has these after its first point
    rounds-to-one
        value: coordinates that become 1 as a float. Holds when 0
    progressive

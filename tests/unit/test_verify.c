@@ -228,9 +228,31 @@ static void the_origin(void **state)
     assert_near(one(&p, "origin-repeated", "-").value, 2, 0);
     assert_false(one(&p, "origin-repeated", "-").holds);
     koksma_points_fini(&p);
-    p = test_points("random", 64, 2, 0);
-    assert_true(one(&p, "origin-missing", "-").holds);
-    koksma_points_fini(&p);
+    static const struct {
+        const char *pattern;
+        size_t n;
+        int dim;
+    } whole[] = {{"random", 64, 2},
+                 {"regular", 1, 2},
+                 {"regular", 16, 2},
+                 {"regular", 64, 3},
+                 {"regular", 64, 1},
+                 {"hammersley:offset=0.5", 16, 2},
+                 {"void-and-cluster", 256, 2},
+                 {"hammersley", 64, 3},
+                 {"void-and-cluster:size=4", 4, 2}};
+    for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) {
+        p = test_points(whole[i].pattern, whole[i].n, whole[i].dim, 0);
+        assert_true(one(&p, "origin-missing", "-").holds);
+        koksma_points_fini(&p);
+    }
+    static const size_t sizes[] = {2, 3, 63, 100};
+    for (size_t i = 0; i < 4; i++) {
+        p = test_points("sobol", sizes[i] + 1, 4, 0);
+        skipped = (koksma_points){sizes[i], 4, p.xs + 4};
+        assert_false(one(&skipped, "origin-missing", "-").holds);
+        koksma_points_fini(&p);
+    }
 }
 
 static void a_coordinate_that_rounds_to_one(void **state)

@@ -108,22 +108,34 @@ static size_t at_origin(const koksma_points *points)
     return count;
 }
 
-static bool on_dyadic_grid(const koksma_points *points)
+/* Points 1 .. n of a sequence like Sobol's: in each coordinate different multiples of 2^-m, 2^m > n, none of them 0.
+   Grids share coordinates, and those of centres are odd multiples all. `seen` has room for a bit each. */
+static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 {
-    double cells = 1;
-    while (cells <= (double)points->n) {
+    size_t cells = 1;
+    while (cells <= points->n) {
         cells *= 2;
     }
-    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
-        const double place = points->xs[i] * cells;
-        if (place != floor(place)) {
+    for (int k = 0; k < points->dim; k++) {
+        bool odd = true;
+        memset(seen, 0, (cells / 32 + 1) * sizeof *seen);
+        for (size_t i = 0; i < points->n; i++) {
+            const double place = points->xs[i * (size_t)points->dim + (size_t)k] * (double)cells;
+            const size_t cell = (size_t)place;
+            if (place != (double)cell || cell == 0 || seen[cell / 32] >> cell % 32 & 1) {
+                return false;
+            }
+            seen[cell / 32] |= 1u << cell % 32;
+            odd = odd && cell % 2;
+        }
+        if (odd) {
             return false;
         }
     }
     return true;
 }
 
-static koksma_status verify_origin(const koksma_points *points, koksma_findings *findings)
+static koksma_status verify_origin(const koksma_points *points, uint32_t *counts, koksma_findings *findings)
 {
     const size_t count = at_origin(points);
     koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_REPEATED);
@@ -137,10 +149,10 @@ static koksma_status verify_origin(const koksma_points *points, koksma_findings 
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
-    f->holds = count > 0 || !on_dyadic_grid(points);
+    f->holds = count > 0 || !is_sequence_from_one(points, counts);
     if (!f->holds) {
         snprintf(f->detail, sizeof f->detail,
-                 "all points lie on a dyadic grid: an unscrambled sequence without its first");
+                 "different multiples of 2^-m in each coordinate: an unscrambled sequence without its first");
     }
     return KOKSMA_OK;
 }
@@ -223,13 +235,13 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
     if (!status) {
         status = koksma__verify_strata(points, counts, findings);
     }
-    free(counts);
     if (!status) {
         status = koksma__verify_distances(points, run, findings);
     }
     if (!status) {
-        status = verify_origin(points, findings);
+        status = verify_origin(points, counts, findings);
     }
+    free(counts);
     if (!status) {
         status = verify_floats(points, findings);
     }
