@@ -19,7 +19,7 @@ enum { MAX_DIM = 8 };
 /* The square of the distance to the nearest of the points, or any value at most `enough`. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
 {
-    double best = 1;
+    double best = INFINITY; /* squares go up to dim / 4 */
     for (size_t i = 0; i < placed && best > enough; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {

@@ -3,6 +3,9 @@
    that were checked independently, to 1e-9. */
 #include <koksma/verify.h>
 
+#include <string.h>
+
+#include "core/random.h"
 #include "test.h"
 
 typedef struct row {
@@ -165,6 +168,41 @@ static void larcher_pillichshammers_net(void **state)
     }
 }
 
+/* In eight dimensions squares of distances go up to 2. */
+static void the_furthest_candidate_is_taken(void **state)
+{
+    (void)state;
+    enum { DIM = 8, N = 4 };
+    for (uint64_t seed = 0; seed < 5; seed++) {
+        koksma_points points = test_points("best-candidate:candidates=100", N, DIM, seed);
+        for (size_t k = 1; k < N; k++) {
+            double furthest = -1, best[DIM];
+            for (size_t c = 0; c < 100 * k + 1; c++) {
+                double x[DIM], nearest = INFINITY;
+                for (uint32_t j = 0; j < DIM / 2; j++) {
+                    koksma__random_pair(seed, KOKSMA__PURPOSE_DART, (uint64_t)k << 24 | c, j, x + 2 * j);
+                }
+                for (size_t i = 0; i < k; i++) {
+                    double square = 0;
+                    for (size_t j = 0; j < DIM; j++) {
+                        const double t = fabs(x[j] - points.xs[i * DIM + j]);
+                        square += fmin(t, 1 - t) * fmin(t, 1 - t);
+                    }
+                    nearest = fmin(nearest, square);
+                }
+                if (nearest > furthest) {
+                    furthest = nearest;
+                    memcpy(best, x, sizeof best);
+                }
+            }
+            for (size_t j = 0; j < DIM; j++) {
+                assert_near(points.xs[k * DIM + j], best[j], 0);
+            }
+        }
+        koksma_points_fini(&points);
+    }
+}
+
 /* Two and five points on the torus are a square lattice at best (Dickinson et al. 2011), and these forces find it. */
 static void few_points_repel_each_other_all_around(void **state)
 {
@@ -192,6 +230,7 @@ int main(void)
         cmocka_unit_test(first_points),
         cmocka_unit_test(mean_squares_are_known),
         cmocka_unit_test(larcher_pillichshammers_net),
+        cmocka_unit_test(the_furthest_candidate_is_taken),
         cmocka_unit_test(few_points_repel_each_other_all_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
