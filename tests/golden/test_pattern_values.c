@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/random.h"
+#include "patterns/parts/radical.h"
 #include "test.h"
 
 typedef struct row {
@@ -168,6 +169,27 @@ static void larcher_pillichshammers_net(void **state)
     }
 }
 
+static uint32_t mirrored(const void *context, uint32_t base, int j, uint32_t a)
+{
+    (void)context, (void)j;
+    return base - 1 - a;
+}
+
+/* The digits of 0 become base - 1 without end, whose value is 1; the largest that is below 1 stands for it. */
+static void mapped_radicals_stay_below_one(void **state)
+{
+    (void)state;
+    enum { BASES = 1111 };
+    koksma__radicals r;
+    assert_ok(koksma__radicals_init(&r, BASES, 3, mirrored, NULL));
+    for (int k = 0; k < BASES; k++) {
+        double xs[3];
+        koksma__radical_column(&r.columns[k], 0, 3, xs);
+        assert_true(xs[0] < 1 && xs[0] > 1 - 0x1p-36 && xs[1] < xs[0] && xs[1] > 0 && xs[2] < xs[0] && xs[2] > 0);
+    }
+    koksma__radicals_fini(&r);
+}
+
 /* In eight dimensions squares of distances go up to 2. */
 static void the_furthest_candidate_is_taken(void **state)
 {
@@ -231,6 +253,7 @@ int main(void)
         cmocka_unit_test(mean_squares_are_known),
         cmocka_unit_test(larcher_pillichshammers_net),
         cmocka_unit_test(the_furthest_candidate_is_taken),
+        cmocka_unit_test(mapped_radicals_stay_below_one),
         cmocka_unit_test(few_points_repel_each_other_all_around),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,7 +3,8 @@
  * Owen's nested scrambling of radical inverses, exact, without looking at a digit twice (Helmer, Christensen &
  * Kensler 2021). Point r < b^j and its relatives r + d b^j, 0 < d < b, agree in the first j output digits. The digit
  * at place j of r is known from its random fraction; those of its relatives are drawn from the other b - 1 without
- * replacement, and what lies below is uniform. A value is a whole number of b^-M, with b^M just below 2^53.
+ * replacement, and what lies below is uniform. A value is a whole number of b^-M, with b^M just below 2^53; in base
+ * 2, of 2^-32.
  *
  * The columns but the first lie in the points' own memory: a block of points holds its coordinates one
  * column after the other, until they become rows. A number is two random words before it has a value.

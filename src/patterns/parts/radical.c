@@ -71,8 +71,9 @@ static void fill_table(koksma__radical *r)
         place /= r->base;
         r->tail += place * digit_of(r, j, 0);
     }
-    const double grid = exp2(floor(52 - log2(r->whole))); /* every sum of numerators and tail is exact */
-    r->tail = floor(r->tail * grid + 0.5) / grid;
+    /* Every sum of numerators and tail is exact, and the tail below 1, so that values are, too. */
+    const double grid = exp2(floor(52 - log2(r->whole)));
+    r->tail = fmin(floor(r->tail * grid + 0.5), grid - 1) / grid;
 }
 
 koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, koksma__digit digit,
