@@ -6,7 +6,9 @@
  *     x = (c + (p(j) + u) / r) / m,   y = (j + (q(c) + v) / m) / r,   (c, j) = the cell of the permuted index
  *
  * Source: Kensler 2013; the permutation is that of koksma/sampler.h. columns=0 takes the divisor of n nearest to its
- * root from below.
+ * root from below. Up to 8 rows or columns, or 8 points, the permutations are not quite uniform: places of
+ * two elements are 0.4 to 1.6 % off (root mean square over the pairs; 7 % at most, with 6), those of one by 0.4 %
+ * with 3 and by 0.1 % with 5 to 7.
  */
 #include <koksma/sampler.h>
 

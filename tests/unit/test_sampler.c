@@ -132,6 +132,36 @@ static void permutations_are_permutations(void **state)
     }
 }
 
+/* Over keys, the places of two elements are nearly uniform: what is above the noise is below 2 % for few elements. */
+static void pairs_of_places_are_nearly_uniform(void **state)
+{
+    (void)state;
+    enum { KEYS = 100000, MOST = 9 };
+    for (uint32_t n = 3; n <= MOST; n++) {
+        static int counts[MOST][MOST][MOST][MOST];
+        memset(counts, 0, sizeof counts);
+        for (uint32_t key = 0; key < KEYS; key++) {
+            const koksma__words w = koksma__random(key, KOKSMA__PURPOSE_TEST, 1, n);
+            uint32_t place[MOST];
+            for (uint32_t i = 0; i < n; i++) {
+                place[i] = koksma_permute(i, n, (uint64_t)w.w[0] << 32 | w.w[1]);
+            }
+            for (uint32_t i = 0; i < n * n; i++) {
+                counts[i / n][i % n][place[i / n]][place[i % n]]++;
+            }
+        }
+        const double pairs = n * (n - 1.0), expected = KEYS / pairs;
+        double square = 0;
+        for (uint32_t i = 0; i < n * n * n * n; i++) {
+            const uint32_t a = i % n, b = i / n % n, c = i / n / n % n, d = i / n / n / n;
+            const double off = a != b && c != d ? counts[a][b][c][d] / expected - 1 : 0;
+            square += off * off / (pairs * pairs);
+        }
+        const double above_noise = square - 1 / expected;
+        assert_true(above_noise < (n < 9 ? 0.02 * 0.02 : 0.005 * 0.005));
+    }
+}
+
 static void floats_stay_below_one(void **state)
 {
     (void)state;
@@ -202,7 +232,7 @@ int main(void)
         cmocka_unit_test(words_are_the_librarys),    cmocka_unit_test(samples_are_the_librarys),
         cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
         cmocka_unit_test(all_arguments_serve),       cmocka_unit_test(floats_stay_below_one),
-        cmocka_unit_test(masks_are_permutations),
+        cmocka_unit_test(masks_are_permutations),    cmocka_unit_test(pairs_of_places_are_nearly_uniform),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
