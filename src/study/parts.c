@@ -115,18 +115,16 @@ koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, 
 {
     const koksma__reference_image *r = &parts->study->references[part->reference];
     koksma__replicates *all = &parts->sums[part->reference];
-    const size_t row = from->count / (size_t)part->rows, first = (size_t)part->first_row * row;
-    if (!all->sum) {
-        all->count = row * (size_t)r->height;
-        all->sum = calloc(2 * all->count, sizeof *all->sum);
-        if (!all->sum) {
-            return koksma__fail_memory(2 * all->count * sizeof *all->sum);
-        }
-        all->squares = all->sum + all->count;
-        all->n = r->reference->replicates;
+    const size_t width = from->pixels / (size_t)part->rows, first = (size_t)part->first_row * width;
+    const koksma_status status =
+        all->sum ? KOKSMA_OK : koksma__replicates_init(all, width * (size_t)r->height, from->channels);
+    if (status) {
+        return status;
     }
-    memcpy(all->sum + first, from->sum, from->count * sizeof *from->sum);
-    memcpy(all->squares + first, from->squares, from->count * sizeof *from->sum);
+    all->n = r->reference->replicates;
+    memcpy(all->sum + first * from->channels, from->sum, from->pixels * from->channels * sizeof *from->sum);
+    memcpy(all->luminance + first, from->luminance, from->pixels * sizeof *from->sum);
+    memcpy(all->squares + first, from->squares, from->pixels * sizeof *from->sum);
     parts->rows_left[part->reference] -= part->rows;
     *complete = parts->rows_left[part->reference] == 0;
     return KOKSMA_OK;

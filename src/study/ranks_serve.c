@@ -132,16 +132,18 @@ static void receive_part(server *s, unsigned char *message, size_t bytes)
         return;
     }
     memcpy(&part, message, sizeof part);
-    const size_t i = koksma__ledger_part(&s->ledger, &part), count = (bytes - sizeof part) / (2 * sizeof(double));
-    double *sum = malloc(bytes - sizeof part);
-    if (!sum) {
+    const size_t i = koksma__ledger_part(&s->ledger, &part);
+    double *numbers = malloc(bytes - sizeof part);
+    if (!numbers) {
         koksma__ledger_stop(&s->ledger, KOKSMA_MEMORY, "out of memory for a part of a reference");
     } else if (i < s->ledger.parts.n) {
-        memcpy(sum, message + sizeof part, bytes - sizeof part);
-        koksma__ledger_put_part(&s->ledger, i,
-                                &(koksma__replicates){.sum = sum, .squares = sum + count, .count = count});
+        const int width = s->pool->tasks->study->references[part.reference].width;
+        memcpy(numbers, message + sizeof part, bytes - sizeof part);
+        const koksma__replicates sums = koksma__replicates_over(numbers, (bytes - sizeof part) / sizeof *numbers,
+                                                                (size_t)width * (size_t)part.rows);
+        koksma__ledger_put_part(&s->ledger, i, &sums);
     }
-    free(sum);
+    free(numbers);
 }
 
 static void receive_work(server *s, int from, int tag, size_t bytes)

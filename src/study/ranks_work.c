@@ -118,7 +118,7 @@ static koksma_status do_part(worker *w, const koksma__part *part)
     koksma__replicates sums = {0};
     const double start_s = koksma__now_s();
     koksma_status status = koksma__part_do(w->study, part, w->job, &sums);
-    const size_t bytes = 2 * sums.count * sizeof *sums.sum;
+    const size_t bytes = koksma__replicates_numbers(&sums) * sizeof *sums.sum;
     unsigned char *message = status ? NULL : malloc(sizeof *part + bytes);
     if (!status && !message) {
         status = koksma__fail_memory(sizeof *part + bytes);

@@ -2,9 +2,10 @@
 /*
  * Reference images. The paper took 400 jittered samples; a reference whose own error is not far below the errors that
  * are measured against it hides or adds error, so a plan may ask for the mean of many independent renders. Their
- * spread gives the reference's own expected absolute error: for k replicates with the sample deviation s at a pixel,
- * a normal error of deviation s / sqrt k has the mean absolute value sqrt(2/pi) s / sqrt k; the mean of that over the
- * pixels is kept.
+ * spread gives the reference's own expected absolute error, of luminance as all errors of images (image/compare.c):
+ * for k replicates with the sample deviation s of a pixel's luminance, a normal error of deviation s / sqrt k has the
+ * mean absolute value sqrt(2/pi) s / sqrt k; the mean of that over the pixels is kept. Deviations are updated
+ * replicate by replicate (Welford 1962), so that equal replicates have none.
  */
 #include <errno.h>
 #include <math.h>
@@ -17,6 +18,7 @@
 #include "core/c_locale.h"
 #include "core/hash.h"
 #include "core/status.h"
+#include "image/formats.h"
 #include "render/rows.h"
 #include "study/point_files.h"
 #include "study/study.h"
@@ -139,22 +141,48 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
     return status ? status : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, run, out);
 }
 
+size_t koksma__replicates_numbers(const koksma__replicates *s)
+{
+    return s->pixels * (s->channels + 2);
+}
+
+koksma__replicates koksma__replicates_over(double *numbers, size_t n, size_t pixels)
+{
+    double *luminance = numbers + (n - 2 * pixels);
+    return (koksma__replicates){.sum = numbers,
+                                .luminance = luminance,
+                                .squares = luminance + pixels,
+                                .pixels = pixels,
+                                .channels = n / pixels - 2};
+}
+
+koksma_status koksma__replicates_init(koksma__replicates *s, size_t pixels, size_t channels)
+{
+    const size_t n = koksma__replicates_numbers(&(koksma__replicates){.pixels = pixels, .channels = channels});
+    double *zeros = calloc(n, sizeof *zeros);
+    if (!zeros) {
+        return koksma__fail_memory(n * sizeof *zeros);
+    }
+    *s = koksma__replicates_over(zeros, n, pixels);
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)
 {
-    if (!s->sum) {
-        s->count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-        s->sum = calloc(2 * s->count, sizeof *s->sum);
-        if (!s->sum) {
-            return koksma__fail_memory(2 * s->count * sizeof *s->sum);
-        }
-        s->squares = s->sum + s->count;
-    }
-    for (size_t i = 0; i < s->count; i++) {
-        const double x = (double)image->pixels[i];
-        s->sum[i] += x;
-        s->squares[i] += x * x;
+    const size_t pixels = (size_t)image->width * (size_t)image->height;
+    const koksma_status status = s->sum ? KOKSMA_OK : koksma__replicates_init(s, pixels, (size_t)image->channels);
+    if (status) {
+        return status;
     }
     s->n++;
+    for (size_t i = 0; i < pixels * s->channels; i++) {
+        s->sum[i] += (double)image->pixels[i];
+    }
+    for (size_t p = 0; p < pixels; p++) {
+        const double y = koksma__luminance(image, p), off = y - s->luminance[p];
+        s->luminance[p] += off / (double)s->n;
+        s->squares[p] += off * (y - s->luminance[p]);
+    }
     return KOKSMA_OK;
 }
 
@@ -162,22 +190,20 @@ static double standard_error(const koksma__replicates *s)
 {
     const double k = (double)s->n;
     double total = 0;
-    for (size_t i = 0; i < s->count; i++) {
-        const double mean = s->sum[i] / k;
-        const double variance = fmax(s->squares[i] / k - mean * mean, 0) * k / (k - 1);
-        total += sqrt(2 / M_PI * variance / k);
+    for (size_t p = 0; p < s->pixels; p++) {
+        total += sqrt(2 / M_PI * s->squares[p] / (k - 1) / k);
     }
-    return s->n < 2 ? (double)NAN : total / (double)s->count;
+    return s->n < 2 ? (double)NAN : total / (double)s->pixels;
 }
 
-/* The file's name holds all that the picture depends on. */
+/* The file's name holds all that the picture and its own error depend on: of luminance since there are such names. */
 void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
                             size_t size)
 {
     char name[KOKSMA__REFERENCE_NAME], hash[KOKSMA__HASH_TEXT];
     koksma__reference_name(reference->reference, name);
     koksma__hash_with_points(NULL, reference->scene->hash, name, hash);
-    const uint64_t key = koksma__job_seed("%s|%s|%s|%s|%dx%d|%s", reference->scene->name, hash, name,
+    const uint64_t key = koksma__job_seed("luminance|%s|%s|%s|%s|%dx%d|%s", reference->scene->name, hash, name,
                                           reference->options, reference->width, reference->height, koksma_version());
     snprintf(path, size, "%s/references/%016llx.exr", study->folder, (unsigned long long)key);
 }
@@ -193,9 +219,8 @@ bool koksma__reference_exists(const koksma_study *study, const koksma__reference
 koksma_status koksma__replicates_mean(const koksma__replicates *s, int width, int height, koksma_image *out,
                                       double *error)
 {
-    const int channels = (int)(s->count / ((size_t)width * (size_t)height));
-    const koksma_status status = koksma_image_init(out, width, height, channels);
-    for (size_t i = 0; !status && i < s->count; i++) {
+    const koksma_status status = koksma_image_init(out, width, height, (int)s->channels);
+    for (size_t i = 0; !status && i < s->pixels * s->channels; i++) {
         out->pixels[i] = (float)(s->sum[i] / (double)s->n);
     }
     *error = standard_error(s);

@@ -10,6 +10,7 @@
 #include "study/plan.h"
 #include "study/statistics.h"
 #include "study/store.h"
+#include "study/study.h"
 #include "test.h"
 
 static void summary_by_hand(void **state)
@@ -207,6 +208,36 @@ static void store_keeps_many_rows(void **state)
     rmdir(folder);
 }
 
+/* Errors of images are of luminance, and so is a reference's own: of one channel its weight, of equal replicates 0.
+ */
+static void own_error_of_a_reference(void **state)
+{
+    (void)state;
+    static const double weights[] = {0.2126, 0.7152, 0.0722};
+    for (size_t c = 0; c < 4; c++) { /* 3: grey */
+        koksma__replicates s = {0};
+        koksma_image image, mean;
+        double error;
+        const size_t at = c % 3;
+        assert_ok(koksma_image_init(&image, 2, 1, c < 3 ? 3 : 1));
+        for (int k = 0; k < 4; k++) { /* pixel 0: 0.1 every time; pixel 1: 1, 2, 3, 4 */
+            image.pixels[at] = 0.1F;
+            image.pixels[(size_t)image.channels + at] = (float)(k + 1);
+            assert_ok(koksma__replicates_add(&s, &image));
+        }
+        assert_ok(koksma__replicates_mean(&s, 2, 1, &mean, &error));
+        assert_near(error, (c < 3 ? weights[c] : 1) * sqrt(2 / M_PI * (5.0 / 3) / 4) / 2, 1e-15);
+        assert_near((double)mean.pixels[(size_t)image.channels + at], 2.5, 0);
+        const size_t n = koksma__replicates_numbers(&s);
+        const koksma__replicates same = koksma__replicates_over(s.sum, n, 2);
+        assert_true(n == 2 * (s.channels + 2) && same.channels == s.channels && same.luminance == s.luminance);
+        assert_true(same.squares == s.squares && s.squares[0] == 0);
+        koksma_image_fini(&mean);
+        koksma_image_fini(&image);
+        free(s.sum);
+    }
+}
+
 static void study_without_folder(void **state)
 {
     (void)state;
@@ -246,15 +277,11 @@ static void rankings_have_eight_trials_or_more(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand),
-        cmocka_unit_test(student_table),
-        cmocka_unit_test(largest_of_blocks),
-        cmocka_unit_test(wrong_plans),
-        cmocka_unit_test(shipped_plans_parse),
-        cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows),
-        cmocka_unit_test(study_without_folder),
-        cmocka_unit_test(rankings_have_eight_trials_or_more),
+        cmocka_unit_test(summary_by_hand),       cmocka_unit_test(student_table),
+        cmocka_unit_test(largest_of_blocks),     cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(shipped_plans_parse),   cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(store_keeps_many_rows), cmocka_unit_test(own_error_of_a_reference),
+        cmocka_unit_test(study_without_folder),  cmocka_unit_test(rankings_have_eight_trials_or_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
