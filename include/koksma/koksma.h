@@ -269,6 +269,7 @@ struct koksma_measure {
     int min_dim, max_dim;
     const koksma_param *params; /* NULL: none */
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
+    bool larger_is_better; /* a distance; of all others smaller is more even */
 };
 
 KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);

@@ -185,7 +185,7 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
 
 def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None,
             threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Value:
-    """How uneven points in [0,1]^dim are; smaller is more even.
+    """How uneven points in [0,1]^dim are; smaller is more even (of distances larger is).
 
     measure: a spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all.
     warp: measures the points mapped to another domain, such as "concentric-disk".

@@ -31,4 +31,5 @@ const koksma_measure koksma__measure_min_distance = {
     .max_dim = 2,
     .params = params,
     .eval = eval,
+    .larger_is_better = true,
 };

@@ -33,4 +33,5 @@ const koksma_measure koksma__measure_relative_radius = {
     .max_dim = 2,
     .params = params,
     .eval = eval,
+    .larger_is_better = true,
 };

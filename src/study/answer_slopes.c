@@ -11,6 +11,7 @@
 
 #include "core/status.h"
 #include "study/answers.h"
+#include "study/slope_words.h"
 
 /* No pattern falls faster than n^power (log n)^logs in the plane. */
 static const struct {
@@ -22,17 +23,18 @@ static const struct {
     {"l2-disk", "Beck 1987", -0.75, 0},
 };
 
-/* The means of one pattern over the sizes, with room for all of them. */
+/* The means of one pattern over the sizes, with room for all of them: those above 0, and all. */
 typedef struct curve {
-    size_t n;
+    size_t n, zeros;
     double *x;
-    koksma__summary *y;
+    koksma__summary *y, *all;
 } curve;
 
 static koksma_status curve_init(curve *c, size_t room)
 {
-    *c = (curve){.x = calloc(room, sizeof *c->x), .y = calloc(room, sizeof *c->y)};
-    return c->x && c->y ? KOKSMA_OK : koksma__fail_memory(room * (sizeof *c->x + sizeof *c->y));
+    *c = (curve){.x = calloc(room, sizeof *c->x), .y = calloc(2 * room, sizeof *c->y)};
+    c->all = c->y ? c->y + room : NULL;
+    return c->x && c->y ? KOKSMA_OK : koksma__fail_memory(room * (sizeof *c->x + 2 * sizeof *c->y));
 }
 
 static void curve_fini(curve *c)
@@ -62,12 +64,14 @@ static koksma_status collect(koksma_study *study, const subject *s, const char *
 {
     koksma_status status = KOKSMA_OK;
     const koksma__wholes *n = sizes(s);
-    out->n = 0;
+    out->n = out->zeros = 0;
     for (size_t i = 0; !status && i < n->n; i++) {
-        koksma__summary mean;
+        koksma__summary mean = {0};
         status = s->image ? koksma__image_mean(study, s->image, s->scene, s->variant, pattern, n->at[i], NULL, &mean)
                           : koksma__discrepancy_mean(study, s->discrepancy, s->warp, pattern, n->at[i], s->measure,
                                                      NULL, &mean);
+        out->all[i] = mean;
+        out->zeros += !status && mean.n && mean.mean <= 0;
         if (!status && mean.n && mean.mean > 0) {
             out->x[out->n] = (double)n->at[i];
             out->y[out->n++] = mean;
@@ -118,6 +122,17 @@ static void plot_curve(koksma__chart_series *to, const curve *c, const char *lab
     }
 }
 
+static koksma__slope_sense sense_of(const subject *s)
+{
+    koksma_spec spec;
+    if (s->image || koksma_measure_spec(s->measure, &spec)) {
+        return KOKSMA__FALLS;
+    }
+    return spec.measure->larger_is_better               ? KOKSMA__LARGER
+           : spec.measure->family == KOKSMA_FAMILY_NONE ? KOKSMA__NO_SIZE
+                                                        : KOKSMA__FALLS;
+}
+
 static void name_subject(const subject *s, char *text, size_t size)
 {
     if (s->image) {
@@ -125,100 +140,6 @@ static void name_subject(const subject *s, char *text, size_t size)
     } else {
         snprintf(text, size, "%s%s%s", s->measure, s->warp[0] ? " through " : "", s->warp);
     }
-}
-
-/* The patterns that have a slope. */
-typedef struct standing {
-    size_t counted, best, tied, faster, off_line; /* tied: the best and those that are not told apart from it */
-} standing;
-
-static double half(const koksma__estimate *e)
-{
-    return e->high - e->value;
-}
-
-/* Not told apart: the interval of the difference of two slopes, as independent as their trials, has 0; or they are
-   equal; or one has no interval. */
-static bool are_tied(const koksma__estimate *a, const koksma__estimate *b)
-{
-    return !koksma__compare(a->value, b->value) || !(fabs(a->value - b->value) > hypot(half(a), half(b)));
-}
-
-static standing stand(const koksma__trend *trends, size_t n)
-{
-    standing s = {0};
-    for (size_t i = 0; i < n; i++) {
-        const koksma__estimate *e = &trends[i].slope, *best = &trends[s.best].slope;
-        if (!isnan(e->value)) {
-            s.best = isnan(best->value) || e->value < best->value ? i : s.best;
-            s.counted++;
-            s.faster += e->high < -0.5;
-            s.off_line += trends[i].off_line;
-        }
-    }
-    for (size_t i = 0; i < n; i++) {
-        s.tied += !isnan(trends[i].slope.value) && are_tied(&trends[i].slope, &trends[s.best].slope);
-    }
-    return s;
-}
-
-static void add_power(koksma__html *h, const koksma__estimate *e)
-{
-    koksma__html_add(h, "N<sup>%.3f</sup>", e->value);
-    if (!isnan(e->low) && e->low < e->high) {
-        koksma__html_add(h, " (%.3f to %.3f)", e->low, e->high);
-    }
-}
-
-/* The best and the others of its rank in their order, no more than 4 by name. */
-static void add_tied(koksma__html *h, const char *const *labels, const koksma__trend *trends, size_t n,
-                     const standing *s)
-{
-    enum { NAMED = 4 };
-    koksma__html_text(h, labels[s->best]);
-    koksma__html_add(h, " falls as ");
-    add_power(h, &trends[s->best].slope);
-    koksma__html_add(h, "; not told apart from it: ");
-    size_t named = 0;
-    for (size_t i = 0; i < n && named < NAMED; i++) {
-        const koksma__estimate *e = &trends[i].slope;
-        if (i != s->best && !isnan(e->value) && are_tied(e, &trends[s->best].slope)) {
-            koksma__html_add(h, named++ ? ", " : "");
-            koksma__html_text(h, labels[i]);
-            koksma__html_add(h, " as ");
-            add_power(h, e);
-        }
-    }
-    if (s->tied - 1 > named) {
-        koksma__html_add(h, ", and %zu more", s->tied - 1 - named);
-    }
-}
-
-/* The sentence: who falls fastest, who is better than random's n^-1/2. */
-static void add_sentence(koksma__html *h, const char *name, const char *const *labels, const koksma__trend *trends,
-                         size_t n)
-{
-    const standing s = stand(trends, n);
-    if (!s.counted) {
-        return;
-    }
-    koksma__html_add(h, "<p><strong>");
-    koksma__html_text(h, name);
-    koksma__html_add(h, ":</strong> ");
-    if (s.tied > 1) {
-        add_tied(h, labels, trends, n, &s);
-    } else {
-        koksma__html_text(h, labels[s.best]);
-        koksma__html_add(h, s.counted > 1 ? " falls fastest, as " : " falls as ");
-        add_power(h, &trends[s.best].slope);
-    }
-    koksma__html_add(h, "; %zu of %zu patterns are surely faster than the N<sup>&#8722;1/2</sup> of random samples",
-                     s.faster, s.counted);
-    if (s.off_line) {
-        koksma__html_add(h, "; in %zu of %zu the means lie on no line, and the slope is an average one", s.off_line,
-                         s.counted);
-    }
-    koksma__html_add(h, ".</p>\n");
 }
 
 static void add_heads(koksma__grid *g, const subject *s)
@@ -240,10 +161,9 @@ static void add_row(koksma__grid *g, const subject *s, const char *pattern, cons
     koksma__grid_text(g, pattern);
     koksma__grid_interval(g, trend->slope, 3);
     koksma__grid_text(g, trend->off_line ? "no" : "");
-    for (size_t i = 0, k = 0; i < sizes(s)->n; i++) {
-        const bool has = k < c->n && c->x[k] == (double)sizes(s)->at[i];
+    for (size_t i = 0; i < sizes(s)->n; i++) {
         const koksma__estimate none = {NAN, NAN, NAN};
-        koksma__grid_interval(g, has ? koksma__estimate_of(&c->y[k++]) : none, 3);
+        koksma__grid_interval(g, c->all[i].n ? koksma__estimate_of(&c->all[i]) : none, 3);
     }
 }
 
@@ -260,9 +180,9 @@ static void add_bound(koksma__grid *g, koksma__chart *chart, const char *who, co
     koksma__grid_interval(g, slope, 3);
 }
 
-/* All patterns' rows, slopes and curves. */
+/* All patterns' rows, slopes and curves, and how many means are 0. */
 static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subject *s, koksma__chart *chart,
-                              koksma__trend *trends)
+                              koksma__trend *trends, size_t *zeros)
 {
     curve c = {0}, bound = {0};
     const char *who = NULL;
@@ -273,6 +193,7 @@ static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subjec
         const char *pattern = patterns(s)->at[p];
         status = collect(study, s, pattern, &c);
         trends[p] = status ? (koksma__trend){{NAN, NAN, NAN}, false} : trend_of(&c);
+        zeros[p] = c.zeros;
         if (!status && p == 0 && (who = bound_of(s, &c, &bound))) {
             scale = c.y[0].mean / bound.y[0].mean / 4;
         }
@@ -308,17 +229,21 @@ static koksma_status add_subject(koksma_study *study, koksma__html *h, const cha
                            .series = calloc(KOKSMA__CHART_SERIES, sizeof *chart.series),
                            .left_out = n < KOKSMA__CHART_SERIES ? 0 : n - (KOKSMA__CHART_SERIES - 1)};
     koksma__trend *trends = calloc(n, sizeof *trends);
-    koksma_status status =
-        chart.series && trends ? KOKSMA_OK : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
+    size_t *zeros = calloc(n, sizeof *zeros);
+    koksma_status status = chart.series && trends && zeros
+                               ? KOKSMA_OK
+                               : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
     if (!status) {
         koksma__html rows = {0};
         koksma__grid grid;
         koksma__grid_open(&grid, &rows, file);
         add_heads(&grid, s);
-        status = add_rows(study, &grid, s, &chart, trends);
+        status = add_rows(study, &grid, s, &chart, trends, zeros);
         koksma__grid_close(&grid);
         if (!status) {
-            add_sentence(h, name, (const char *const *)patterns(s)->at, trends, n);
+            const koksma__slopes slopes = {
+                name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s)};
+            koksma__slopes_sentence(h, &slopes);
             koksma__html_add(h, "%s", rows.text ? rows.text : "");
             koksma__html_chart(h, &chart);
         }
@@ -327,6 +252,7 @@ static koksma_status add_subject(koksma_study *study, koksma__html *h, const cha
     }
     free(chart.series);
     free(trends);
+    free(zeros);
     return status;
 }
 

@@ -47,10 +47,19 @@ static void add_heads(koksma__grid *g, const columns *c)
     }
 }
 
-/* Patterns by their mean in the last column; means: room for them. */
+/* Whether the best of the last column is the largest. */
+static bool is_larger_better(const columns *c)
+{
+    koksma_spec spec;
+    return !c->image && !koksma_measure_spec(c->discrepancy->measures.at[(c->n - 1) / c->discrepancy->n.n], &spec) &&
+           spec.measure->larger_is_better;
+}
+
+/* Patterns by their mean in the last column, the best first; means: room for them. */
 static koksma_status order(koksma_study *study, const columns *c, const koksma__texts *patterns, double *means,
                            size_t *by)
 {
+    const double sign = is_larger_better(c) ? -1 : 1;
     for (size_t p = 0; p < patterns->n; p++) {
         koksma__summary mean;
         const koksma_status status = cell_of(study, c, patterns->at[p], c->n - 1, &mean);
@@ -58,7 +67,7 @@ static koksma_status order(koksma_study *study, const columns *c, const koksma__
             return status;
         }
         size_t at = p;
-        means[p] = isnan(mean.mean) ? (double)INFINITY : mean.mean;
+        means[p] = isnan(mean.mean) ? (double)INFINITY : sign * mean.mean;
         for (; at > 0 && means[by[at - 1]] > means[p]; at--) {
             by[at] = by[at - 1];
         }
