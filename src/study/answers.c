@@ -116,6 +116,15 @@ static const answer answers[KOKSMA__ASK_KINDS] = {
     [KOKSMA__ASK_TABLE] = koksma__answer_table,
 };
 
+/* What each kind takes. */
+static const char *const needs[KOKSMA__ASK_KINDS] = {
+    [KOKSMA__ASK_CORRELATION] = "4 patterns with points and images of one number, whose means differ",
+    [KOKSMA__ASK_SLOPES] = "a block of two sizes or more",
+    [KOKSMA__ASK_EQUAL] = "a block of images with 16 samples a pixel and another number of them",
+    [KOKSMA__ASK_OPTIONS] = "a block of images with two combinations of options, or of points with two warps",
+    [KOKSMA__ASK_TABLE] = "a block of points or of images",
+};
+
 static koksma_status topic_init(const koksma__plan *plan, const char *id, koksma__topic *topic)
 {
     *topic = (koksma__topic){.id = id,
@@ -166,7 +175,11 @@ static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__
         koksma__html_add(html, ">(%s) ", q->id);
         koksma__html_text(html, q->title);
         koksma__html_add(html, "</h3>\n");
+        const size_t heading = html->size;
         status = answers[q->kind](study, html, &topic);
+        if (html->size == heading) {
+            koksma__html_add(html, "<p>No answer: these blocks lack what it takes, %s.</p>\n", needs[q->kind]);
+        }
     }
     topic_fini(&topic);
     return status;
