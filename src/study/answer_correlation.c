@@ -36,12 +36,6 @@ static koksma_status correlate(const koksma__case *p, const koksma__pairs *found
                   : koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES, seed, NULL, tau);
 }
 
-/* An interval without width says nothing. */
-static koksma__estimate shown(koksma__estimate e)
-{
-    return e.low < e.high ? e : (koksma__estimate){e.value, NAN, NAN};
-}
-
 static koksma_status list_row(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     listing *l = context;
@@ -63,8 +57,9 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
     koksma__grid_number(l->grid, (double)p->spp, 7);
     koksma__grid_text(l->grid, p->of->label);
     koksma__grid_number(l->grid, (double)found.n, 7);
-    koksma__grid_interval(l->grid, shown(rho), 3);
-    koksma__grid_interval(l->grid, shown(tau), 3);
+    rho = koksma__rho_shown(&rho, found.n);
+    koksma__grid_interval(l->grid, rho, 3);
+    koksma__grid_interval(l->grid, koksma__rho_shown(&tau, found.n), 3);
     return koksma__rho_add(l->means, p->of->label, p->variant, &rho, draws, found.n);
 }
 

@@ -47,6 +47,12 @@ static koksma_status index_of_variant(koksma__rho_means *s, const char *variant,
     return KOKSMA_OK;
 }
 
+koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns)
+{
+    const bool says = n_patterns >= KOKSMA__LEAST_PAIRS && rho->low < rho->high;
+    return says ? *rho : (koksma__estimate){rho->value, NAN, NAN};
+}
+
 koksma_status koksma__rho_add(koksma__rho_means *s, const char *measure, const char *variant,
                               const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES], size_t n_patterns)
 {
@@ -60,6 +66,7 @@ koksma_status koksma__rho_add(koksma__rho_means *s, const char *measure, const c
     of->all++;
     of->sure += rho->low > 0 || rho->high < 0;
     of->few += n_patterns < KOKSMA__LEAST_PAIRS;
+    of->perfect += n_patterns >= KOKSMA__LEAST_PAIRS && isnan(rho->low);
     for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
         of->draws[i] += draws[i];
     }
@@ -117,6 +124,19 @@ static koksma_status add_untold(koksma__html *h, const koksma__rho_means *s)
     return status;
 }
 
+/* The cases without an interval. */
+static void add_without(koksma__html *h, const koksma__rho_sums *of)
+{
+    if (of->few) {
+        koksma__html_add(h, " (%zu have fewer than %d patterns, too few for an interval", of->few,
+                         KOKSMA__LEAST_PAIRS);
+    }
+    if (of->perfect) {
+        koksma__html_add(h, "%s%zu are in perfect order, which has none", of->few ? "; " : " (", of->perfect);
+    }
+    koksma__html_add(h, of->few || of->perfect ? ")" : "");
+}
+
 koksma_status koksma__rho_sentence(koksma__html *h, const koksma__rho_means *s)
 {
     const koksma__rho_sums *best = &s->of[0], *worst = &s->of[s->n - 1];
@@ -126,10 +146,7 @@ koksma_status koksma__rho_sentence(koksma__html *h, const koksma__rho_means *s)
                      "</code> orders the patterns most as the error of the images does: mean rank correlation "
                      "(Spearman) %+.2f over %zu cases, in %zu of which its interval excludes 0",
                      mean_rho(best), best->all, best->sure);
-    if (best->few) {
-        koksma__html_add(h, " (%zu have fewer than %d patterns, too few for an interval)", best->few,
-                         KOKSMA__LEAST_PAIRS);
-    }
+    add_without(h, best);
     const koksma_status status = add_untold(h, s);
     if (s->n > 1) {
         koksma__html_add(h, "; last is <code>");

@@ -14,8 +14,9 @@ typedef struct koksma__rho_sums {
     const char *measure;
     double total, rho[KOKSMA__RHO_VARIANTS];
     size_t all, cases[KOKSMA__RHO_VARIANTS];
-    size_t sure, few; /* cases whose interval excludes 0; that have too few patterns for one */
-    double *draws;    /* sums of rho in each resample */
+    size_t sure;         /* cases whose interval excludes 0 */
+    size_t few, perfect; /* without one: of too few patterns, in perfect order */
+    double *draws;       /* sums of rho in each resample */
 } koksma__rho_sums;
 
 typedef struct koksma__rho_means {
@@ -24,8 +25,12 @@ typedef struct koksma__rho_means {
     const char **variants;
 } koksma__rho_means;
 
-/* Adds a case of a measure and of a combination of options, which must outlive the means: rho with its resamples, of
-   so many patterns. Errors: MEMORY. */
+/* A correlation of so many patterns as it is shown and counted: an interval of too few patterns, or without width,
+   says nothing and becomes NaN. */
+koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns);
+
+/* Adds a case of a measure and of a combination of options, which must outlive the means: rho as it is shown, with
+   its resamples, of so many patterns. Errors: MEMORY. */
 koksma_status koksma__rho_add(koksma__rho_means *s, const char *measure, const char *variant,
                               const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES],
                               size_t n_patterns);

@@ -8,6 +8,7 @@
 #include <koksma/study.h>
 
 #include "study/plan.h"
+#include "study/rho_means.h"
 #include "study/statistics.h"
 #include "study/store.h"
 #include "study/study.h"
@@ -238,6 +239,32 @@ static void own_error_of_a_reference(void **state)
     }
 }
 
+/* What is counted as sure is what is shown with an interval that excludes 0. */
+static void correlations_as_shown(void **state)
+{
+    (void)state;
+    static const struct {
+        koksma__estimate rho;
+        size_t n_patterns;
+    } cases[] = {{{1, -1, 1}, 6}, {{1, 1, 1}, 6}, {{1, 1, 1}, 8}, {{0.9, 0.5, 1}, 8}, {{0.2, -0.3, 0.6}, 8}};
+    const double draws[KOKSMA__RHO_SAMPLES] = {0};
+    koksma__rho_means means = {0};
+    koksma__html html = {0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const koksma__estimate shown = koksma__rho_shown(&cases[i].rho, cases[i].n_patterns);
+        assert_near(shown.value, cases[i].rho.value, 0);
+        assert_int_equal(isnan(shown.low) && isnan(shown.high), i < 3);
+        assert_ok(koksma__rho_add(&means, "star", "", &shown, draws, cases[i].n_patterns));
+    }
+    assert_int_equal(means.of[0].sure, 1);
+    assert_ok(koksma__rho_sentence(&html, &means));
+    assert_non_null(strstr(
+        html.text, "over 5 cases, in 1 of which its interval excludes 0 (2 have fewer than 7 patterns, too few "
+                   "for an interval; 1 are in perfect order, which has none)."));
+    koksma__rho_fini(&means);
+    free(html.text);
+}
+
 static void study_without_folder(void **state)
 {
     (void)state;
@@ -277,11 +304,17 @@ static void rankings_have_eight_trials_or_more(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(summary_by_hand),       cmocka_unit_test(student_table),
-        cmocka_unit_test(largest_of_blocks),     cmocka_unit_test(wrong_plans),
-        cmocka_unit_test(shipped_plans_parse),   cmocka_unit_test(store_keeps_rows),
-        cmocka_unit_test(store_keeps_many_rows), cmocka_unit_test(own_error_of_a_reference),
-        cmocka_unit_test(study_without_folder),  cmocka_unit_test(rankings_have_eight_trials_or_more),
+        cmocka_unit_test(summary_by_hand),
+        cmocka_unit_test(student_table),
+        cmocka_unit_test(largest_of_blocks),
+        cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(shipped_plans_parse),
+        cmocka_unit_test(store_keeps_rows),
+        cmocka_unit_test(store_keeps_many_rows),
+        cmocka_unit_test(own_error_of_a_reference),
+        cmocka_unit_test(correlations_as_shown),
+        cmocka_unit_test(study_without_folder),
+        cmocka_unit_test(rankings_have_eight_trials_or_more),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
