@@ -11,8 +11,8 @@
 
 /* One comparison: option v of a pattern at n in a case against option 0. */
 typedef struct tally {
-    size_t cases, better, worse, unknown; /* unknown: without an interval */
-    double logs;                          /* sum of the logs of the ratios */
+    size_t cases, better, worse, equal, unknown; /* equal: every trial bit for bit; unknown: without an interval */
+    double logs;                                 /* sum of the logs of the ratios */
 } tally;
 
 typedef struct side {
@@ -58,10 +58,12 @@ static koksma_status compare(koksma__grid *g, const side *base, const side *othe
     }
     koksma__grid_interval(g, e, 3);
     if (!isnan(e.value)) {
+        const bool equal = !memcmp(values, values + n, n * sizeof *values);
         t->cases++;
         t->better += e.high < 0;
         t->worse += e.low > 0;
-        t->unknown += isnan(e.low);
+        t->equal += equal;
+        t->unknown += !equal && isnan(e.low);
         t->logs += log(1 + e.value);
     }
     free(values);
@@ -80,7 +82,10 @@ static void add_answer(koksma__html *h, const char *base, const char *other, con
             ": the value is %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely larger "
             "in %zu, too close to tell in %zu",
             100 * (exp(t->logs / (double)t->cases) - 1), t->cases, t->better, t->worse,
-            t->cases - t->better - t->worse - t->unknown);
+            t->cases - t->better - t->worse - t->equal - t->unknown);
+        if (t->equal) {
+            koksma__html_add(h, ", equal bit for bit in %zu", t->equal);
+        }
         if (t->unknown) {
             koksma__html_add(h, ", one trial alone and so unsure in %zu", t->unknown);
         }
