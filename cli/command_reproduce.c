@@ -38,7 +38,7 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
 }
 
 static koksma_status reproduce(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
-                               cli_rows *rows, koksma_study_summary *summary)
+                               cli_rows *rows, koksma_study_summary *summary, int *refused)
 {
     koksma_study *study;
     koksma_status status = koksma_study_open(options, &study);
@@ -54,6 +54,8 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     status = status ? status : koksma_study_run(study, &work->run, summary);
     cli_work_end(work);
+    *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
+    status = *refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
         status = koksma_study_report(study, &work->run);
     }
@@ -103,9 +105,10 @@ static int run(const cli_arguments *arguments)
                                           .folder = folder,
                                           .trials = (long long)trials,
                                           .quick = cli_flag(arguments, "quick")};
-    const koksma_status status = reproduce(arguments, &options, &work, rows, &summary);
+    int refused = 0;
+    const koksma_status status = reproduce(arguments, &options, &work, rows, &summary, &refused);
     cli_work_end(&work);
-    const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : 0;
+    const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : refused;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {
         return cli_study_interrupted(arguments, folder);

@@ -84,6 +84,8 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     }
     status = koksma_study_run(study, &work->run, &summary);
     cli_work_end(work);
+    const int refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
+    status = refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
         work->run.time_limit_s = 0;
         status = koksma_study_report(study, &work->run);
@@ -95,6 +97,9 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     }
     if (status) {
         return cli_fail(arguments, status);
+    }
+    if (refused) {
+        return refused;
     }
     if (options->folder && !cli_flag(arguments, "quiet")) {
         fprintf(
@@ -336,7 +341,8 @@ const cli_command cli_command_study = {
     .details =
         "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, over no other file,\n"
         "and 'estimate' says what it would cost on one thread. Results go to DIR/results.sqlite as they are made.\n"
-        "Stopped in any way and started again, a run goes on where it was. 'export' writes all rows sorted by their\n"
+        "Stopped in any way and started again, a run goes on where it was. Where a pattern finds no set for a trial,\n"
+        "all others are made, and the exit code is 2. 'export' writes all rows sorted by their\n"
         "keys: the same bytes for any number of threads and interruptions. 'images' makes such tables for pictures\n"
         "that another renderer made: PLACES is a path with {spp}, {trial} and other names in braces.",
     .options = options,

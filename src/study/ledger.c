@@ -101,6 +101,16 @@ void koksma__ledger_put_job(koksma__ledger *ledger, size_t job, const koksma__ta
     atomic_fetch_add(&ledger->pool->done, is_new);
 }
 
+void koksma__ledger_refuse_job(koksma__ledger *ledger, size_t job, const char *text)
+{
+    pthread_mutex_lock(&ledger->lock);
+    const bool is_new = koksma__queue_put(&ledger->jobs, job);
+    pthread_mutex_unlock(&ledger->lock);
+    if (is_new) {
+        koksma__pool_refuse(ledger->pool, job, text);
+    }
+}
+
 size_t koksma__ledger_part(const koksma__ledger *ledger, const koksma__part *part)
 {
     size_t i = 0;

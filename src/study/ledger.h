@@ -41,9 +41,10 @@ bool koksma__ledger_take(koksma__ledger *ledger, bool lost, koksma__deal *deal);
 size_t koksma__ledger_take_batch(koksma__ledger *ledger, double job_s, int ranks,
                                  koksma__deal deals[KOKSMA__MAX_BATCH]);
 
-/* Results; the second of the same are left out. */
+/* Results, or why there are none; the second of the same are left out. */
 void koksma__ledger_put_job(koksma__ledger *ledger, size_t job, const koksma__task *task,
                             const koksma__result *results);
+void koksma__ledger_refuse_job(koksma__ledger *ledger, size_t job, const char *text);
 void koksma__ledger_put_part(koksma__ledger *ledger, size_t i, const koksma__replicates *sums);
 
 /* The number of a part that a rank has sent back; parts.n: no such. */

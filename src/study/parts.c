@@ -2,6 +2,7 @@
 #include "study/parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,6 +90,14 @@ void koksma__parts_close(koksma__parts *parts)
     *parts = (koksma__parts){0};
 }
 
+static koksma_status fail_reference(const koksma__reference_image *r, koksma_status status)
+{
+    char name[KOKSMA__REFERENCE_NAME], text[KOKSMA__REFERENCE_NAME + 96];
+    koksma__reference_name(r->reference, name);
+    snprintf(text, sizeof text, "reference %s of %.64s", name, r->scene->name);
+    return koksma__fail_in(status, text);
+}
+
 koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, const koksma_run *run,
                               koksma__replicates *out)
 {
@@ -107,7 +116,7 @@ koksma_status koksma__part_do(const koksma_study *study, const koksma__part *par
         free(out->sum);
         *out = (koksma__replicates){0};
     }
-    return status;
+    return status == KOKSMA_IMPOSSIBLE ? fail_reference(r, status) : status;
 }
 
 koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, const koksma__replicates *from,

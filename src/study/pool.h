@@ -7,15 +7,24 @@
 #ifndef KOKSMA_STUDY_POOL_H
 #define KOKSMA_STUDY_POOL_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "study/tasks.h"
 #include "study/watch.h"
 
+/* Jobs whose pattern finds no set (IMPOSSIBLE): the others go on without them. */
+typedef struct koksma__refused {
+    pthread_mutex_t lock; /* guards what follows */
+    size_t n, first;
+    char text[480]; /* of job `first`, whoever did it */
+} koksma__refused;
+
 typedef struct koksma__pool {
     koksma__tasks *tasks;
     koksma__watch *watch;
     bool last; /* no other kind of jobs comes after */
+    koksma__refused refused;
     atomic_size_t done;
     atomic_ullong busy_ns; /* of all workers, on parts of references and on jobs */
     double others_s;       /* processor time of the other ranks */
@@ -23,6 +32,9 @@ typedef struct koksma__pool {
 
 /* Does all jobs that are not done on the watch's threads. */
 koksma_status koksma__pool_threads(koksma__pool *pool);
+
+/* Counts a job that is impossible; the text of the first in their order is kept. */
+void koksma__pool_refuse(koksma__pool *pool, size_t job, const char *text);
 
 /* Adds the time since start_s to what the workers were busy. */
 void koksma__pool_was_busy(koksma__pool *pool, double start_s);

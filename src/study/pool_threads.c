@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
@@ -17,6 +18,17 @@ typedef struct making {
 void koksma__pool_was_busy(koksma__pool *pool, double start_s)
 {
     atomic_fetch_add(&pool->busy_ns, (unsigned long long)(1e9 * (koksma__now_s() - start_s)));
+}
+
+void koksma__pool_refuse(koksma__pool *pool, size_t job, const char *text)
+{
+    koksma__refused *r = &pool->refused;
+    pthread_mutex_lock(&r->lock);
+    if (!r->n++ || job < r->first) {
+        r->first = job;
+        snprintf(r->text, sizeof r->text, "%s", text);
+    }
+    pthread_mutex_unlock(&r->lock);
 }
 
 static koksma_status do_part(void *context, size_t i)
@@ -58,6 +70,10 @@ static koksma_status do_job(void *context, size_t i)
     free(results);
     atomic_fetch_add(&pool->done, !status);
     koksma__pool_was_busy(pool, start_s);
+    if (status == KOKSMA_IMPOSSIBLE) {
+        koksma__pool_refuse(pool, i, koksma_error_text());
+        status = KOKSMA_OK;
+    }
     return status;
 }
 

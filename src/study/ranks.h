@@ -7,9 +7,9 @@
  * everywhere.
  *
  * To rank 0: ASK (koksma__ask; for the batch after the one in hand, so that nobody waits for an answer), RESULTS
- * (jobs' numbers, each before its results), PART (koksma__part, its sums), NEED (a reference), ERROR (a rank's last
- * words, which end all). From it: DEAL (what to do; nothing: ask again; one that is over: the phase, or the run, is),
- * PIXELS.
+ * (jobs' numbers, each before its results), REFUSAL (koksma__refusal: a job that is impossible), PART (koksma__part,
+ * its sums), NEED (a reference), ERROR (a rank's last words, which end all). From it: DEAL (what to do; nothing: ask
+ * again; one that is over: the phase, or the run, is), PIXELS.
  */
 #ifndef KOKSMA_STUDY_RANKS_H
 #define KOKSMA_STUDY_RANKS_H
@@ -21,6 +21,7 @@
 enum {
     KOKSMA__TAG_ASK = 1,
     KOKSMA__TAG_RESULTS,
+    KOKSMA__TAG_REFUSAL,
     KOKSMA__TAG_PART,
     KOKSMA__TAG_NEED,
     KOKSMA__TAG_ERROR,
@@ -43,6 +44,11 @@ typedef struct koksma__ask {
     double busy_s;      /* at work in this phase so far */
     double processor_s; /* of this rank's processor time, likewise */
 } koksma__ask;
+
+typedef struct koksma__refusal {
+    unsigned long long job;
+    char text[KOKSMA__RANK_TEXT];
+} koksma__refusal;
 
 typedef enum koksma__deal_kind {
     KOKSMA__DEAL_JOB,

@@ -40,7 +40,9 @@ static void do_job_here(server *s, size_t job)
     const koksma_status status =
         results ? koksma__task_do(s->pool->tasks->study, task, trial, &s->pool->watch->job, results)
                 : koksma__fail_memory(task->n_series * sizeof *results);
-    if (status) {
+    if (status == KOKSMA_IMPOSSIBLE) {
+        koksma__ledger_refuse_job(&s->ledger, job, koksma_error_text());
+    } else if (status) {
         koksma__ledger_stop(&s->ledger, status, koksma_error_text());
     } else {
         koksma__ledger_put_job(&s->ledger, job, task, results);
@@ -125,6 +127,15 @@ static void receive_results(server *s, unsigned char *message, size_t bytes)
     }
 }
 
+static void receive_refusal(server *s, int from)
+{
+    koksma__refusal refusal;
+    if (s->mpi->receive(from, KOKSMA__TAG_REFUSAL, &refusal, sizeof refusal, NULL) &&
+        refusal.job < s->pool->tasks->n_jobs) {
+        koksma__ledger_refuse_job(&s->ledger, refusal.job, refusal.text);
+    }
+}
+
 static void receive_part(server *s, unsigned char *message, size_t bytes)
 {
     koksma__part part;
@@ -192,6 +203,9 @@ static bool serve_one(server *s)
         break;
     case KOKSMA__TAG_NEED:
         send_pixels(s, from);
+        break;
+    case KOKSMA__TAG_REFUSAL:
+        receive_refusal(s, from);
         break;
     case KOKSMA__TAG_RESULTS:
     case KOKSMA__TAG_PART:

@@ -74,6 +74,13 @@ static koksma_status send_results(worker *w)
     return KOKSMA_OK;
 }
 
+static koksma_status send_refusal(const worker *w, unsigned long long job)
+{
+    koksma__refusal refusal = {.job = job};
+    snprintf(refusal.text, sizeof refusal.text, "%s", koksma_error_text());
+    return w->mpi->send(0, KOKSMA__TAG_REFUSAL, &refusal, sizeof refusal) ? KOKSMA_OK : lost(w);
+}
+
 static koksma_status make_room(letter *l, size_t more)
 {
     if (l->size + more > l->room) {
@@ -108,6 +115,9 @@ static koksma_status do_job(worker *w, unsigned long long job)
         l->size += sizeof job + task->n_series * sizeof *results;
         w->busy_s += koksma__now_s() - start_s;
         status = koksma__now_s() - l->since_s > KOKSMA__SEND_S ? send_results(w) : KOKSMA_OK;
+    } else if (status == KOKSMA_IMPOSSIBLE) {
+        w->busy_s += koksma__now_s() - start_s;
+        status = send_refusal(w, job);
     }
     free(results);
     return status;

@@ -52,16 +52,28 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
+/* What was refused, of both kinds of jobs. */
+static void add_refused(koksma__refused *all, const koksma__refused *more)
+{
+    if (more->n && !all->n) {
+        memcpy(all->text, more->text, sizeof all->text);
+    }
+    all->n += more->n;
+}
+
 /* With a status that is not OK already, only counts. */
 static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *watch, koksma_status before,
-                              koksma_study_summary *summary)
+                              koksma_study_summary *summary, koksma__refused *refused)
 {
     koksma__tasks tasks;
     koksma_status status = koksma__tasks_open(study, images, &tasks);
     if (status) {
         return status;
     }
-    koksma__pool pool = {.tasks = &tasks, .watch = watch, .last = images || !study->plan.n_images};
+    koksma__pool pool = {.tasks = &tasks,
+                         .watch = watch,
+                         .last = images || !study->plan.n_images,
+                         .refused = {.lock = PTHREAD_MUTEX_INITIALIZER}};
     status = koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
@@ -75,6 +87,8 @@ static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *w
     summary->done_now += atomic_load(&pool.done);
     summary->idle_seconds -= 1e-9 * (double)atomic_load(&pool.busy_ns);
     summary->processor_seconds += pool.others_s;
+    add_refused(refused, &pool.refused);
+    pthread_mutex_destroy(&pool.refused.lock);
     koksma__tasks_close(&tasks);
     return before ? before : status;
 }
@@ -95,17 +109,23 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
-    koksma_status status = run_kind(study, false, &w, KOKSMA_OK, summary);
-    status = run_kind(study, true, &w, status, summary);
+    koksma__refused refused = {.n = 0};
+    koksma_status status = run_kind(study, false, &w, KOKSMA_OK, summary, &refused);
+    status = run_kind(study, true, &w, status, summary, &refused);
     summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : w.run.threads;
     summary->seconds = koksma__now_s() - start_s;
     summary->idle_seconds += summary->workers * summary->seconds;
     summary->processor_seconds += koksma__processor_s() - processor_s;
     summary->store_seconds = koksma__store_seconds(study->store) - store_s;
-    summary->complete = !status;
-    if (!status || status == KOKSMA_INTERRUPTED) {
+    const bool all = !status;
+    summary->complete = all && !refused.n;
+    if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
         const koksma_status recorded = record_run(study, started, summary);
         status = status == KOKSMA_OK || atomic_load(&w.is_up) ? recorded : status;
+    }
+    if (all && !status && refused.n) {
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", refused.n,
+                              summary->jobs, refused.text);
     }
     return status;
 }

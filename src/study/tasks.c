@@ -2,6 +2,7 @@
 #include "study/tasks.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -345,6 +346,23 @@ uint64_t koksma__task_seed(const koksma__task *t, long long trial)
                     : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
 }
 
+/* "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: " before the reason. */
+static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+{
+    char name[KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128];
+    const koksma__plan *plan = &study->plan;
+    if (t->image) {
+        snprintf(name, sizeof name, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
+                 t->image - plan->images, t->scene->name, t->variant[0] ? ", " : "", t->variant, t->pattern, t->n,
+                 trial);
+    } else {
+        snprintf(name, sizeof name, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
+                 t->discrepancy - plan->discrepancies, t->pattern, t->variant[0] ? " through " : "", t->variant, t->n,
+                 trial);
+    }
+    return koksma__fail_in(status, name);
+}
+
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, long long trial,
                               const koksma_run *run, koksma__result *results)
 {
@@ -353,5 +371,8 @@ koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, 
         results[k].trial = trial;
         results[k].seed = seed;
     }
-    return t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
+    const koksma_status status =
+        t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
+    const bool by_itself = !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* of no one job */
+    return by_itself ? status : fail_job(study, t, trial, status);
 }

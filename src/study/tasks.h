@@ -61,7 +61,8 @@ koksma__series koksma__task_series(const koksma__task *task, size_t k, char name
 
 uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 
-/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run` says so. */
+/* Does one job: n_series results. The references must have their pixels. Errors: INTERRUPTED, when `run` says so;
+   MEMORY; what generating, measuring and rendering say, with the job's block, pattern, number and trial before it. */
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               const koksma_run *run, koksma__result *results);
 
