@@ -340,11 +340,13 @@ const cli_command cli_command_study = {
                 "       koksma study images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, over no other file,\n"
-        "and 'estimate' says what it would cost on one thread. Results go to DIR/results.sqlite as they are made.\n"
-        "Stopped in any way and started again, a run goes on where it was. Where a pattern finds no set for a trial,\n"
-        "all others are made, and the exit code is 2. 'export' writes all rows sorted by their\n"
-        "keys: the same bytes for any number of threads and interruptions. 'images' makes such tables for pictures\n"
-        "that another renderer made: PLACES is a path with {spp}, {trial} and other names in braces.",
+        "and 'estimate' says what it would cost on one thread. Files that a plan names are relative to the current\n"
+        "folder. Results go to DIR/results.sqlite as they are made. Stopped in any way and started again, a run\n"
+        "goes on where it was. Where a pattern finds no set for a trial, all others are made, with exit code 2.\n"
+        "'export' writes all rows sorted by their keys: the same bytes for any number of threads and interruptions.\n"
+        "It and 'report' are refused while a run is at work on DIR, and where DIR can't be written. 'images' makes\n"
+        "such tables for pictures that another renderer made: PLACES is a path with {spp}, {trial} and other names\n"
+        "in braces.",
     .options = options,
     .run = run,
 };
