@@ -205,6 +205,42 @@ static void distances_in_a_corner(void **state)
     koksma_points_fini(&p);
 }
 
+static bool count_questions(void *context, double fraction)
+{
+    assert_true(fraction >= 0 && fraction <= 1);
+    ++*(int *)context;
+    return true;
+}
+
+/* The measure goes by cells where points are spread and by halving where they crowd: to the bit the same. All pairs
+   of the corner would be 2e10, a question whether to go on each 65,536. */
+static void the_measure_is_the_same(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 0; seed < 60; seed++) {
+        koksma_points p = places((int)seed % 5, 2 + 9 * seed, 2, seed);
+        double square, torus;
+        assert_ok(koksma_smallest_distance(&p, false, NULL, &square));
+        assert_ok(koksma_smallest_distance(&p, true, NULL, &torus));
+        assert_true(test_measure("min-distance", &p).value == torus);
+        assert_true(test_measure("min-distance:torus=0", &p).value == square);
+        koksma_points_fini(&p);
+    }
+    koksma_points p = places(2, 200000, 2, 1);
+    for (int on_torus = 0; on_torus < 2; on_torus++) {
+        int asked = 0;
+        double distance;
+        koksma_spec spec;
+        koksma_value value;
+        const koksma_run run = {.threads = 1, .keep_going = count_questions, .context = &asked};
+        assert_ok(koksma_smallest_distance(&p, on_torus, NULL, &distance));
+        assert_ok(koksma_measure_spec(on_torus ? "min-distance" : "min-distance:torus=0", &spec));
+        assert_ok(koksma_evaluate(&spec, &p, &run, &value));
+        assert_true(value.value == distance && asked < 100);
+    }
+    koksma_points_fini(&p);
+}
+
 static void a_repeated_point(void **state)
 {
     (void)state;
@@ -318,6 +354,7 @@ int main(void)
         cmocka_unit_test(two_close_points_and_only_across_the_side),
         cmocka_unit_test(distances_by_brute_force),
         cmocka_unit_test(distances_in_a_corner),
+        cmocka_unit_test(the_measure_is_the_same),
         cmocka_unit_test(a_repeated_point),
         cmocka_unit_test(the_last_of_many_coordinates),
         cmocka_unit_test(the_origin),

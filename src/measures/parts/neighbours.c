@@ -7,6 +7,7 @@
 
 #include <koksma/spectrum.h>
 
+#include "core/closest_pair.h"
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
@@ -114,19 +115,25 @@ static bool pairs_of_cell(visit *v, size_t c)
     return wanted;
 }
 
+static koksma_status visit_pairs(visit *v)
+{
+    for (size_t c = 0; c < v->g->m * v->g->m && pairs_of_cell(v, c); c++) {
+    }
+    return v->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+}
+
 koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                  koksma__near_pair_function f, void *context)
 {
     grid g;
-    const koksma_status status = open_grid(points, r, &g);
+    koksma_status status = open_grid(points, r, &g);
     if (status) {
         return status;
     }
     visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = f, .context = context};
-    for (size_t c = 0; c < g.m * g.m && pairs_of_cell(&v, c); c++) {
-    }
+    status = visit_pairs(&v);
     free(g.first);
-    return v.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+    return status;
 }
 
 /* No distance is below 0. */
@@ -137,10 +144,42 @@ static bool keep_least(void *context, double d2)
     return *least > 0;
 }
 
+enum { CROWD = 64 };
+
+/* Whether the pairs within cells are few; those with the neighbours are then no more than nine times as many. */
+static bool is_spread(const grid *g, size_t n)
+{
+    double pairs = 0;
+    for (size_t c = 0; c < g->m * g->m; c++) {
+        const double count = (double)(g->first[c + 1] - g->first[c]);
+        pairs += count * count;
+    }
+    return pairs <= CROWD * (double)n;
+}
+
+/* Of crowded points the cells are of no help. Both ways square the same differences, so that the bits are equal. */
+static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
+                                   double *distance)
+{
+    grid g;
+    double least = HUGE_VAL;
+    koksma_status status = open_grid(points, r, &g);
+    if (status) {
+        return status;
+    }
+    const bool spread = is_spread(&g, points->n);
+    if (spread) {
+        visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = keep_least, .context = &least};
+        status = visit_pairs(&v);
+        *distance = sqrt(least);
+    }
+    free(g.first);
+    return spread ? status : koksma__closest_pair(points, torus, run, distance);
+}
+
 koksma_status koksma__min_distance(const koksma_points *points, bool torus, const koksma_run *run, double *distance)
 {
     double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
-    koksma_status status = KOKSMA_OK;
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {
             for (size_t j = 0; j < i; j++) {
@@ -149,10 +188,10 @@ koksma_status koksma__min_distance(const koksma_points *points, bool torus, cons
         }
     } else {
         r = torus ? r : fmin(1.5 * r, 0.5);
-        status = koksma__near_pairs(points, r, torus, run, keep_least, &least);
+        return least_of_many(points, r, torus, run, distance);
     }
     *distance = sqrt(least);
-    return status;
+    return KOKSMA_OK;
 }
 
 typedef struct histogram {

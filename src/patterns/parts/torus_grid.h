@@ -5,6 +5,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/way.h"
+
 typedef struct koksma__torus_grid {
     uint32_t cells;   /* a side */
     uint32_t *head;   /* of each cell: the point put in last, or KOKSMA__NO_POINT */
@@ -36,12 +38,5 @@ void koksma__torus_grid_each(const koksma__torus_grid *grid, double x, double y,
 
 /* order[0] .. order[n-1] = the points cell by cell, in each as they come: neighbours are near in memory then. */
 koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order);
-
-/* b - a the short way around, in [-1/2, 1/2]. */
-static inline double koksma__way(double a, double b)
-{
-    const double t = b - a;
-    return t > 0.5 ? t - 1 : t < -0.5 ? t + 1 : t;
-}
 
 #endif

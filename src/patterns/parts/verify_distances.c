@@ -6,10 +6,10 @@
 #include <stdlib.h>
 
 #include "core/c_locale.h"
+#include "core/closest_pair.h"
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
-#include "patterns/parts/closest_pair.h"
 #include "patterns/parts/packing.h"
 #include "patterns/parts/torus_grid.h"
 #include "patterns/parts/verify.h"

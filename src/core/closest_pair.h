@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#ifndef KOKSMA_PATTERNS_PARTS_CLOSEST_PAIR_H
-#define KOKSMA_PATTERNS_PARTS_CLOSEST_PAIR_H
+#ifndef KOKSMA_CORE_CLOSEST_PAIR_H
+#define KOKSMA_CORE_CLOSEST_PAIR_H
 
 #include <koksma/koksma.h>
 

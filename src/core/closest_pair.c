@@ -5,7 +5,7 @@
  * in y, as the best so far. Source: Shamos & Hoey 1975. On the torus the points near a side come once more, with
  * copies of them beyond the sides.
  */
-#include "patterns/parts/closest_pair.h"
+#include "core/closest_pair.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "patterns/parts/torus_grid.h"
+#include "core/way.h"
 
 enum { PAIRS_AT_ONCE = 1 << 20 };
 
@@ -93,6 +93,7 @@ static koksma_status find(search *s, place *places, size_t n)
     qsort(places, n, sizeof *places, compare_x);
     s->n = n;
     s->n_done = 0;
+    s->stopped = !koksma__keep_going(s->run, 0);
     divide(s, places, room, n);
     free(room);
     return s->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
