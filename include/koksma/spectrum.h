@@ -35,7 +35,7 @@ typedef struct koksma_spectrum {
 
 enum { KOKSMA_SPECTRUM_MAX_HALF = 4096 };
 
-/* Errors: ARGUMENT, MEMORY. */
+/* Memory grows as half^2: with FAST 1 GB for half = 2047, 4 GB for 4096. Errors: ARGUMENT, MEMORY. */
 KOKSMA_API koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half);
 KOKSMA_API void koksma_spectrum_fini(koksma_spectrum *spectrum);
 
@@ -55,7 +55,10 @@ KOKSMA_API koksma_status koksma_spectrum_write(const char *path, const koksma_sp
 typedef struct koksma_ring {
     double frequency;
     double power, standard_error; /* the mean over the ring and the sets; NaN error for one set */
-    double anisotropy_db;         /* 10 log10 of the variance along the ring, of the mean over sets, over power^2 */
+    /* 10 log10 of the variance along the ring, of the mean over sets, over power^2. FAST leaves up to 1e-18 n of
+       power where there is none, and a relative 2e-9 sqrt(n/power) of spread. With either method it is NaN for a ring
+       of no more power than that, and -infinity for no more spread. */
+    double anisotropy_db;
 } koksma_ring;
 
 /* rings[0 .. half-1] for frequencies 1 .. half. At least one set was added. Errors: MEMORY. */
@@ -66,7 +69,9 @@ typedef struct koksma_spectrum_quality_values {
     /* Half of the largest f, before the mean of p over all frequencies up to f, by area, passes 1/2 (at sqrt(n)/2 or
        beyond), at which that mean is at most 1/10: a signal of that frequency and its mirror are that far apart. */
     double effective_nyquist;
-    double relative_nyquist; /* over sqrt(n)/2, which is a square lattice's */
+    /* Over sqrt(n)/2, that of a square lattice of infinitely many points. f is a whole number, so that this is a
+       multiple of 1/sqrt(n): 3/4 for the square lattice of 16 points, 31/32 for that of 1,024. */
+    double relative_nyquist;
     /* 10 sqrt of the mean, by area, of (p - 1)^2 from where p first comes to 0.98 up to 5 sqrt(n) beyond. NaN when
        the spectrum ends before that: half >= 6.5 sqrt(n) is enough for blue noise. */
     double oscillation;
@@ -77,8 +82,8 @@ KOKSMA_API void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_
 
 /* Pair correlation on the unit torus: values[b] = the density of pairs at distances b .. b+1 (times r_max/bins) over
    that of random points, n(n-1)/2 pairs in the ring's share of the area; NaN for n = 1. r_max <= 1/2. Cell lists:
-   O(n (1 + n r_max^2)); run may be NULL. Errors: DIM, ARGUMENT (r_max, bins, no points, a coordinate outside [0,1]),
-   INTERRUPTED, MEMORY. */
+   O(n (1 + n r_max^2)) for spread points, O(n^2) for points that lie together; run may be NULL. Errors: DIM, ARGUMENT
+   (r_max, bins, no points, a coordinate outside [0,1]), INTERRUPTED, MEMORY. */
 KOKSMA_API koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins,
                                                  const koksma_run *run, double *values);
 

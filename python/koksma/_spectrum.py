@@ -19,9 +19,10 @@ class Spectrum:
     """The mean power spectrum of one or more sets; 1 everywhere in the mean for random points.
 
     power[half + ky, half + kx] is the power at (kx, ky). Ring i has the frequencies of length i + 1/2 to i + 3/2:
-    its mean, the standard error over the sets (NaN for one), and the anisotropy in dB. After Heck, Schlömer and
-    Deussen (2013), effective_nyquist (also over that of the square lattice) and oscillation sum
-    the rings up; oscillation is NaN when the spectrum ends too early for it.
+    its mean, the standard error over the sets (NaN for one), and the anisotropy in dB: NaN for a ring without power,
+    -inf for one of equal powers. After Heck, Schlömer and Deussen (2013), effective_nyquist (also over sqrt(n)/2, that
+    of a large square lattice, in steps of 1/sqrt(n)) and oscillation sum the rings up; oscillation is NaN when the
+    spectrum ends too early for it.
     """
 
     power: npt.NDArray[np.float64]

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Exact spectra whose points and frequencies don't fit into the memory of one step, against the definition. */
+/* Exact spectra whose points and frequencies don't fit into the memory of one step, against the definition; rings
+   that hold nothing. */
 #include <koksma/spectrum.h>
 
 #include "sets.h"
@@ -27,8 +28,35 @@ static void exact_spectra_of_many_chunks_and_bands(void **state)
     }
 }
 
+/* Rings without power have no anisotropy, and rings of equal powers have none in dB; by both methods, whose rounding
+   makes numbers of either. */
+static void anisotropy_of_nothing(void **state)
+{
+    (void)state;
+    enum { HALF = 12 };
+    for (int method = 0; method < 4; method++) {
+        koksma_points p = test_points("regular", 36, 2, 0);
+        koksma_spectrum s;
+        koksma_ring rings[HALF];
+        for (size_t c = 0; method / 2 && c < 2 * p.n; c++) {
+            p.xs[c] = c % 2 ? 0.3 : 0.7; /* one place */
+        }
+        assert_ok(koksma_spectrum_init(&s, HALF));
+        assert_ok(koksma_spectrum_add(&s, &p, method % 2 ? KOKSMA_SPECTRUM_FAST : KOKSMA_SPECTRUM_EXACT, NULL));
+        assert_ok(koksma_spectrum_rings(&s, rings));
+        for (int r = 1; r <= HALF; r++) {
+            const double db = rings[r - 1].anisotropy_db;
+            const bool has_power = r == 6 || r == 8 || r == 12; /* 6, 6 sqrt(2) and 12 */
+            assert_true(method / 2 ? db == -INFINITY : has_power ? db > 0 : isnan(db));
+        }
+        koksma_spectrum_fini(&s);
+        koksma_points_fini(&p);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(exact_spectra_of_many_chunks_and_bands)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(exact_spectra_of_many_chunks_and_bands),
+                                       cmocka_unit_test(anisotropy_of_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -143,6 +143,18 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
     return written;
 }
 
+/* What FAST can tell from no power and from equal powers: amplitudes are good to AMPLITUDE n. */
+#define AMPLITUDE 1e-9
+
+static double anisotropy_db(double points, double power, double variance)
+{
+    const double rounding = 2 * AMPLITUDE * sqrt(points / power), relative = variance / (power * power);
+    if (!(power > AMPLITUDE * AMPLITUDE * points)) {
+        return NAN;
+    }
+    return relative > rounding * rounding ? 10 * log10(relative) : -INFINITY;
+}
+
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
 {
     const int half = spectrum->half;
@@ -160,8 +172,8 @@ koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring
     for (int ring = 1; ring <= half; ring++) {
         const koksma_tally *t = &spectrum->rings[ring];
         const double variance = spreads[ring] / (counts[ring] - 1);
-        rings[ring - 1] =
-            (koksma_ring){ring, t->mean, koksma_tally_error(t), 10 * log10(variance / (means[ring] * means[ring]))};
+        rings[ring - 1] = (koksma_ring){ring, t->mean, koksma_tally_error(t),
+                                        anisotropy_db(spectrum->points, means[ring], variance)};
     }
     free(means);
     return KOKSMA_OK;
