@@ -482,14 +482,39 @@ static void hundreds_of_dimensions(void **state)
     assert_true(in_range > 100 && beyond > 10);
 }
 
+/* A double all the same, 2.75e-239: only the product over the first coordinates is none. */
+static void a_product_out_of_range(void **state)
+{
+    (void)state;
+    koksma_points p;
+    koksma_spec spec;
+    koksma_value got;
+    assert_ok(koksma_points_init(&p, 1, 1000));
+    for (size_t c = 0; c < 400; c++) {
+        p.xs[c] = 1 - exp2(-4.4);
+    }
+    assert_ok(koksma_measure_spec("l2-star", &spec));
+    assert_int_equal(koksma_evaluate(&spec, &p, NULL, &got), KOKSMA_DIM);
+    assert_string_equal(koksma_error_text(), "l2-star: in 1000 dimensions a product over the first coordinates of a "
+                                             "point is beyond the range of doubles; coordinates in another order may "
+                                             "serve");
+    koksma_points_fini(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_is_consistent),      cmocka_unit_test(hundreds_of_dimensions),
-        cmocka_unit_test(values_are_the_integrals), cmocka_unit_test(pairs_and_merging_equal_the_formula),
-        cmocka_unit_test(centre_has_known_values),  cmocka_unit_test(hammersley_keeps_its_digits),
-        cmocka_unit_test(halton_keeps_its_digits),  cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(dividing_equals_pairs),    cmocka_unit_test(dividing_keeps_digits),
+        cmocka_unit_test(table_is_consistent),
+        cmocka_unit_test(hundreds_of_dimensions),
+        cmocka_unit_test(a_product_out_of_range),
+        cmocka_unit_test(values_are_the_integrals),
+        cmocka_unit_test(pairs_and_merging_equal_the_formula),
+        cmocka_unit_test(centre_has_known_values),
+        cmocka_unit_test(hammersley_keeps_its_digits),
+        cmocka_unit_test(halton_keeps_its_digits),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(dividing_equals_pairs),
+        cmocka_unit_test(dividing_keeps_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

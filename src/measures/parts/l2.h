@@ -55,7 +55,7 @@ koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim
 koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
 
 /* The value by pairs, right also where terms of the square, or the square (which then is NaN), are beyond the range
-   of doubles. DIM: so is the value. */
+   of doubles. DIM: so is the value, or a product over the first coordinates of a point. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
 

@@ -58,6 +58,15 @@ static koksma_status fail_range(const koksma__l2_row *row, int dim)
     return koksma__fail(KOKSMA_DIM, "%s: in %d dimensions it is beyond the range of doubles", row->name, dim);
 }
 
+/* The value may be a double all the same. */
+static koksma_status fail_product(const koksma__l2_row *row, int dim)
+{
+    return koksma__fail(KOKSMA_DIM,
+                        "%s: in %d dimensions a product over the first coordinates of a point is beyond the range of "
+                        "doubles; coordinates in another order may serve",
+                        row->name, dim);
+}
+
 /* The value is that of `square` times 2^bits. */
 static koksma_status unscale(const koksma__l2_row *row, double square, double bits, int dim, koksma_value *out)
 {
@@ -92,7 +101,7 @@ koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_
         scaled.q *= f;
         scaled.r *= f;
         if (!stays_in_range(row, points, f)) {
-            return fail_range(row, dim);
+            return fail_product(row, dim);
         }
     }
     double square = NAN;
