@@ -250,7 +250,7 @@ typedef struct koksma_value {
     double value;          /* the measure; of a root-mean-square measure the root */
     double square;         /* its square where that is the more exact number, else NaN */
     double lower, upper;   /* certified bounds: both equal value when exact */
-    double standard_error; /* of a sampled measure, else 0 */
+    double standard_error; /* of a sampled measure (NaN: of one sample), else 0 */
     bool exact;
     koksma_witness witness;
 } koksma_value;
@@ -263,12 +263,20 @@ typedef enum koksma_family {
     KOKSMA_FAMILY_DISKS
 } koksma_family;
 
+/* What kind of number a measure gives. */
+typedef enum koksma_answer {
+    KOKSMA_ANSWER_EXACT,   /* the value; one that is cut short gives bounds, with exact = false */
+    KOKSMA_ANSWER_SAMPLED, /* an estimate, with a standard error */
+    KOKSMA_ANSWER_BOUND    /* a lower bound: nothing more is promised */
+} koksma_answer;
+
 struct koksma_measure {
     const char *name, *title, *cite, *cost; /* cost: "n log n", "n^2 d" */
     koksma_family family;
     int min_dim, max_dim;
     const koksma_param *params; /* NULL: none */
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
+    koksma_answer answer;
     bool larger_is_better; /* a distance; of all others smaller is more even */
 };
 

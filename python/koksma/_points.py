@@ -50,7 +50,10 @@ class Witness:
 
 @dataclass(frozen=True)
 class Value:
-    """What a measure says. float(value) is the number; lower and upper are certified and equal it when exact."""
+    """What a measure says. float(value) is the number; lower and upper are certified and equal it when exact.
+
+    standard_error is that of a sampled measure, NaN for one sample; of the others it is 0.
+    """
 
     value: float
     square: float
@@ -189,7 +192,8 @@ def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str]
 
     measure: a spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all.
     warp: measures the points mapped to another domain, such as "concentric-disk".
-    time_limit: in seconds; a measure that is cut short gives bounds, and `exact` is False.
+    time_limit: in seconds; a measure that is cut short gives bounds, and `exact` is False. "disk" is so without a
+    limit of time, too, after 2^28 looks at points.
     """
     array = as_points(points)
     parsed, value, c_points = spec("measure", measure), s.Value(), view(array)

@@ -33,7 +33,7 @@ class Pattern(Structure):
 
 class Measure(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
-                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("larger_is_better", c_bool)]
+                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("answer", c_int), ("larger_is_better", c_bool)]
 
 
 class Spec(Structure):

@@ -12,9 +12,9 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "core/sum.h"
 #include "measures/measures.h"
 #include "measures/parts/disk_laws.h"
+#include "measures/parts/sampled.h"
 
 enum { DISKS_PER_BLOCK = 256 };
 
@@ -63,19 +63,9 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     }
     const koksma_status status =
         koksma__parallel(args->run, (disks + DISKS_PER_BLOCK - 1) / DISKS_PER_BLOCK, sample_block, &j);
-    koksma__sum sum = {0}, spread = {0};
-    const double count = (double)disks;
-    for (size_t i = 0; i < disks && !status; i++) {
-        koksma__sum_add(&sum, j.squares[i]);
+    if (!status) {
+        koksma__sampled_root(j.squares, disks, out);
     }
-    out->square = koksma__sum_value(&sum) / count;
-    out->value = sqrt(out->square);
-    for (size_t i = 0; i < disks && !status; i++) {
-        koksma__sum_add(&spread, (j.squares[i] - out->square) * (j.squares[i] - out->square));
-    }
-    const double error = disks > 1 ? sqrt(koksma__sum_value(&spread) / count / (count - 1)) : (double)NAN;
-    out->standard_error = out->value > 0 ? error / (2 * out->value) : error;
-    out->exact = false;
     free(j.squares);
     return status;
 }
@@ -98,4 +88,5 @@ const koksma_measure koksma__measure_disk_sampled = {
     .max_dim = 2,
     .params = params,
     .eval = eval,
+    .answer = KOKSMA_ANSWER_SAMPLED,
 };

@@ -13,10 +13,10 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "measures/parts/lines.h"
+#include "measures/parts/sampled.h"
 
 enum { LANES = 16, LINES_PER_BLOCK = 512 };
 
@@ -66,19 +66,9 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     }
     const koksma_status status =
         koksma__parallel(args->run, (lines + LINES_PER_BLOCK - 1) / LINES_PER_BLOCK, sample_block, &j);
-    koksma__sum sum = {0}, spread = {0};
-    const double count = (double)lines;
-    for (size_t i = 0; i < lines && !status; i++) {
-        koksma__sum_add(&sum, j.squares[i]);
+    if (!status) {
+        koksma__sampled_root(j.squares, lines, out);
     }
-    out->square = koksma__sum_value(&sum) / count;
-    out->value = sqrt(out->square);
-    for (size_t i = 0; i < lines && !status; i++) {
-        koksma__sum_add(&spread, (j.squares[i] - out->square) * (j.squares[i] - out->square));
-    }
-    const double error = lines > 1 ? sqrt(koksma__sum_value(&spread) / count / (count - 1)) : (double)NAN;
-    out->standard_error = out->value > 0 ? error / (2 * out->value) : error;
-    out->exact = false;
     free(j.x);
     return status;
 }
@@ -101,4 +91,5 @@ const koksma_measure koksma__measure_edge_sampled = {
     .max_dim = 2,
     .params = params,
     .eval = eval,
+    .answer = KOKSMA_ANSWER_SAMPLED,
 };

@@ -41,4 +41,5 @@ const koksma_measure koksma__measure_star_lower = {
     .max_dim = KOKSMA__STAR_MAX_DIM,
     .params = params,
     .eval = eval,
+    .answer = KOKSMA_ANSWER_BOUND,
 };

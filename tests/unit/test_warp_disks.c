@@ -121,6 +121,20 @@ static void disks_agree_with_random_disks(void **state)
     assert_near(squares, 1, 4 * sqrt(2.0 / CASES));
 }
 
+/* The error of one disk is unknown, that of two half of their squares' difference over twice the value; where nearly
+   all squares are equal digits are not lost. */
+static void errors_of_few_disks(void **state)
+{
+    (void)state;
+    koksma_points p = sets_points(9, 2, 0, 4);
+    const koksma_value one = warped("polar-disk", "disk-sampled:disks=1", &p),
+                       two = warped("polar-disk", "disk-sampled:disks=2", &p);
+    assert_true(one.value > 0 && isnan(one.standard_error) && !one.exact);
+    const double other = 2 * two.square - one.square;
+    assert_near(two.standard_error, fabs(one.square - other) / 4 / two.value, 1e-15);
+    koksma_points_fini(&p);
+}
+
 /* Random caps against a fine mapped lattice as the measure of the hemisphere. */
 static void caps_agree_with_random_caps(void **state)
 {
@@ -209,6 +223,7 @@ int main(void)
         cmocka_unit_test(warps_carry_the_measure),
         cmocka_unit_test(triangle_maps_keep_area),
         cmocka_unit_test(disks_agree_with_random_disks),
+        cmocka_unit_test(errors_of_few_disks),
         cmocka_unit_test(caps_agree_with_random_caps),
         cmocka_unit_test(random_points),
         cmocka_unit_test(concentric_beats_polar),

@@ -15,6 +15,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/parts/disk_laws.h"
+#include "measures/parts/sampled.h"
 #include "measures/parts/warp_disks.h"
 #include "measures/parts/warp_domains.h"
 
@@ -85,22 +86,22 @@ static double sample_disk(const job *j, koksma__disk_law law, double r_max, uint
 static koksma_status disk_sampled(const job *j, const koksma_spec *measure, const koksma_run *run, koksma_value *out)
 {
     const koksma__disk_law law = (koksma__disk_law)measure->params[2];
-    const double r = koksma__disk_radius(law, measure->params[1]), count = measure->params[0];
-    koksma__sum sum = {0}, squares = {0};
-    for (uint64_t d = 0; d < (uint64_t)count; d++) {
-        if (d % 256 == 0 && !koksma__keep_going(run, (double)d / count)) {
-            return koksma__fail_interrupted();
-        }
-        const double square = sample_disk(j, law, r, (uint64_t)measure->params[3], d);
-        koksma__sum_add(&sum, square);
-        koksma__sum_add(&squares, square * square);
+    const double r = koksma__disk_radius(law, measure->params[1]);
+    const size_t count = (size_t)measure->params[0];
+    double *squares = malloc(count * sizeof *squares);
+    if (!squares) {
+        return koksma__fail_memory(count * sizeof *squares);
     }
-    out->square = koksma__sum_value(&sum) / count;
-    out->value = sqrt(out->square);
-    const double variance = fmax(koksma__sum_value(&squares) / count - out->square * out->square, 0) / count;
-    out->standard_error = out->value > 0 ? sqrt(variance) / (2 * out->value) : 0;
-    out->exact = false;
-    return KOKSMA_OK;
+    bool stopped = false;
+    for (size_t d = 0; d < count && !stopped; d++) {
+        squares[d] = sample_disk(j, law, r, (uint64_t)measure->params[3], d);
+        stopped = d % 256 == 0 && !koksma__keep_going(run, (double)d / (double)count);
+    }
+    if (!stopped) {
+        koksma__sampled_root(squares, count, out);
+    }
+    free(squares);
+    return stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
 /* What can be measured in a domain, for error texts. */
