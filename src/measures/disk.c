@@ -11,8 +11,9 @@
  * circles of equal radius. Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
  * Limits: a point closer than 4e-15 (as a squared distance) to a rim counts as on it, so that cocircular points count
  * together in spite of rounding; the value is good to 1e-14. All pairs are tried up to 64 points, above by branch and
- * bound (parts/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points, the value is a
- * lower bound, with an upper one beside it.
+ * bound (parts/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points where there is
+ * none, the value is a lower bound, with an upper one beside it, and is not exact: so it
+ * is for lattices of a few hundred points, and for the first 4,096 of sobol.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -173,7 +174,7 @@ const koksma_measure koksma__measure_disk = {
     .name = "disk",
     .title = "discrepancy of disks on the torus, up to a radius",
     .cite = "mitchell1992 megiddo1983",
-    .cost = "n^3 to 64 points, then about n^2.5; bounds if cut short",
+    .cost = "n^3 to 64 points, then about n^2.5, 2^28 looks at most: bounds if cut short",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,

@@ -277,6 +277,26 @@ koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, c
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
 
+/* The slack of bounds, which is more than rounding. */
+static const double AS_GOOD_AS_EXACT = 2e-12;
+
+/* The store has no place for a bound's other side, so that it takes values, which a search that was cut short has
+   none of, and estimates and bounds of measures that promise no more. */
+static koksma_status check_value(const koksma__task *t, const koksma_spec *measure, const koksma_value *value)
+{
+    char text[KOKSMA_MAX_SPEC];
+    if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
+        value->upper - value->lower <= AS_GOOD_AS_EXACT) {
+        return KOKSMA_OK;
+    }
+    koksma_spec_text(measure, text);
+    return koksma__fail(
+        KOKSMA_N,
+        "%s of %s, n = %lld: only known to be from %.9g to %.9g, as the search was cut short; a study "
+        "takes exact values: leave out that measure or n",
+        text, t->pattern, t->n, value->lower, value->upper);
+}
+
 static koksma_status measure(const koksma__task *t, const koksma_points *points, const koksma_run *run,
                              koksma__result *results)
 {
@@ -290,6 +310,7 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
             status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
                           : koksma_evaluate(&spec, points, run, &value);
         }
+        status = status ? status : check_value(t, &spec, &value);
         results[m].values[0] = value.value;
         results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
     }

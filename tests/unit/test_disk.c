@@ -238,6 +238,10 @@ static void bounds_when_cut_short(void **state)
     assert_true(v.lower <= one.value && one.value <= v.upper);
     assert_true(v.exact == (v.lower == v.upper));
     koksma_points_fini(&p);
+    p = test_points("regular", 256, 2, 0); /* 2^28 looks don't do */
+    v = test_measure("disk", &p);
+    assert_true(!v.exact && v.lower == v.value && v.lower < v.upper);
+    koksma_points_fini(&p);
 }
 
 int main(void)
