@@ -51,6 +51,12 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     cli_row_json(rows, "witness", json, text);
 }
 
+/* Whether a bound stands where an exact value was to be. */
+static bool is_cut_short(const koksma_spec *measure, const koksma_value *value)
+{
+    return measure->measure->answer == KOKSMA_ANSWER_EXACT && !value->exact;
+}
+
 static void put_row(measuring *j, const char *source, const koksma_points *points, const koksma_spec *measure,
                     const koksma_value *value)
 {
@@ -67,14 +73,15 @@ static void put_row(measuring *j, const char *source, const koksma_points *point
     const bool json = cli_flag(j->arguments, "json");
     if (json) {
         cli_row_number(j->rows, "square", value->square);
-        cli_row_flag(j->rows, "exact", value->exact);
     }
-    if (json || j->time_limit_s > 0) {
+    if (json || j->bounds || is_cut_short(measure, value)) {
+        cli_row_flag(j->rows, "exact", value->exact);
         cli_row_number(j->rows, "lower", value->lower);
         cli_row_number(j->rows, "upper", value->upper);
     }
-    if (json) {
-        cli_row_number(j->rows, "standard_error", value->standard_error);
+    if (json || j->sampled) {
+        const bool none = !json && measure->measure->answer != KOKSMA_ANSWER_SAMPLED;
+        cli_row_number(j->rows, "standard_error", none ? (double)NAN : value->standard_error);
     }
     put_witness(j->rows, &value->witness);
     cli_row_end(j->rows);
@@ -86,8 +93,33 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
     j->work.what = spec->measure->name;
     koksma_run run = j->work.run;
     run.time_limit_s = j->time_limit_s;
-    return j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
-                   : koksma_evaluate(spec, points, &run, value);
+    const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
+                                         : koksma_evaluate(spec, points, &run, value);
+    j->n_cut[measure] += !status && is_cut_short(spec, value);
+    return status;
+}
+
+/* A line for each measure that was cut short. */
+static void tell_cuts(const measuring *j)
+{
+    for (size_t m = 0; j->n_cut && m < j->n_measures && !cli_flag(j->arguments, "quiet"); m++) {
+        char text[KOKSMA_MAX_SPEC];
+        koksma_spec_text(&j->measures[m], text);
+        if (j->n_cut[m] > 0) {
+            fprintf(stderr, "koksma measure: %s: %zu value%s lower bound%s, not exact: the search was cut short\n",
+                    text, j->n_cut[m], j->n_cut[m] > 1 ? "s are" : " is a", j->n_cut[m] > 1 ? "s" : "");
+        }
+    }
+}
+
+/* The columns that all rows of a table have. */
+static void choose_columns(measuring *j)
+{
+    j->bounds = j->time_limit_s > 0;
+    for (size_t m = 0; m < j->n_measures; m++) {
+        j->bounds = j->bounds || j->measures[m].measure->answer == KOKSMA_ANSWER_BOUND;
+        j->sampled = j->sampled || j->measures[m].measure->answer == KOKSMA_ANSWER_SAMPLED;
+    }
 }
 
 /* -m all leaves out what can't serve a set. */
@@ -258,6 +290,7 @@ static int run(const cli_arguments *arguments)
     if (status) {
         return cli_fail(arguments, status);
     }
+    choose_columns(&j);
     j.rows = cli_rows_open(cli_flag(arguments, "json"));
     int code = measuring_open(&j) ? CLI_YES : cli_no_memory();
     for (int i = 0; !code && i < arguments->n_operands; i++) {
@@ -266,8 +299,9 @@ static int run(const cli_arguments *arguments)
             code = measure_source(&j, arguments->operands[i]);
         }
     }
-    measuring_close(&j);
     const int rows_code = cli_rows_close(j.rows);
+    tell_cuts(&j);
+    measuring_close(&j);
     return code ? code : rows_code;
 }
 
@@ -296,12 +330,17 @@ const cli_command cli_command_measure = {
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
         "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
         "points\n"
-        "can have, powers of logarithms aside. With --time-limit, star-lower, extreme, edge, disk and, from 3 "
-        "dimensions\n"
-        "on, star end in time and rows say lower and upper, bounds that hold for certain; those of trials say for "
-        "how\n"
-        "many of them the value is exact. The others, and star of the line and the plane and extreme:grid, have no\n"
-        "bounds to give and take the time they need.",
+        "can have, powers of logarithms aside. Their standard error is that of the trials' spread; one set has "
+        "none,\n"
+        "and residual_error says how far its values are off the line.\n"
+        "With --time-limit, star-lower, extreme, edge, disk and, from 3 dimensions on, star end in time, and rows "
+        "say\n"
+        "exact, lower and upper, bounds that hold for certain; those of trials, differences and slopes say for how\n"
+        "many of them all values are exact. The others, and star of the line and the plane and extreme:grid, have "
+        "no\n"
+        "bounds to give and take the time they need. disk ends without a limit too, after 2^28 looks at points at\n"
+        "most: where they don't do, as for lattices of hundreds and other sets of thousands of points, rows say so\n"
+        "in the same way, and so does a line on stderr.",
     .options = options,
     .run = run,
 };

@@ -62,7 +62,8 @@ static int add_points(plot_job *j, const char *source, koksma_points *points, ko
         if (status) {
             return cli_fail(j->curves.arguments, status);
         }
-        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s = %.6f", j->witness, value->value);
+        const bool is_bound = !value->exact && measure.measure->answer != KOKSMA_ANSWER_SAMPLED;
+        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s %s %.6f", j->witness, is_bound ? ">=" : "=", value->value);
         panel->scatter.witness = &value->witness;
         panel->caption = caption;
     } else if (j->curves.arguments->n_operands > 1) {

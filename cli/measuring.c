@@ -11,16 +11,24 @@
 bool measuring_open(measuring *j)
 {
     j->tallies = calloc(2 * MAX_PREFIXES * (j->n_measures + 1), sizeof *j->tallies);
-    j->n_exact = calloc(MAX_PREFIXES * (j->n_measures + 1), sizeof *j->n_exact);
-    j->differences = j->tallies ? j->tallies + MAX_PREFIXES * (j->n_measures + 1) : NULL;
-    return j->tallies && j->n_exact;
+    const size_t room = MAX_PREFIXES * (j->n_measures + 1);
+    j->n_exact = calloc(2 * room, sizeof *j->n_exact);
+    j->n_cut = calloc(2 * (j->n_measures + 1), sizeof *j->n_cut);
+    j->joints = calloc(j->n_measures + 1, sizeof *j->joints);
+    j->differences = j->tallies ? j->tallies + room : NULL;
+    j->n_exact_pairs = j->n_exact ? j->n_exact + room : NULL;
+    j->n_whole = j->n_cut ? j->n_cut + j->n_measures + 1 : NULL;
+    return j->tallies && j->n_exact && j->n_cut && j->joints;
 }
 
 void measuring_close(measuring *j)
 {
     free(j->tallies);
     free(j->n_exact);
+    free(j->n_cut);
+    free(j->joints);
     free(j->firsts);
+    free(j->first_is_exact);
 }
 
 /* The columns that all rows of trials begin with; theirs and the first's when it is a difference. */
@@ -41,20 +49,27 @@ static void put_head(measuring *j, const char *source, size_t n, int dim, const 
     }
 }
 
-/* The columns that only some rows have something for: of how many trials the value is exact and no bound, the 95 %
-   interval of the mean, and theory. */
-static void put_tail(measuring *j, double n_exact, double low, double high, double theory, double best)
+/* What only some rows have something for: of how many trials the value is exact and no bound, the 95 % interval of
+   the mean, theory, and of one set's slope the error by its residuals. NaN: nothing. */
+typedef struct tail {
+    double n_exact, low, high, theory, best, residual_error;
+} tail;
+
+static void put_tail(measuring *j, tail t)
 {
-    if (j->time_limit_s > 0) {
-        cli_row_number(j->rows, "exact", n_exact);
+    if (j->bounds || cli_flag(j->arguments, "json")) {
+        cli_row_number(j->rows, "exact", t.n_exact);
     }
     if (j->paired) {
-        cli_row_number(j->rows, "low", low);
-        cli_row_number(j->rows, "high", high);
+        cli_row_number(j->rows, "low", t.low);
+        cli_row_number(j->rows, "high", t.high);
     }
     if (j->powers || cli_text(j->arguments, "prefixes", NULL)) {
-        cli_row_number(j->rows, "theory", theory);
-        cli_row_number(j->rows, "best", best);
+        if (j->trials == 1) {
+            cli_row_number(j->rows, "residual_error", t.residual_error);
+        }
+        cli_row_number(j->rows, "theory", t.theory);
+        cli_row_number(j->rows, "best", t.best);
     }
     cli_row_end(j->rows);
 }
@@ -67,7 +82,8 @@ static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
     cli_row_number(j->rows, "min", t->min);
     cli_row_number(j->rows, "max", t->max);
     cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
-    put_tail(j, n_exact, t->mean - koksma_tally_interval(t), t->mean + koksma_tally_interval(t), NAN, NAN);
+    const double half = koksma_tally_interval(t);
+    put_tail(j, (tail){n_exact, t->mean - half, t->mean + half, NAN, NAN, NAN});
 }
 
 /* Whether the first k points are such a set of the pattern as theory speaks of: those of a sequence, or independent
@@ -77,6 +93,12 @@ static bool prefixes_are_sets(const koksma_pattern *pattern)
     const bool independent =
         pattern->claims & KOKSMA_CLAIM_INDEPENDENT && !(pattern->claims & KOKSMA_CLAIM_STRATIFIED);
     return pattern->claims & KOKSMA_CLAIM_SEQUENCE || independent;
+}
+
+/* Of estimates none is exact, and none is a bound. */
+static double n_exact_of(const measuring *j, size_t measure, size_t count)
+{
+    return j->measures[measure].measure->answer == KOKSMA_ANSWER_SAMPLED ? (double)NAN : (double)count;
 }
 
 /* The slope of log value over log n, beside the exponents of theory. */
@@ -91,7 +113,8 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
         sizes[i] = (double)j->prefixes[i];
         means[i] = t->count > 0 ? t->mean : (double)NAN;
     }
-    if (!koksma_log_line(j->n_prefixes, sizes, means, &line) || cli_source_open(j->arguments, source, &parts)) {
+    if (!cli_slope(j->n_prefixes, sizes, means, &j->joints[measure], &line) ||
+        cli_source_open(j->arguments, source, &parts)) {
         return;
     }
     const koksma_measure *m = j->measures[measure].measure;
@@ -100,17 +123,22 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     snprintf(name, sizeof name, "slope of %s", text);
     put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);
     cli_row_number(j->rows, "value", line.slope);
-    cli_row_whole(j->rows, "trials", (uint64_t)j->tallies[measure].count);
+    const double trials = j->joints[measure].count;
+    cli_row_whole(j->rows, "trials", (uint64_t)trials);
     cli_row_number(j->rows, "sd", NAN);
     cli_row_number(j->rows, "min", NAN);
     cli_row_number(j->rows, "max", NAN);
-    cli_row_number(j->rows, "standard_error", line.slope_error);
-    put_tail(j, NAN, NAN, NAN, known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
-             j->warp ? (double)NAN : -koksma_best_rate(m, dim));
+    cli_row_number(j->rows, "standard_error", trials > 1 ? line.slope_error : (double)NAN);
+    put_tail(j, (tail){n_exact_of(j, measure, j->n_whole[measure]), NAN, NAN,
+                       known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
+                       j->warp ? (double)NAN : -koksma_best_rate(m, dim), line.slope_error});
 }
 
 static void put_tallies(measuring *j, const char *source, int dim)
 {
+    for (size_t m = 0; m < j->n_measures; m++) { /* a table is of one kind of rows */
+        j->bounds = j->bounds || j->n_cut[m] > 0;
+    }
     for (size_t m = 0; m < j->n_measures; m++) {
         char name[KOKSMA_MAX_SPEC];
         koksma_spec_text(&j->measures[m], name);
@@ -120,7 +148,7 @@ static void put_tallies(measuring *j, const char *source, int dim)
                 if (tallies[i * j->n_measures + m].count > 0) {
                     put_head(j, source, j->prefixes[i], dim, name, which == 1);
                     const size_t at = i * j->n_measures + m;
-                    put_tally(j, &tallies[at], which ? (double)NAN : (double)j->n_exact[at]);
+                    put_tally(j, &tallies[at], n_exact_of(j, m, (which ? j->n_exact_pairs : j->n_exact)[at]));
                 }
             }
         }
@@ -159,7 +187,8 @@ static int open_firsts(measuring *j, const char *source)
                                                       j->first_source);
     }
     j->firsts = calloc((size_t)j->trials, count * sizeof *j->firsts);
-    if (!j->firsts) {
+    j->first_is_exact = calloc((size_t)j->trials, count * sizeof *j->first_is_exact);
+    if (!j->firsts || !j->first_is_exact) {
         return cli_no_memory();
     }
     j->n_firsts = count;
@@ -168,30 +197,50 @@ static int open_firsts(measuring *j, const char *source)
     return CLI_YES;
 }
 
+static void tally_value(measuring *j, const koksma_value *value, size_t at, uint64_t trial, bool first)
+{
+    koksma_tally_add(&j->tallies[at], value->value);
+    j->n_exact[at] += value->exact;
+    if (!j->paired) {
+        return;
+    }
+    const size_t kept = trial * j->n_firsts + at;
+    if (first) {
+        j->firsts[kept] = value->value;
+        j->first_is_exact[kept] = value->exact;
+    } else if (isfinite(value->value - j->firsts[kept])) {
+        koksma_tally_add(&j->differences[at], value->value - j->firsts[kept]);
+        j->n_exact_pairs[at] += value->exact && j->first_is_exact[kept];
+    }
+}
+
 static koksma_status tally_points(measuring *j, const koksma_points *points, uint64_t trial, bool first)
 {
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < j->n_prefixes && !status; i++) {
+    double values[MAX_MEASURES][MAX_PREFIXES];
+    bool whole[MAX_MEASURES];
+    for (size_t i = 0; i < j->n_prefixes; i++) {
         const koksma_points prefix = {j->prefixes[i], points->dim, points->xs};
-        for (size_t m = 0; m < j->n_measures && !status; m++) {
+        for (size_t m = 0; m < j->n_measures; m++) {
             const size_t at = i * j->n_measures + m;
-            double *kept = j->paired ? &j->firsts[trial * j->n_firsts + at] : NULL;
             koksma_value value = {.value = NAN};
-            status = measuring_evaluate(j, m, &prefix, &value);
-            const bool measured = !status;
-            status = measuring_forgive(j, status);
-            if (measured) {
-                koksma_tally_add(&j->tallies[at], value.value);
-                j->n_exact[at] += value.exact;
+            const koksma_status status = measuring_evaluate(j, m, &prefix, &value);
+            if (measuring_forgive(j, status)) {
+                return status;
             }
-            if (kept && first) {
-                *kept = measured ? value.value : (double)NAN;
-            } else if (kept && measured && isfinite(value.value - *kept)) {
-                koksma_tally_add(&j->differences[at], value.value - *kept);
+            if (!status) {
+                tally_value(j, &value, at, trial, first);
+            } else if (j->paired && first) {
+                j->firsts[trial * j->n_firsts + at] = NAN;
             }
+            values[m][i] = status ? (double)NAN : value.value;
+            whole[m] = (i == 0 || whole[m]) && (status || value.exact);
         }
     }
-    return status;
+    for (size_t m = 0; m < j->n_measures; m++) {
+        cli_joint_add(&j->joints[m], j->n_prefixes, values[m]);
+        j->n_whole[m] += whole[m];
+    }
+    return KOKSMA_OK;
 }
 
 int measuring_trials(measuring *j, const char *source)
@@ -199,7 +248,9 @@ int measuring_trials(measuring *j, const char *source)
     int code = CLI_YES, dim = 0;
     const bool first = !j->firsts;
     memset(j->tallies, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->tallies);
-    memset(j->n_exact, 0, MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->n_exact);
+    memset(j->n_exact, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->n_exact);
+    memset(j->n_whole, 0, (j->n_measures + 1) * sizeof *j->n_whole);
+    memset(j->joints, 0, (j->n_measures + 1) * sizeof *j->joints);
     for (uint64_t t = 0; t < j->trials && !code; t++) {
         koksma_points points = {0};
         code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);

@@ -6,9 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "slope.h"
 #include "source.h"
 
-enum { MAX_SIZES = 64, PER_SOURCE = 3, LABEL = 160 };
+enum { MAX_SIZES = CLI_MAX_SIZES, PER_SOURCE = 3, LABEL = 160 };
 
 const char *plot_label(const char *source)
 {
@@ -170,25 +171,42 @@ static bool choose_sizes(const plot_job *j, size_t n, size_t *sizes, size_t *cou
     return true;
 }
 
-/* The mean of a measure over sets of n points: a pattern's own sets of n, the first n of a file. */
-static int tally_size(plot_job *j, const koksma_spec *measure, const cli_source *source, const koksma_points *file,
-                      size_t n, koksma_tally *tally)
+/* A source's means over trials by size. */
+typedef struct convergence {
+    size_t sizes[MAX_SIZES], count;
+    koksma_tally tallies[MAX_SIZES];
+    cli_joint joint;
+    size_t n_cut; /* values that are bounds, as the search was cut short */
+} convergence;
+
+/* Values over sets of n points: a pattern's own sets of n, the first n of a file. */
+static int tally_sizes(plot_job *j, const koksma_spec *measure, const cli_source *source, const koksma_points *file,
+                       convergence *c)
 {
     koksma_status status = KOKSMA_OK;
     for (uint64_t t = 0; t < (file ? 1 : j->curves.trials) && !status; t++) {
-        koksma_points points = {0};
-        koksma_value value;
-        if (!file) {
-            status = koksma_points_init(&points, n, source->dim);
-            status =
-                status ? status : koksma_generate(&source->spec, j->curves.seed + t, &j->curves.work.run, &points);
+        double values[MAX_SIZES];
+        for (size_t i = 0; i < c->count && !status; i++) {
+            koksma_points points = {0};
+            koksma_value value = {0};
+            if (!file) {
+                status = koksma_points_init(&points, c->sizes[i], source->dim);
+                status = status ? status
+                                : koksma_generate(&source->spec, j->curves.seed + t, &j->curves.work.run, &points);
+            }
+            if (!status) {
+                status = koksma_evaluate_prefixes(measure, file ? file : &points, &c->sizes[i], 1,
+                                                  &j->curves.work.run, &value);
+            }
+            koksma_points_fini(&points);
+            values[i] = value.value;
+            c->n_cut += measure->measure->answer == KOKSMA_ANSWER_EXACT && !status && !value.exact;
+            if (!status) {
+                koksma_tally_add(&c->tallies[i], value.value);
+            }
         }
         if (!status) {
-            status = koksma_evaluate_prefixes(measure, file ? file : &points, &n, 1, &j->curves.work.run, &value);
-        }
-        koksma_points_fini(&points);
-        if (!status) {
-            koksma_tally_add(tally, value.value);
+            cli_joint_add(&c->joint, c->count, values);
         }
     }
     cli_work_end(&j->curves.work);
@@ -216,39 +234,60 @@ static void push_slopes(store *s, const koksma_line *line, double theory, const 
     s->curves[s->n - 1].errors = NULL;
 }
 
+static void tell_cut(const plot_job *j, const char *source, size_t n_cut)
+{
+    if (n_cut > 0 && !cli_flag(j->curves.arguments, "quiet")) {
+        fprintf(stderr, "koksma plot: %s: %zu value%s lower bound%s, not exact: the search was cut short\n", source,
+                n_cut, n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
+    }
+}
+
+/* What the legend says of a source: its slope, with the trials' standard error or one set's residuals. */
+static void label_slope(char *label, const convergence *c, const koksma_line *line)
+{
+    const size_t used = strlen(label);
+    const char *error = c->joint.count > 1 ? "+-" : "by residuals +-";
+    const char *bounds = c->n_cut > 0 ? ", of lower bounds" : "";
+    if (line) {
+        snprintf(label + used, LABEL - used, ": slope %.3f %s %.3f%s", line->slope, error, line->slope_error, bounds);
+    } else if (c->n_cut > 0) {
+        snprintf(label + used, LABEL - used, ": lower bounds");
+    }
+}
+
 static int add_convergence(plot_job *j, const koksma_spec *measure, const char *text, size_t colour, store *s)
 {
     cli_source source;
     koksma_points file = {0};
-    size_t sizes[MAX_SIZES], count;
     double *numbers = next_numbers(s);
     char *label = s->labels[s->n];
-    int code = cli_source_open(j->curves.arguments, text, &source);
+    convergence *c = calloc(1, sizeof *c);
+    int code = c ? cli_source_open(j->curves.arguments, text, &source) : cli_no_memory();
     if (!code && !source.is_pattern) {
         code = cli_source_points(j->curves.arguments, text, 0, &j->curves.work.run, &file);
     }
-    const size_t n = source.is_pattern ? source.n : file.n;
-    if (!code && !choose_sizes(j, n, sizes, &count)) {
+    if (!code && !choose_sizes(j, source.is_pattern ? source.n : file.n, c->sizes, &c->count)) {
         code = CLI_USAGE;
     }
-    for (size_t i = 0; !code && i < count; i++) {
-        koksma_tally tally = {0};
-        code = tally_size(j, measure, &source, source.is_pattern ? NULL : &file, sizes[i], &tally);
-        numbers[i] = (double)sizes[i];
-        numbers[s->per + i] = tally.mean;
-        numbers[2 * s->per + i] = koksma_tally_error(&tally);
-    }
-    const int dim = source.is_pattern ? source.dim : file.dim;
+    code = code ? code : tally_sizes(j, measure, &source, source.is_pattern ? NULL : &file, c);
+    const int dim = code ? 0 : source.is_pattern ? source.dim : file.dim;
     koksma_points_fini(&file);
     if (code) {
+        free(c);
         return code;
     }
-    koksma_line line;
-    const bool fitted = koksma_log_line(count, numbers, numbers + s->per, &line);
-    const int used = snprintf(label, LABEL, "%.100s", plot_label(text));
-    if (fitted) {
-        snprintf(label + used, LABEL - (size_t)used, ": slope %.3f +- %.3f", line.slope, line.slope_error);
+    for (size_t i = 0; i < c->count; i++) {
+        numbers[i] = (double)c->sizes[i];
+        numbers[s->per + i] = c->tallies[i].mean;
+        numbers[2 * s->per + i] = koksma_tally_error(&c->tallies[i]);
     }
+    koksma_line line;
+    const bool fitted = cli_slope(c->count, numbers, numbers + s->per, &c->joint, &line);
+    snprintf(label, LABEL, "%.80s", plot_label(text));
+    label_slope(label, c, fitted ? &line : NULL);
+    tell_cut(j, text, c->n_cut);
+    const size_t count = c->count;
+    free(c);
     push_curve(s, count, colour, label);
     s->curves[s->n - 1].marks = true;
     if (fitted) {

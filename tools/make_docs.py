@@ -86,11 +86,12 @@ def fits(site, measure, dim):
 
 
 def number(row):
-    """A mean with its standard error."""
+    """A mean with its standard error, or a bound of it."""
     if row is None or row["value"] is None:
         return "-"
     error = row["standard_error"]
-    return f"{row['value']:.4g}" + (f" <small>± {error:.1g}</small>" if error > 1e-9 * abs(row["value"]) else "")
+    bound = "≥ " if row["exact"] is not None and row["exact"] < row["trials"] else ""
+    return bound + f"{row['value']:.4g}" + (f" <small>± {error:.1g}</small>" if error > 1e-9 * abs(row["value"]) else "")
 
 
 def projections(site, row, n):

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "slope.h"
+
+#include <math.h>
+
+/* Welford 1962, for products too. */
+void cli_joint_add(cli_joint *joint, size_t n, const double *values)
+{
+    double off[CLI_MAX_SIZES];
+    joint->count++;
+    for (size_t i = 0; i < n; i++) {
+        off[i] = values[i] - joint->means[i];
+        joint->means[i] += off[i] / joint->count;
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < n; k++) {
+            joint->spread[i][k] += off[i] * (values[k] - joint->means[k]);
+        }
+    }
+}
+
+/*
+ * Prefixes of one set are nested, so that the means at several sizes vary together, and residuals, small as they are,
+ * say little of how far the line would move with other sets. The slope is sum_i w_i log m_i with
+ * w_i = (x_i - x)/sum (x_i - x)^2, so that to first order its variance over trials is
+ *
+ *     sum_ik w_i w_k S_ik/(m_i m_k) / (T (T - 1)),
+ *
+ * S being the sums of products of deviations: the infinitesimal jackknife (Efron 1982, chapter 6).
+ */
+static double error_of_trials(size_t n, const double *sizes, const double *means, const cli_joint *joint)
+{
+    double weights[CLI_MAX_SIZES], middle = 0, square = 0, count = 0, variance = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < n; i++) {
+            weights[i] = 0;
+            if (!(means[i] > 0 && isfinite(means[i]))) {
+                continue; /* the line leaves it out */
+            }
+            if (pass == 0) {
+                middle += (log(sizes[i]) - middle) / ++count;
+            } else {
+                weights[i] = (log(sizes[i]) - middle) / means[i];
+                square += (log(sizes[i]) - middle) * (log(sizes[i]) - middle);
+            }
+        }
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < n; k++) {
+            variance += weights[i] != 0 && weights[k] != 0 ? weights[i] * weights[k] * joint->spread[i][k] : 0;
+        }
+    }
+    return sqrt((variance < 0 ? 0 : variance) / (joint->count * (joint->count - 1))) / square;
+}
+
+bool cli_slope(size_t n, const double *sizes, const double *means, const cli_joint *joint, koksma_line *line)
+{
+    if (!koksma_log_line(n, sizes, means, line)) {
+        return false;
+    }
+    if (joint->count > 1) {
+        line->slope_error = error_of_trials(n, sizes, means, joint);
+    }
+    return true;
+}
