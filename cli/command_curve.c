@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,6 +83,11 @@ static int put_quality(const curve_job *j, const char *source, const koksma_spec
 {
     koksma_spectrum_quality_values q;
     koksma_spectrum_quality(s, &q);
+    if (isnan(q.oscillation) && !cli_flag(j->curves.arguments, "quiet")) {
+        fprintf(stderr,
+                "koksma curve: %s: no oscillation: frequencies up to %d end before 5 sqrt(n) beyond the rise%s\n",
+                source, s->half, s->half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "");
+    }
     put_head(j, source, "quality");
     cli_row_number(j->rows, "effective_nyquist", q.effective_nyquist);
     cli_row_number(j->rows, "relative_nyquist", q.relative_nyquist);
@@ -178,7 +184,11 @@ const cli_command cli_command_curve = {
     .synopsis = "power|rings|quality|pairs FILE|-|pattern:SPEC@N... [--trials T] [--json]",
     .details =
         "power: (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency. rings: its mean over |k|, and the anisotropy.\n"
-        "quality: effective Nyquist frequency, also over sqrt(n)/2, and oscillation (Heck, Schlomer, Deussen 2013).\n"
+        "quality: effective Nyquist frequency, also over sqrt(n)/2 in steps of 1/sqrt(n), so that a square lattice "
+        "of\n"
+        "16 points has 3/4; and oscillation (Heck, Schlomer, Deussen 2013), which takes frequencies up to about\n"
+        "6.5 sqrt(n): from 85,000 points on --half must say so, up to 4096. Memory grows as its square: 1 GB at\n"
+        "2047, 4 GB at 4096.\n"
         "pairs: pair correlation on the torus. `koksma plot --curve` draws them.",
     .options = options,
     .run = run,

@@ -77,7 +77,7 @@ static koksma_status add_spectrum(cli_curves *c, const koksma_points *points, vo
     const spectrum_sum *s = context;
     koksma_status status = KOKSMA_OK;
     if (s->spectrum->sets == 0) {
-        const double wish = fmin(ceil(s->per_root * sqrt((double)points->n)), KOKSMA_SPECTRUM_MAX_HALF / 2 - 1);
+        const double wish = fmin(ceil(s->per_root * sqrt((double)points->n)), CLI_DEFAULT_HALF);
         status = koksma_spectrum_init(s->spectrum, c->half ? (int)c->half : (int)wish);
     }
     return status ? status : koksma_spectrum_add(s->spectrum, points, c->method, &c->work.run);
