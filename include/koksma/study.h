@@ -62,9 +62,9 @@ typedef struct koksma_study_summary {
 } koksma_study_summary;
 
 /* Does the jobs that are not done, until run->time_limit_s. run and summary may be NULL.
-   Errors: INTERRUPTED (what is done is kept), IMPOSSIBLE (a pattern found no set for one or more jobs: the text names
-   the first, all other jobs are done, and the report can be written; for a reference: that ends the run), IO, and
-   what generating, measuring or rendering says. */
+   Errors: INTERRUPTED (what is done is kept), IMPOSSIBLE (a pattern found no set for one or more jobs, or a search
+   ended with bounds: the text names the first, all other jobs are done, and the report can be written; for a
+   reference: that ends the run), IO, and what generating, measuring or rendering says. */
 KOKSMA_API koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary);
 
 typedef struct koksma_study_cost {

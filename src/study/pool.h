@@ -13,7 +13,7 @@
 #include "study/tasks.h"
 #include "study/watch.h"
 
-/* Jobs whose pattern finds no set (IMPOSSIBLE): the others go on without them. */
+/* Jobs whose pattern finds no set, or a measure no value (IMPOSSIBLE): the others go on without them. */
 typedef struct koksma__refused {
     pthread_mutex_t lock; /* guards what follows */
     size_t n, first;

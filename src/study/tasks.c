@@ -282,7 +282,7 @@ static const double AS_GOOD_AS_EXACT = 2e-12;
 
 /* The store has no place for a bound's other side, so that it takes values, which a search that was cut short has
    none of, and estimates and bounds of measures that promise no more. */
-static koksma_status check_value(const koksma__task *t, const koksma_spec *measure, const koksma_value *value)
+static koksma_status check_value(const koksma_spec *measure, const koksma_value *value)
 {
     char text[KOKSMA_MAX_SPEC];
     if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
@@ -290,11 +290,10 @@ static koksma_status check_value(const koksma__task *t, const koksma_spec *measu
         return KOKSMA_OK;
     }
     koksma_spec_text(measure, text);
-    return koksma__fail(
-        KOKSMA_N,
-        "%s of %s, n = %lld: only known to be from %.9g to %.9g, as the search was cut short; a study "
-        "takes exact values: leave out that measure or n",
-        text, t->pattern, t->n, value->lower, value->upper);
+    return koksma__fail(KOKSMA_IMPOSSIBLE,
+                        "%s: only known to be from %.9g to %.9g, as the search was cut short; a study takes exact "
+                        "values: leave out that measure or n",
+                        text, value->lower, value->upper);
 }
 
 static koksma_status measure(const koksma__task *t, const koksma_points *points, const koksma_run *run,
@@ -310,7 +309,7 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
             status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
                           : koksma_evaluate(&spec, points, run, &value);
         }
-        status = status ? status : check_value(t, &spec, &value);
+        status = status ? status : check_value(&spec, &value);
         results[m].values[0] = value.value;
         results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
     }
