@@ -152,7 +152,7 @@ static double anisotropy_db(double points, double power, double variance)
     if (!(power > AMPLITUDE * AMPLITUDE * points)) {
         return NAN;
     }
-    return relative > rounding * rounding ? 10 * log10(relative) : -INFINITY;
+    return relative > rounding * rounding ? 10 * log10(relative) : -(double)INFINITY;
 }
 
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
