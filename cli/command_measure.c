@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bounds.h"
 #include "measuring.h"
 #include "source.h"
 
@@ -51,12 +52,6 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     cli_row_json(rows, "witness", json, text);
 }
 
-/* Whether a bound stands where an exact value was to be. */
-static bool is_cut_short(const koksma_spec *measure, const koksma_value *value)
-{
-    return measure->measure->answer == KOKSMA_ANSWER_EXACT && !value->exact;
-}
-
 static void put_row(measuring *j, const char *source, const koksma_points *points, const koksma_spec *measure,
                     const koksma_value *value)
 {
@@ -74,7 +69,7 @@ static void put_row(measuring *j, const char *source, const koksma_points *point
     if (json) {
         cli_row_number(j->rows, "square", value->square);
     }
-    if (json || j->bounds || is_cut_short(measure, value)) {
+    if (json || j->bounds || cli_is_cut_short(measure, value)) {
         cli_row_flag(j->rows, "exact", value->exact);
         cli_row_number(j->rows, "lower", value->lower);
         cli_row_number(j->rows, "upper", value->upper);
@@ -95,20 +90,17 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
     run.time_limit_s = j->time_limit_s;
     const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
                                          : koksma_evaluate(spec, points, &run, value);
-    j->n_cut[measure] += !status && is_cut_short(spec, value);
+    j->n_cut[measure] += !status && cli_is_cut_short(spec, value);
     return status;
 }
 
 /* A line for each measure that was cut short. */
 static void tell_cuts(const measuring *j)
 {
-    for (size_t m = 0; j->n_cut && m < j->n_measures && !cli_flag(j->arguments, "quiet"); m++) {
+    for (size_t m = 0; j->n_cut && m < j->n_measures; m++) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(&j->measures[m], text);
-        if (j->n_cut[m] > 0) {
-            fprintf(stderr, "koksma measure: %s: %zu value%s lower bound%s, not exact: the search was cut short\n",
-                    text, j->n_cut[m], j->n_cut[m] > 1 ? "s are" : " is a", j->n_cut[m] > 1 ? "s" : "");
-        }
+        cli_tell_cuts(j->arguments, text, j->n_cut[m]);
     }
 }
 

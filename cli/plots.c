@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bounds.h"
 #include "slope.h"
 #include "source.h"
 
@@ -200,7 +201,7 @@ static int tally_sizes(plot_job *j, const koksma_spec *measure, const cli_source
             }
             koksma_points_fini(&points);
             values[i] = value.value;
-            c->n_cut += measure->measure->answer == KOKSMA_ANSWER_EXACT && !status && !value.exact;
+            c->n_cut += !status && cli_is_cut_short(measure, &value);
             if (!status) {
                 koksma_tally_add(&c->tallies[i], value.value);
             }
@@ -232,14 +233,6 @@ static void push_slopes(store *s, const koksma_line *line, double theory, const 
     push_curve(s, 2, 0, label);
     s->curves[s->n - 1].dashed = true;
     s->curves[s->n - 1].errors = NULL;
-}
-
-static void tell_cut(const plot_job *j, const char *source, size_t n_cut)
-{
-    if (n_cut > 0 && !cli_flag(j->curves.arguments, "quiet")) {
-        fprintf(stderr, "koksma plot: %s: %zu value%s lower bound%s, not exact: the search was cut short\n", source,
-                n_cut, n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
-    }
 }
 
 /* What the legend says of a source: its slope, with the trials' standard error or one set's residuals. */
@@ -285,7 +278,7 @@ static int add_convergence(plot_job *j, const koksma_spec *measure, const char *
     const bool fitted = cli_slope(c->count, numbers, numbers + s->per, &c->joint, &line);
     snprintf(label, LABEL, "%.80s", plot_label(text));
     label_slope(label, c, fitted ? &line : NULL);
-    tell_cut(j, text, c->n_cut);
+    cli_tell_cuts(j->curves.arguments, text, c->n_cut);
     const size_t count = c->count;
     free(c);
     push_curve(s, count, colour, label);

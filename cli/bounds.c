@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "bounds.h"
+
+#include <stdio.h>
+
+bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value)
+{
+    return measure->measure->answer == KOKSMA_ANSWER_EXACT && !value->exact;
+}
+
+void cli_tell_cuts(const cli_arguments *arguments, const char *what, size_t n_cut)
+{
+    if (n_cut > 0 && !cli_flag(arguments, "quiet")) {
+        fprintf(stderr, "koksma %s: %s: %zu value%s lower bound%s, not exact: the search was cut short\n",
+                arguments->command->name, what, n_cut, n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
+    }
+}
