@@ -254,6 +254,18 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
     }
 }
 
+bool koksma__spec_is_deterministic(const koksma_spec *spec)
+{
+    bool deterministic = !spec->shift && spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC;
+    const koksma_param *params = spec->pattern->params;
+    for (int k = 0; params && params[k].name; k++) {
+        if (!strcmp(params[k].name, "scramble") || !strcmp(params[k].name, "shuffle")) {
+            deterministic = deterministic && spec->params[k] == 0;
+        }
+    }
+    return deterministic;
+}
+
 static koksma_status check_params(const char *owner, const koksma_param *params, const double *values)
 {
     koksma_status status = KOKSMA_OK;

@@ -15,6 +15,10 @@ KOKSMA__LAB koksma_status koksma__params_parse(const char *owner, const koksma_p
    cube in as many dimensions as it has a form for. caller is what errors call the function. Errors: ARGUMENT, DIM. */
 koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points);
 
+/* Whether a pattern's spec gives the same points for every seed: the pattern claims DETERMINISTIC, and neither shift
+   nor a parameter "scramble" or "shuffle" makes it random. */
+KOKSMA__LAB bool koksma__spec_is_deterministic(const koksma_spec *spec);
+
 /* Appends ":key=value,…" for the parameters that are not at their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
