@@ -7,7 +7,14 @@
  *     x(2^l + i) is in the empty half of the stratum of width 2^-l of x(i ^ partner_l), at a random place
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
- * koksma_pmj02_2d of koksma/sampler.h has the same points one by one.
+ *
+ *     shuffle=1    nested uniform shuffle of the index, by a hash that keeps index 0
+ *
+ * With shuffle=1 the first 2^m points are the same set in another order, and every aligned block of 2^m points stays
+ * a (0,m,2)-net. Two seeds then pair their points at random. Without it they do not: the strata of point i are the
+ * same for all seeds up to exclusive ors of their numbers.
+ *
+ * koksma_pmj02_2d of koksma/sampler.h has the points of shuffle=1 one by one.
  */
 #include <koksma/sampler.h>
 
@@ -22,8 +29,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         partners[l] = koksma_pmj02_partner(0, l);
         partners[32 + l] = koksma_pmj02_partner(1, l);
     }
+    if (args->params[0] != 0) {
+        return koksma__grow_shuffled(seed, KOKSMA__PURPOSE_POINT, partners, koksma_order(seed, 0), args->run, out);
+    }
     return koksma__grow(seed, KOKSMA__PURPOSE_POINT, partners, args->run, out);
 }
+
+static const koksma_param params[] = {
+    {"shuffle", "1: in random order, aligned blocks of 2^m points staying (0,m,2)-nets", 0, 0, 1, NULL, true},
+    {0},
+};
 
 const koksma_pattern koksma__pattern_pmj02 = {
     .name = "pmj02",
@@ -33,5 +48,6 @@ const koksma_pattern koksma__pattern_pmj02 = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
               KOKSMA_CLAIM_UNBIASED,
+    .params = params,
     .generate = generate,
 };

@@ -5,9 +5,20 @@
  *     x_k = {1/2 + (i+1) g^-k}, k = 1 .. dim,   g the positive root of g^(dim+1) = g + 1
  *
  * Source: Roberts 2018. dim = 1 has the golden ratio 1.618…, dim = 2 the plastic number 1.3247…. In whole numbers
- * modulo 2^64: no drift. koksma_r_2d of koksma/sampler.h has the shifted points one by one.
+ * modulo 2^64: no drift.
+ *
+ *     shuffle=1    nested uniform shuffle of the 32-bit index i, by a hash
+ *
+ * With shuffle=1 every aligned block of 2^m points is a run of 2^m consecutive points of the sequence, and two seeds
+ * pair their points at random. Other numbers n of points are several runs, one for each one bit of n:
+ * docs/decisions/0014 has what that costs.
+ *
+ * koksma_r_2d of koksma/sampler.h has the points of shuffle=1,shift=1 one by one.
  * Known, 2D, n = 16: D* = 0.243477007, L2 star = 0.067755940.
  */
+#include <koksma/sampler.h>
+
+#include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
 #include "patterns/patterns.h"
 
@@ -48,9 +59,29 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
     }
 }
 
+typedef struct shuffled {
+    const uint64_t *alphas;
+    uint32_t order;
+} shuffled;
+
+static void shuffled_columns(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+{
+    const shuffled *s = context;
+    uint32_t index[KOKSMA__COLUMN_BLOCK];
+    for (size_t i = 0; i < count; i++) {
+        index[i] = (uint32_t)(first + i);
+    }
+    koksma__kernels()->owen_hash(count, index, true, true, s->order, index);
+    for (int c = 0; c < some; c++) {
+        for (size_t i = 0; i < count; i++) {
+            const uint64_t x = ((uint64_t)1 << 63) + ((uint64_t)index[i] + 1) * s->alphas[k + c];
+            xs[c][i] = (double)(int64_t)(x >> 11) * 0x1p-53;
+        }
+    }
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
     uint64_t alphas[MAX_DIM] = {0x9E3779B97F4A7C15u};
     if (out->dim == 2) {
         alphas[0] = 0xC13FA9A902A6328Fu; /* rounded to nearest */
@@ -61,8 +92,17 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             alphas[k] = product(alphas[k - 1], alphas[0]);
         }
     }
+    if (args->params[0] != 0) {
+        const shuffled s = {alphas, koksma_order(seed, 0)};
+        return koksma__fill_blocks(args->run, out, shuffled_columns, &s);
+    }
     return koksma__fill_columns(args->run, out, column, alphas);
 }
+
+static const koksma_param params[] = {
+    {"shuffle", "1: in random order, aligned blocks of 2^m points staying together", 0, 0, 1, NULL, true},
+    {0},
+};
 
 const koksma_pattern koksma__pattern_r_sequence = {
     .name = "r-sequence",
@@ -71,5 +111,6 @@ const koksma_pattern koksma__pattern_r_sequence = {
     .min_dim = 1,
     .max_dim = MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
+    .params = params,
     .generate = generate,
 };

@@ -10,6 +10,8 @@
 
 enum { N = 1000 };
 
+static uint32_t cmj_rows; /* of the grid of 25 columns that cmj draws from */
+
 static void words_are_the_librarys(void **state)
 {
     (void)state;
@@ -43,7 +45,7 @@ static void pmj02(koksma_domain domain, uint32_t i, double *xs)
 
 static void cmj(koksma_domain domain, uint32_t i, double *xs)
 {
-    koksma_cmj_2d(domain, i, 25, N / 25, xs);
+    koksma_cmj_2d(domain, i, 25, cmj_rows, xs);
 }
 
 static void r(koksma_domain domain, uint32_t i, double *xs)
@@ -61,14 +63,17 @@ static void samples_are_the_librarys(void **state)
     } pairs[] = {
         {"sobol:scramble=hash-owen,shuffle=1", 2, sobol},
         {"sobol:scramble=hash-owen,shuffle=1", 4, sobol4},
-        {"pmj02", 2, pmj02},
+        {"pmj02:shuffle=1", 2, pmj02},
         {"correlated-multi-jittered:columns=25", 2, cmj},
-        {"r-sequence:shift=1", 2, r},
+        {"r-sequence:shuffle=1,shift=1", 2, r},
     };
-    for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
-        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(9, 3, 4), (uint32_t)p);
-        koksma_points points = test_points(pairs[p].pattern, N, pairs[p].dim, domain.key);
-        for (uint32_t i = 0; i < N; i++) {
+    for (size_t t = 0; t < 2 * sizeof pairs / sizeof *pairs; t++) {
+        const size_t p = t / 2;
+        const uint32_t n = t % 2 ? 70 * N : N; /* few, and more than the bulk generators make at once */
+        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(9, 3, 4), (uint32_t)t);
+        koksma_points points = test_points(pairs[p].pattern, n, pairs[p].dim, domain.key);
+        cmj_rows = n / 25;
+        for (uint32_t i = 0; i < n; i += t % 2 ? 61 : 1) {
             double xs[4];
             pairs[p].f(domain, i, xs);
             if (memcmp(xs, points.xs + i * (size_t)pairs[p].dim, (size_t)pairs[p].dim * sizeof *xs)) {
@@ -77,6 +82,33 @@ static void samples_are_the_librarys(void **state)
         }
         koksma_points_fini(&points);
     }
+}
+
+/* koksma_pmj02_fraction has the order of the pattern pmj02; koksma_pmj02_2d permutes each of its first 2^m points. */
+static void pmj02_keeps_its_own_order(void **state)
+{
+    (void)state;
+    const koksma_domain domain = {123456789};
+    koksma_points own = test_points("pmj02", N, 2, domain.key);
+    for (uint32_t i = 0; i < N; i++) {
+        for (int k = 0; k < 2; k++) {
+            const double x = koksma_pmj02_fraction(domain.key, i, k) * 0x1p-32;
+            assert_memory_equal(&x, &own.xs[2 * i + (uint32_t)k], sizeof x);
+        }
+    }
+    for (uint32_t n = 1; n <= 512; n *= 2) {
+        for (uint32_t i = n / 2; i < n; i++) { /* the first n / 2 are done */
+            double xs[2];
+            uint32_t j = 0;
+            koksma_pmj02_2d(domain, i, xs);
+            while (j < n && memcmp(xs, own.xs + 2 * (size_t)j, sizeof xs)) {
+                j++;
+            }
+            assert_true(n / 2 <= j && j < n);
+            memset(own.xs + 2 * (size_t)j, 0xff, sizeof xs); /* no other sample is that one */
+        }
+    }
+    koksma_points_fini(&own);
 }
 
 static void z_ranks_are_a_permutation(void **state)
@@ -233,6 +265,7 @@ int main(void)
         cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
         cmocka_unit_test(all_arguments_serve),       cmocka_unit_test(floats_stay_below_one),
         cmocka_unit_test(masks_are_permutations),    cmocka_unit_test(pairs_of_places_are_nearly_uniform),
+        cmocka_unit_test(pmj02_keeps_its_own_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

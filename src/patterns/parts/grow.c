@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "patterns/parts/grow.h"
 
+#include <koksma/sampler.h>
 #include <stdlib.h>
 
 #include "core/pages.h"
@@ -84,45 +85,83 @@ static koksma_status grow_columns(growth *g, const koksma_run *run)
     return status;
 }
 
-static void store(const growth *g, koksma_points *out, size_t first, size_t count)
+/* Points first .. first + count - 1 of out: v begins with the fraction of point first, a column every stride words.
+ */
+static void store(const growth *g, const uint32_t *v, size_t stride, koksma_points *out, size_t first, size_t count)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
     if (out->dim == 2 || out->dim == 4) {
-        kernels->fraction_rows(count, out->dim, g->v + first, g->n, koksma__is_large(out),
-                               out->xs + (size_t)out->dim * first);
+        kernels->fraction_rows(count, out->dim, v, stride, koksma__is_large(out), out->xs + (size_t)out->dim * first);
         return;
     }
     for (int c = 0; c < g->dim; c++) {
-        kernels->fractions(count, g->v + (size_t)c * g->n + first, columns[c]);
+        kernels->fractions(count, v + (size_t)c * stride, columns[c]);
     }
     koksma__store_columns(count, g->dim, columns[0], first, g->k, out);
 }
 
-koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
-                           koksma_points *out)
+static void store_shuffled(const growth *g, uint32_t order, koksma_points *out, size_t first, size_t count)
+{
+    const uint32_t zero = koksma_mirror(koksma_owen_hash(0, order));
+    uint32_t index[KOKSMA__COLUMN_BLOCK], v[COLUMNS][KOKSMA__COLUMN_BLOCK];
+    for (size_t i = 0; i < count; i++) {
+        index[i] = (uint32_t)(first + i);
+    }
+    koksma__kernels()->owen_hash(count, index, true, true, order, index);
+    for (int c = 0; c < g->dim; c++) {
+        for (size_t i = 0; i < count; i++) {
+            v[c][i] = g->v[(size_t)c * g->n + (index[i] ^ zero)];
+        }
+    }
+    store(g, v[0], KOKSMA__COLUMN_BLOCK, out, first, count);
+}
+
+static koksma_status grow_and_store(growth *g, const uint32_t *order, const koksma_run *run, koksma_points *out)
 {
     uint32_t few[COLUMNS * FEW], *memory = NULL;
-    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n, .v = few};
-    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * out->n;
+    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * g->n;
+    g->v = few;
     if (numbers > COLUMNS * FEW) {
         const size_t bytes = numbers * sizeof *memory;
-        memory = g.v = malloc(bytes);
+        memory = g->v = malloc(bytes);
         if (!memory) {
             return koksma__fail_memory(bytes);
         }
         koksma__large_pages(memory, bytes);
     }
     koksma_status status = KOKSMA_OK;
-    for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {
-        g.dim = out->dim - g.k < COLUMNS ? out->dim - g.k : COLUMNS;
-        status = grow_columns(&g, run);
+    for (g->k = 0; g->k < out->dim && !status; g->k += COLUMNS) {
+        g->dim = out->dim - g->k < COLUMNS ? out->dim - g->k : COLUMNS;
+        status = grow_columns(g, run);
         for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
-            store(&g, out, first, out->n - first < KOKSMA__COLUMN_BLOCK ? out->n - first : KOKSMA__COLUMN_BLOCK);
+            const size_t left = out->n - first, count = left < KOKSMA__COLUMN_BLOCK ? left : KOKSMA__COLUMN_BLOCK;
+            if (order) {
+                store_shuffled(g, *order, out, first, count);
+            } else {
+                store(g, g->v + first, g->n, out, first, count);
+            }
         }
     }
     free(memory);
     return status;
+}
+
+koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                           koksma_points *out)
+{
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n};
+    return grow_and_store(&g, NULL, run, out);
+}
+
+koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
+                                    const koksma_run *run, koksma_points *out)
+{
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = 1};
+    while (g.n < out->n) {
+        g.n *= 2;
+    }
+    return grow_and_store(&g, &order, run, out);
 }
 
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,

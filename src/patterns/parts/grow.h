@@ -14,6 +14,11 @@
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
 
+/* The same in another order: point i of out is point koksma_shuffled_from_0(i, order) of koksma__grow (the function
+   of koksma/sampler.h). Needs memory for the next power of two of points. */
+koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
+                                    const koksma_run *run, koksma_points *out);
+
 /* v[i] = the fraction of coordinate 0 of point i < n times 2^32, of which partners has the first 32. */
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                                   size_t n, uint32_t *v);

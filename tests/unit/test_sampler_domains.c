@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Domains of koksma/sampler.h are independent, for every function that draws and every pair of them. The expected
+ * numbers are those of independent uniform u and v, of which N samples have
+ *
+ *     mean of (u - 1/2)(v - 1/2)       RMS error 1 / (12 sqrt(N)), because u - 1/2 has the variance 1/12
+ *     mean of u v                      RMS error sqrt(7 / (144 N)): E(u^2 v^2) - E(u v)^2 = 1/9 - 1/16
+ *     mean of B2(u - v on the torus)   RMS error 1 / sqrt(180 N): B2(t) = t^2 - t + 1/6 has mean 0, square 1/180
+ *     cells of 16 x 16 with a sample   256 (1 - (1 - 1/256)^N) in the mean
+ *
+ * Two Owen-scrambled van der Corput sequences in orders of nested uniform shuffles have 1 / (12 sqrt(N)) times
+ * sqrt(49 / 31) = 1.257: with s_p the sign of bit p, u - 1/2 is the sum of s_p 2^-(p+2), p = 0, 1 ... A pair of
+ * indices that differ in bit p alone is flipped as a whole, so the mean of s_p s'_p has the variance (1 + 2^-p) / N,
+ * and that of s_p s'_q with p != q has 1/N as for independent numbers. Then 144 N times the variance of the mean is
+ * 1 + 144 (the sum of 2^-(4p+8) 2^-p) = 1 + (144 / 256)(32 / 31) = 49 / 31.
+ */
+#include <koksma/sampler.h>
+
+#include "test.h"
+
+enum { MOST = 4096, MOST_DIM = 4, DOMAINS = 3, SPP = 4 };
+
+static void sobol(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    (void)n;
+    koksma_sobol_2d(domain, i, xs);
+}
+
+static void sobol4(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    (void)n;
+    koksma_sobol_4d(domain, i, xs);
+}
+
+static void pmj02(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    (void)n;
+    koksma_pmj02_2d(domain, i, xs);
+}
+
+static void cmj(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    uint32_t columns = 1;
+    while (columns * columns < n) {
+        columns *= 2;
+    }
+    koksma_cmj_2d(domain, i, columns, n / columns, xs);
+}
+
+static void r(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    (void)n;
+    koksma_r_2d(domain, i, xs);
+}
+
+/* Index i along the samples of an image of n / SPP pixels, row by row. */
+static uint32_t z_index(koksma_domain domain, uint32_t i, uint32_t n)
+{
+    int levels = 0;
+    while (n / SPP >> (2 * levels) > 1) {
+        levels++;
+    }
+    return koksma_z_rank(domain, i / SPP & ((1u << levels) - 1), i / SPP >> levels, levels) * SPP + i % SPP;
+}
+
+static void z(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
+{
+    koksma_sobol_2d(domain, z_index(domain, i, n), xs);
+}
+
+static const struct {
+    const char *name;
+    size_t dim;
+    void (*draw)(koksma_domain domain, uint32_t i, uint32_t n, double *xs);
+} functions[] = {
+    {"koksma_sobol_2d", 2, sobol}, {"koksma_sobol_4d", 4, sobol4}, {"koksma_pmj02_2d", 2, pmj02},
+    {"koksma_cmj_2d", 2, cmj},     {"koksma_r_2d", 2, r},          {"koksma_z_rank", 2, z},
+};
+enum { FUNCTIONS = sizeof functions / sizeof *functions };
+
+/* ---- Pairs of domains ---------------------------------------------------------------------------------- */
+
+enum { PRODUCT, UV, TORUS, ERRORS };
+
+/* Of two functions in two domains: squared errors of the means, in units of independent ones, and more. */
+typedef struct pairing {
+    double squares[ERRORS]; /* sums of squares of the means */
+    double sum, cells;      /* of all products; of cells filled */
+    double fewest;          /* cells filled in one set */
+    double sets, samples;
+} pairing;
+
+/* At FUNCTIONS f + g: different coordinates of functions f <= g; and after all those, the same coordinate of both. */
+enum { PAIRINGS = 2 * FUNCTIONS * FUNCTIONS };
+static pairing pairings[PAIRINGS];
+static double drawn[DOMAINS][FUNCTIONS][MOST_DIM][MOST];
+
+static void forget_pairings(void)
+{
+    for (size_t c = 0; c < PAIRINGS; c++) {
+        pairings[c] = (pairing){.fewest = 256};
+    }
+}
+
+static void draw(koksma_domain domain, int d, uint32_t n)
+{
+    for (size_t f = 0; f < FUNCTIONS; f++) {
+        for (uint32_t i = 0; i < n; i++) {
+            double xs[MOST_DIM];
+            functions[f].draw(domain, i, n, xs);
+            for (size_t k = 0; k < functions[f].dim; k++) {
+                drawn[d][f][k][i] = xs[k];
+            }
+        }
+    }
+}
+
+static void pair_columns(const double *us, const double *vs, uint32_t n, pairing *p)
+{
+    double sums[ERRORS] = {0};
+    unsigned char seen[256] = {0};
+    for (uint32_t i = 0; i < n; i++) {
+        const double u = us[i], v = vs[i], t = u < v ? u - v + 1 : u - v;
+        sums[PRODUCT] += (u - 0.5) * (v - 0.5);
+        sums[UV] += u * v - 0.25;
+        sums[TORUS] += t * t - t + 1.0 / 6;
+        seen[(size_t)(u * 16) * 16 + (size_t)(v * 16)] = 1;
+    }
+    const double units[ERRORS] = {1.0 / 144, 7.0 / 144, 1.0 / 180};
+    int filled = 0;
+    for (int k = 0; k < ERRORS; k++) {
+        p->squares[k] += sums[k] * sums[k] / n / units[k];
+    }
+    for (int c = 0; c < 256; c++) {
+        filled += seen[c];
+    }
+    p->sum += 12 * sums[PRODUCT];
+    p->cells += filled;
+    p->fewest = filled < p->fewest ? filled : p->fewest;
+    p->sets++;
+    p->samples += n;
+}
+
+/* All functions in domain a against all in domain b. */
+static void pair_domains(int a, int b, uint32_t n)
+{
+    for (size_t f = 0; f < FUNCTIONS; f++) {
+        for (size_t g = f; g < FUNCTIONS; g++) {
+            for (size_t k = 0; k < functions[f].dim * functions[g].dim; k++) {
+                const size_t ku = k / functions[g].dim, kv = k % functions[g].dim;
+                pair_columns(drawn[a][f][ku], drawn[b][g][kv], n,
+                             &pairings[(ku == kv) * FUNCTIONS * FUNCTIONS + f * FUNCTIONS + g]);
+            }
+        }
+    }
+}
+
+/* The RMS of the errors is below 1.3 of independent numbers', beside 4.5 standard errors of an RMS of so many; u v
+   has less, because each domain is stratified. The correlation of all samples is 0 within 4.5 standard errors. */
+static void assert_independent(const char *what, double n)
+{
+    static const char *const names[ERRORS] = {"(u - 1/2)(v - 1/2)", "u v", "B2(u - v)"};
+    for (size_t c = 0; c < PAIRINGS; c++) {
+        const pairing *p = &pairings[c];
+        const char *f = functions[c / FUNCTIONS % FUNCTIONS].name, *g = functions[c % FUNCTIONS].name;
+        const double error = 1 / sqrt(2 * p->sets), limits[ERRORS] = {1.3, 1.0, 1.3};
+        for (int k = 0; k < ERRORS && p->sets > 0; k++) {
+            const double rms = sqrt(p->squares[k] / p->sets);
+            if (!(rms < limits[k] * (1 + 4.5 * error))) {
+                fail_msg("%s, %s and %s, N = %g: the mean of %s has %.3f times the error of independent numbers",
+                         what, f, g, n, names[k], rms);
+            }
+        }
+        const double correlation = p->sum / p->samples;
+        if (p->sets > 0 && !(fabs(correlation) < 4.5 * 1.3 / sqrt(p->samples))) {
+            fail_msg("%s, %s and %s, N = %g: correlation %.4f", what, f, g, n, correlation);
+        }
+    }
+}
+
+/* Three uses of a pixel. The error falls as N^-1/2, and the pairs fill the square. */
+static void uses_are_independent(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = {2, 8, 16, 64, 256, 1024, MOST};
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        const uint32_t n = counts[c], sets = (n < 256 ? 1 << 14 : 1 << 16) / n;
+        forget_pairings();
+        for (uint32_t set = 0; set < sets; set++) {
+            const koksma_domain pixel = koksma_domain_of_pixel(n, set % 64, set / 64);
+            for (int d = 0; d < DOMAINS; d++) {
+                draw(koksma_domain_of_use(pixel, (uint32_t)d), d, n);
+                for (int other = 0; other < d; other++) {
+                    pair_domains(other, d, n);
+                }
+            }
+        }
+        assert_independent("uses", n);
+        for (size_t k = 0; k < PAIRINGS && n >= 1024; k++) {
+            const pairing *p = &pairings[k];
+            const double expected = 256 * (1 - pow(255.0 / 256, n));
+            if (p->sets > 0 && (!(p->cells / p->sets > expected - 1) || (n == MOST && p->fewest < 255))) {
+                fail_msg("%s and %s, N = %u: %.1f of 256 cells filled, at least %.0f",
+                         functions[k / FUNCTIONS % FUNCTIONS].name, functions[k % FUNCTIONS].name, n,
+                         p->cells / p->sets, p->fewest);
+            }
+        }
+    }
+}
+
+/* ---- Domains that are alike ---------------------------------------------------------------------------- */
+
+typedef struct couple {
+    koksma_domain a, b;
+} couple;
+
+static couple adjacent_uses(uint32_t i)
+{
+    const koksma_domain pixel = koksma_domain_of_pixel(1, i, 2);
+    const couple c = {koksma_domain_of_use(pixel, i), koksma_domain_of_use(pixel, i + 1)};
+    return c;
+}
+
+static couple uses_of_one_bit(uint32_t i)
+{
+    const koksma_domain pixel = koksma_domain_of_pixel(2, i, 2);
+    const couple c = {koksma_domain_of_use(pixel, i), koksma_domain_of_use(pixel, i ^ 1u << i % 32)};
+    return c;
+}
+
+static couple uses_of_swapped_halves(uint32_t i)
+{
+    const koksma_domain pixel = koksma_domain_of_pixel(3, i, 2);
+    const couple c = {koksma_domain_of_use(pixel, i + 1), koksma_domain_of_use(pixel, (i + 1) << 16)};
+    return c;
+}
+
+static couple a_use_in_adjacent_columns(uint32_t i)
+{
+    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(4, i, 9), 1),
+                      koksma_domain_of_use(koksma_domain_of_pixel(4, i + 1, 9), 1)};
+    return c;
+}
+
+static couple a_use_in_adjacent_rows(uint32_t i)
+{
+    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(5, 9, i), 1),
+                      koksma_domain_of_use(koksma_domain_of_pixel(5, 9, i + 1), 1)};
+    return c;
+}
+
+static couple transposed_pixels(uint32_t i)
+{
+    const couple c = {koksma_domain_of_pixel(6, i, i + 7), koksma_domain_of_pixel(6, i + 7, i)};
+    return c;
+}
+
+static couple adjacent_seeds(uint32_t i)
+{
+    const couple c = {koksma_domain_of_use(koksma_domain_of_pixel(i, 8, 9), 1),
+                      koksma_domain_of_use(koksma_domain_of_pixel(i + 1, 8, 9), 1)};
+    return c;
+}
+
+static couple seeds_of_one_bit(uint32_t i)
+{
+    const couple c = {koksma_domain_of_pixel(i, 8, 10), koksma_domain_of_pixel(i ^ (uint64_t)1 << i % 64, 8, 10)};
+    return c;
+}
+
+static couple seed_and_column_swapped(uint32_t i)
+{
+    const couple c = {koksma_domain_of_pixel(i, 77, 1), koksma_domain_of_pixel(77, i, 1)};
+    return c;
+}
+
+static couple parent_and_child(uint32_t i)
+{
+    const koksma_domain parent = koksma_domain_of_pixel(7, i, i);
+    const couple c = {parent, koksma_domain_of_use(parent, 0)};
+    return c;
+}
+
+static couple child_and_grandchild(uint32_t i)
+{
+    const koksma_domain child = koksma_domain_of_use(koksma_domain_of_pixel(8, i, i), 0);
+    const couple c = {child, koksma_domain_of_use(child, 0)};
+    return c;
+}
+
+static couple nested_in_either_order(uint32_t i)
+{
+    const koksma_domain pixel = koksma_domain_of_pixel(9, i, i);
+    const couple c = {koksma_domain_of_use(koksma_domain_of_use(pixel, 1), 2),
+                      koksma_domain_of_use(koksma_domain_of_use(pixel, 2), 1)};
+    return c;
+}
+
+static couple adjacent_keys(uint32_t i)
+{
+    const couple c = {{2 * i}, {2 * i + 1}};
+    return c;
+}
+
+static couple keys_of_one_bit(uint32_t i)
+{
+    const couple c = {{i}, {i ^ (uint64_t)1 << i % 64}};
+    return c;
+}
+
+static void domains_that_are_alike_are_independent(void **state)
+{
+    (void)state;
+    enum { SETS = 64, N = 256 };
+    static const struct {
+        const char *name;
+        couple (*make)(uint32_t i);
+    } relations[] = {
+        {"adjacent uses", adjacent_uses},
+        {"uses that differ in a bit", uses_of_one_bit},
+        {"uses i and i << 16", uses_of_swapped_halves},
+        {"adjacent columns", a_use_in_adjacent_columns},
+        {"adjacent rows", a_use_in_adjacent_rows},
+        {"transposed pixels", transposed_pixels},
+        {"adjacent seeds", adjacent_seeds},
+        {"seeds that differ in a bit", seeds_of_one_bit},
+        {"seed and column swapped", seed_and_column_swapped},
+        {"a domain and its use 0", parent_and_child},
+        {"use 0 and its use 0", child_and_grandchild},
+        {"uses 1, 2 and 2, 1", nested_in_either_order},
+        {"adjacent keys", adjacent_keys},
+        {"keys that differ in a bit", keys_of_one_bit},
+    };
+    for (size_t r = 0; r < sizeof relations / sizeof *relations; r++) {
+        forget_pairings();
+        for (uint32_t set = 0; set < SETS; set++) {
+            const couple c = relations[r].make(set);
+            assert_true(c.a.key != c.b.key);
+            draw(c.a, 0, N);
+            draw(c.b, 1, N);
+            pair_domains(0, 1, N);
+        }
+        assert_independent(relations[r].name, N);
+    }
+}
+
+/* The ranks of two domains at one pixel, over domains: all 16 x 16 pairs are as likely. */
+static void z_ranks_of_two_domains_are_independent(void **state)
+{
+    (void)state;
+    enum { IMAGES = 8192 };
+    int counts[16][16] = {{0}};
+    double chi_squared = 0;
+    for (uint32_t seed = 0; seed < IMAGES; seed++) {
+        const koksma_domain image = {seed};
+        counts[koksma_z_rank(koksma_domain_of_use(image, 0), 1, 2, 2)]
+              [koksma_z_rank(koksma_domain_of_use(image, 1), 1, 2, 2)]++;
+    }
+    for (int c = 0; c < 256; c++) {
+        const double off = counts[c / 16][c % 16] - IMAGES / 256.0;
+        chi_squared += off * off / (IMAGES / 256.0);
+    }
+    assert_near(chi_squared, 255, 4.5 * sqrt(2 * 255.0)); /* its mean and standard deviation */
+}
+
+/* Each 2^32 samples of koksma_r_2d are paired at random with those before, too. */
+static void parts_of_r_have_orders_of_their_own(void **state)
+{
+    (void)state;
+    enum { N = 4096 };
+    bool seen[256] = {false};
+    int filled = 0;
+    const koksma_domain domain = {99};
+    for (uint32_t i = 0; i < N; i++) {
+        double u[2], v[2];
+        koksma_r_2d(domain, i, u);
+        koksma_r_2d(domain, ((uint64_t)5 << 32) + i, v);
+        seen[(int)(u[0] * 16) * 16 + (int)(v[0] * 16)] = true;
+    }
+    for (int c = 0; c < 256; c++) {
+        filled += seen[c];
+    }
+    assert_true(filled >= 255);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(uses_are_independent),
+        cmocka_unit_test(domains_that_are_alike_are_independent),
+        cmocka_unit_test(z_ranks_of_two_domains_are_independent),
+        cmocka_unit_test(parts_of_r_have_orders_of_their_own),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
