@@ -163,7 +163,8 @@ KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 /* Properties that a pattern claims; each switches on its test for every pattern that makes it.
    A stratum [j/m, (j+1)/m) is bounded by the doubles nearest to its two fractions. */
 enum {
-    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter */
+    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter, unless the parameter
+                                              scramble, shuffle or shift is set */
     KOKSMA_CLAIM_SEQUENCE = 1u << 1,       /* the first k of n points are the set of k points */
     KOKSMA_CLAIM_ANY_N = 1u << 2,          /* serves every n >= 1 */
     KOKSMA_CLAIM_STRATIFIED = 1u << 3,     /* n = m^dim: one point in each of the m^dim cells, in order of the
@@ -175,7 +176,8 @@ enum {
     KOKSMA_CLAIM_CENTRED = 1u << 8,        /* with STRATIFIED: each point in the middle half of its cell */
     KOKSMA_CLAIM_GRID = 1u << 9,           /* 2D, n = m^2: one point in each of the m x m cells, in any order */
     KOKSMA_CLAIM_NET2 = 1u << 10,          /* 2D, n = 2^m: a (0,m,2)-net in base 2 */
-    KOKSMA_CLAIM_NET2_PREFIXES = 1u << 11, /* 2D: the first 2^m points are a (0,m,2)-net in base 2, for every m */
+    KOKSMA_CLAIM_NET2_PREFIXES = 1u << 11, /* 2D: points a 2^m .. (a + 1) 2^m - 1 are a (0,m,2)-net in base
+                                              2, for every a and m */
     KOKSMA_CLAIM_NET_PREFIXES = 1u << 12,  /* dim d, b the smallest prime >= d: the first b^m points are a
                                               (0,m,d)-net in base b, for every m */
     KOKSMA_CLAIM_OA2 = 1u << 13,           /* n = s^2: each 2D projection has one point in each of the s x s cells */

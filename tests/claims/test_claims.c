@@ -26,10 +26,20 @@ static size_t largest_count(const char *name, int dim)
     return dim <= 4 ? 1024 : 256;
 }
 
-/* The specs to test of a pattern: with its defaults, and with each choice of its parameters. */
+static bool is_served(const koksma_spec *spec)
+{
+    koksma_points points;
+    assert_ok(koksma_points_init(&points, 16, spec->pattern->min_dim > 2 ? spec->pattern->min_dim : 2));
+    const bool served = koksma_generate(spec, 0, NULL, &points) == KOKSMA_OK;
+    koksma_points_fini(&points);
+    return served;
+}
+
+/* The specs to test of a pattern: with its defaults, with each choice of its parameters, and with each switch, a
+   parameter that is 0 or 1: turned alone, or with the first choice that the switch needs. */
 static size_t specs_of(const koksma_pattern *p, koksma_spec *specs, size_t room)
 {
-    size_t count = 1;
+    size_t count = 1, choices;
     assert_ok(koksma_pattern_spec(p->name, &specs[0]));
     for (int k = 0; p->params && p->params[k].name; k++) {
         for (int c = 0; p->params[k].choices && p->params[k].choices[c] && count < room; c++) {
@@ -37,6 +47,20 @@ static size_t specs_of(const koksma_pattern *p, koksma_spec *specs, size_t room)
                 specs[count] = specs[0];
                 specs[count++].params[k] = c;
             }
+        }
+    }
+    choices = count;
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        const koksma_param *param = &p->params[k];
+        bool found = param->choices || !param->whole || param->min != 0 || param->max != 1;
+        for (size_t s = 0; s < choices && !found && count < room; s++) {
+            specs[count] = specs[s];
+            specs[count].params[k] = 1 - param->fallback;
+            found = is_served(&specs[count]);
+            count += found;
+        }
+        if (!found) {
+            fail_msg("%s: no spec with %s=%g", p->name, param->name, 1 - param->fallback);
         }
     }
     return count;

@@ -7,8 +7,8 @@
 static void prefixes_to_4096_are_nets(void **state)
 {
     (void)state;
-    static const char *const patterns[] = {"pmj02", "sobol:scramble=owen", "sobol:scramble=hash-owen,shuffle=1",
-                                           "sobol:scramble=lms"};
+    static const char *const patterns[] = {"pmj02", "pmj02:shuffle=1", "sobol:scramble=owen",
+                                           "sobol:scramble=hash-owen,shuffle=1", "sobol:scramble=lms"};
     for (size_t p = 0; p < sizeof patterns / sizeof *patterns; p++) {
         for (uint64_t seed = 1; seed <= 3; seed++) {
             koksma_points points = test_points(patterns[p], 4096, 2, seed);
