@@ -166,14 +166,15 @@ static koksma_status add_scene(const koksma_study *study, koksma__html *h, const
     return status;
 }
 
-koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma_run *run)
+koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
+                                     const koksma_run *run)
 {
     koksma_status status = KOKSMA_OK;
-    if (study->plan.n_figures == 0) {
+    if (part->figures[0] == part->figures[1]) {
         return status;
     }
     koksma__html_add(html, "<h2>Figures</h2>\n<div class=\"figures\">\n");
-    for (size_t i = 0; !status && i < study->plan.n_figures; i++) {
+    for (size_t i = part->figures[0]; !status && i < part->figures[1]; i++) {
         const koksma__figure *f = &study->plan.figures[i];
         char note[NOTE] = "";
         koksma__html_add(html, "<figure");
@@ -187,6 +188,10 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
         koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
         koksma__html_text(html, f->title);
         koksma__html_text(html, note);
+        if (f->printed) {
+            koksma__html_add(html, ". In the text: ");
+            koksma__html_text(html, f->printed);
+        }
         koksma__html_add(html, "</figcaption></figure>\n");
     }
     koksma__html_add(html, "</div>\n");
