@@ -131,10 +131,9 @@ def main():
                         for _ in range(6):  # regions; the paper's is one
                             c, a = union(rng, area, radius)
                             for s in sets[p, n]:
-                                shift = s if p != "zaremba" else s
-                                hit = np.zeros(len(shift), bool)
+                                hit = np.zeros(len(s), bool)
                                 for k in range(0, len(c), 64):
-                                    hit |= inside(shift, c[k:k + 64], np.full(len(c[k:k + 64]), radius), "torus").any(0)
+                                    hit |= inside(s, c[k:k + 64], np.full(len(c[k:k + 64]), radius), "torus").any(0)
                                 errors.append(hit.mean() - a)
                         ours[p].append(statistic(name, np.array(errors)))
                 rows.append((score(ours), f"union of disks of r = {radius} that covers {area}, {name} over sets and 6 regions"))
