@@ -42,8 +42,8 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (status) {
         return koksma__json_fail_in(node, status);
     }
-    if (f->warp && (!koksma_warp_find(f->warp) || koksma_warp_find(f->warp)->domain != KOKSMA_DOMAIN_DISK)) {
-        return koksma__json_fail(node, "no warp '%s' to the disk", f->warp);
+    if (f->warp && !koksma_warp_find(f->warp)) {
+        return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", f->warp);
     }
     if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
         return koksma__json_fail(node, "options, adaptive and detail go with a scene");

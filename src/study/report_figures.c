@@ -15,18 +15,6 @@
 
 enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
-/* Points mapped to the disk, which fills the square. */
-static void through_warp(const char *name, koksma_points *points)
-{
-    const koksma_warp *warp = koksma_warp_find(name);
-    for (size_t i = 0; i < points->n; i++) {
-        double x[3];
-        warp->map(points->xs + 2 * i, x);
-        points->xs[2 * i] = 0.5 + 0.5 * x[0];
-        points->xs[2 * i + 1] = 0.5 + 0.5 * x[1];
-    }
-}
-
 static koksma_status add_points(koksma__html *h, const koksma__figure *f)
 {
     koksma_spec spec;
@@ -41,13 +29,10 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
         return status;
     }
     status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
-    koksma_scatter_options options = {.size = POINTS_WIDTH};
+    koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
     if (f->cells) { /* the strata: n x n rows and columns, or the cells of a grid */
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
-    }
-    if (!status && f->warp) {
-        through_warp(f->warp, &points);
     }
     if (!status) {
         status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
