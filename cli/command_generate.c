@@ -3,11 +3,11 @@
 
 #include <stdio.h>
 
-#include "cli.h"
+#include "warps.h"
 
 /* With -n n points in a set of that size; without, all that the pattern has. */
-static int generate(const cli_arguments *arguments, const koksma_spec *spec, uint64_t seed, const koksma_run *run,
-                    koksma_points *points)
+static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
+                    const koksma_run *run, koksma_points *points)
 {
     char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
     koksma_status status = points->n ? koksma_generate(spec, seed, run, points)
@@ -18,9 +18,16 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, uin
         double distance;
         if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 && !spec->shift &&
             !koksma_smallest_distance(points, true, run, &distance)) {
-            snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
+            used += snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
         }
-        status = koksma_points_write(cli_text(arguments, "output", "-"), points, comment, run);
+        if (warp) {
+            snprintf(comment + used, sizeof comment - (size_t)used, "\nwarp %s", warp->name);
+            status = points->dim == 2 ? cli_map_points(warp, points) : KOKSMA_OK;
+        }
+    }
+    if (!status) {
+        status = (warp ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), points,
+                                                                           comment, run);
     }
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
@@ -47,13 +54,18 @@ static int run(const cli_arguments *arguments)
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
         return CLI_USAGE;
     }
+    const char *name = cli_text(arguments, "warp", NULL);
+    const koksma_warp *warp = name ? cli_find_warp(arguments, name) : NULL;
+    if (name && (!warp || dim != 2)) {
+        return warp ? cli_usage_error(arguments, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
+    }
     const bool given = cli_text(arguments, "dim", NULL) || !spec.pattern->takes_path;
     points = (koksma_points){.dim = given ? (int)dim : 0};
     status = counted ? koksma_points_init(&points, n, (int)dim) : KOKSMA_OK;
     if (status) {
         return cli_fail(arguments, status);
     }
-    const int code = generate(arguments, &spec, seed, &work.run, &points);
+    const int code = generate(arguments, &spec, warp, seed, &work.run, &points);
     cli_work_end(&work);
     koksma_points_fini(&points);
     return code;
@@ -63,6 +75,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
+    {0, "warp", "WARP", "the points mapped onto a disk, triangle or hemisphere: see 'koksma list warps'"},
     {'o', "output", "FILE", ".txt, .csv or .npy by its ending (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
@@ -71,7 +84,7 @@ static const cli_option options[] = {
 const cli_command cli_command_generate = {
     .name = "generate",
     .summary = "generate the points of a pattern",
-    .synopsis = "PATTERN -n N [-d DIM] [-s S] [-o FILE]",
+    .synopsis = "PATTERN -n N [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
         "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
         "Equal arguments give equal bits, on any number of threads. Poisson disks, best candidates, eliminated\n"

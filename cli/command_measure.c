@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "bounds.h"
+#include "local.h"
 #include "measuring.h"
 #include "source.h"
+#include "warps.h"
 
 static void put_corner(char *text, size_t size, const double *xs, int dim)
 {
@@ -177,14 +179,8 @@ static bool parse_warps(measuring *j)
     const char *list = cli_text(j->arguments, "warp", NULL);
     char item[KOKSMA_MAX_SPEC];
     while (list && j->n_warps < MAX_WARPS && cli_list_item(list, j->n_warps, item, sizeof item)) {
-        const koksma_warp *warp = koksma_warp_find(item);
+        const koksma_warp *warp = cli_find_warp(j->arguments, item);
         if (!warp) {
-            char names[512] = "";
-            for (size_t i = 0; koksma_warp_at(i); i++) {
-                const size_t used = strlen(names);
-                snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", koksma_warp_at(i)->name);
-            }
-            cli_usage_error(j->arguments, "--warp %s: it takes %s", item, names);
             return false;
         }
         j->warps[j->n_warps++] = warp;
@@ -275,6 +271,9 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or pattern:SPEC@N");
     }
+    if (cli_text(arguments, "at", NULL)) {
+        return measure_local(arguments);
+    }
     if (!parse_options(&j) || !cli_work_begin(arguments, "measuring", &j.work)) {
         return CLI_USAGE;
     }
@@ -304,6 +303,8 @@ static const cli_option options[] = {
      "T sets of pattern: sources, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
      "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
+    {0, "at", "X,Y..",
+     "only the local discrepancy at this corner: the share of the points in [0, x) less its volume"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},

@@ -5,6 +5,7 @@
 
 #include "plots.h"
 #include "source.h"
+#include "warps.h"
 
 enum { MAX_PANELS = 16 };
 
@@ -53,6 +54,8 @@ static int add_points(plot_job *j, const char *source, koksma_points *points, ko
     if (!choose_cells(j, points, &panel->scatter)) {
         return CLI_USAGE;
     }
+    panel->scatter.warp = j->warp;
+    panel->scatter.local_discrepancy = cli_flag(j->curves.arguments, "local-discrepancy");
     if (j->witness) {
         koksma_status status = koksma_measure_spec(j->witness, &measure);
         if (!status) {
@@ -141,6 +144,8 @@ static const cli_kinds options_of_kinds[] = {
     {"grid", "points"},
     {"rooks", "points"},
     {"witness", "points"},
+    {"warp", "points"},
+    {"local-discrepancy", "points"},
     {"white", "power"},
     {"half", SPECTRA},
     {"exact", SPECTRA},
@@ -182,6 +187,10 @@ static int run(const cli_arguments *arguments)
         !cli_sources_check(arguments, 0, trials_of_all(&j), 0)) {
         return CLI_USAGE;
     }
+    const char *warp = cli_text(arguments, "warp", NULL);
+    if (warp && !(j.warp = cli_find_warp(arguments, warp))) {
+        return CLI_USAGE;
+    }
     const koksma_status status = koksma_plot_format_of(j.output, &j.format);
     return status ? cli_fail(arguments, status) : kind->plot(&j);
 }
@@ -195,6 +204,9 @@ static const cli_option options[] = {
     {0, "grid", "M[xN]", "points: draw M x M cells, or M columns and N rows"},
     {0, "rooks", NULL, "points: draw n columns and n rows"},
     {0, "witness", "MEASURE", "points: draw the region where this measure's supremum is reached, with its value"},
+    {0, "warp", "WARP", "points: draw them and the cells through this map: see 'koksma list warps'"},
+    {0, "local-discrepancy", NULL,
+     "points: colour the square by the share of the points in the box from the origin, less its area"},
     {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
     {'m', "measure", "MEASURE", "convergence: of this measure (default: l2-star)"},
     {0, "sizes", "N,..", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},

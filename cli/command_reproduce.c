@@ -22,6 +22,7 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
         }
         cli_row_text(rows, "table", id);
         cli_row_text(rows, "pattern", row.pattern);
+        cli_row_whole(rows, "n", (uint64_t)row.n);
         cli_row_number(rows, "published", row.published[0]);
         cli_row_rounded(rows, "mean", row.mean, 4);
         cli_row_rounded(rows, "low", row.low, 4);
@@ -32,6 +33,7 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
         cli_row_number(rows, "published_max", row.published[2]);
         cli_row_rounded(rows, "max", row.max, 4);
         cli_row_whole(rows, "trials", row.trials);
+        cli_row_text(rows, "verdict", koksma_study_verdict_name(row.verdict));
         cli_row_end(rows);
     }
     return KOKSMA_OK;
@@ -47,7 +49,7 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     }
     const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
     const bool wanted = options->folder && table && strcmp(table, "none") != 0;
-    if (wanted) { /* a table that there is not is told before hours of work */
+    if (wanted && strcmp(table, "all") != 0) { /* an unknown table is an error before hours of work */
         koksma_study_row row;
         bool found;
         status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
@@ -59,7 +61,11 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
     if (!status && options->folder) {
         status = koksma_study_report(study, &work->run);
     }
-    if (!status && wanted) {
+    const bool all = wanted && !strcmp(table, "all");
+    for (size_t i = 0; !status && all && koksma_study_table_at(study, i); i++) {
+        status = put_table(study, koksma_study_table_at(study, i), rows);
+    }
+    if (!status && wanted && !all) {
         status = put_table(study, table, rows);
     }
     const koksma_status closed = koksma_study_close(study);
@@ -127,7 +133,7 @@ static const cli_option option_table[] = {
     {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
-    {0, "table", "ID|none",
+    {0, "table", "ID|all|none",
      "table to print at the end (default: the first); the first plan's where several have one ID"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -142,7 +148,9 @@ const cli_command cli_command_reproduce = {
         "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
         "Both papers together also bring the plan open-questions: what the papers leave open, answered.\n"
         "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
-        "on where it was and ends with the same report.",
+        "on where it was and ends with the same report. 'verdict' says how a printed mean goes with ours: agrees,\n"
+        "fitted (within 25 % in a scene fitted to the printed numbers), explained (differs for a known reason),\n"
+        "unexplained, new (nothing is printed) or waiting (too few trials).",
     .options = option_table,
     .run = run,
 };

@@ -12,6 +12,7 @@ enum { MAX_CELLS = 4096 };
 typedef struct plot_job {
     cli_curves curves;
     const char *output, *witness, *curve;
+    const koksma_warp *warp; /* NULL: none */
     uint64_t size;
     koksma_plot_format format;
 } plot_job;

@@ -116,6 +116,11 @@ KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *poi
 KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
                                              const koksma_run *run);
 
+/* The same of numbers that need not be in [0,1], such as points mapped by a warp: any finite ones. Errors: ARGUMENT
+   (none, or one that is not finite), IO, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_points_write_mapped(const char *path, const koksma_points *points,
+                                                    const char *comment, const koksma_run *run);
+
 /* ---- Parameters and specs ----------------------------------------------------------------------------- */
 
 /* A parameter of a pattern or measure; tables of them end at a NULL name. */
@@ -284,6 +289,17 @@ struct koksma_measure {
 
 KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);
 KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
+
+enum { KOKSMA_MAX_LOCAL_GRID = 4096 };
+
+/* The local discrepancy at x, a corner of dim coordinates in [0,1]: the share of the points in [0, x) less its
+   volume, positive where there are too many. Its supremum is the star discrepancy. O(n dim); any threads. Errors:
+   ARGUMENT (a NULL, no points, a coordinate outside [0,1]). */
+KOKSMA_API koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out);
+
+/* The same of points of the plane at the corners ((k + 1/2) / side, (j + 1/2) / side), in out[j * side + k]; side is
+   1 to KOKSMA_MAX_LOCAL_GRID. O(n + side^2). Errors: ARGUMENT, DIM. */
+KOKSMA_API koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out);
 
 /* Evaluates a measure. Points must lie in the closed unit cube; n >= 1. run may be NULL.
    Errors: ARGUMENT (no spec of a measure, a parameter that it does not take, no points, a coordinate outside [0,1]),

@@ -5,6 +5,7 @@
 
 #include <koksma/koksma.h>
 #include <koksma/spectrum.h>
+#include <koksma/warp.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -17,8 +18,13 @@ enum { KOKSMA_PLOT_MIN_SIZE = 16, KOKSMA_PLOT_MAX_SIZE = 32767, KOKSMA_PLOT_MAX_
 
 /* How a scatter plot of 2D points looks. All zero, and NULL, is a plain plot. */
 typedef struct koksma_scatter_options {
-    double size;                   /* side of the picture in points (SVG, PDF) or pixels (PNG); 0: 320 */
-    size_t columns, rows;          /* guide lines of a grid of cells, up to KOKSMA_PLOT_MAX_CELLS; 0: none */
+    double size;             /* side of the picture in points (SVG, PDF) or pixels (PNG); 0: 320 */
+    size_t columns, rows;    /* guide lines of a grid of cells, up to KOKSMA_PLOT_MAX_CELLS; 0: none */
+    bool local_discrepancy;  /* the square behind the points is coloured by koksma_local_discrepancy: orange where
+                                the box from the origin has too many points, blue where it has too few; white
+                                is 0, full colour its largest value on a grid. Not with a warp */
+    const koksma_warp *warp; /* points and guide lines are drawn through this map, in its domain, hemispheres as
+                                seen from above; NULL: in the square. Not with a witness */
     const koksma_witness *witness; /* a box, line or disk to draw in; NULL: none */
     const char *caption;           /* a line below the picture; NULL: none */
 } koksma_scatter_options;

@@ -92,19 +92,34 @@ KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_r
 /* The id of table i of the plan, NULL past the end. */
 KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i);
 
+/* How a printed mean goes with ours. */
+typedef enum koksma_study_verdict {
+    KOKSMA_VERDICT_NEW,        /* nothing is printed */
+    KOKSMA_VERDICT_WAITING,    /* too few trials yet */
+    KOKSMA_VERDICT_AGREES,     /* the difference is within chance and rounding (|z| < 2.6); images: within 25 % */
+    KOKSMA_VERDICT_FITTED,     /* within 25 %, in a scene that was fitted to the printed numbers */
+    KOKSMA_VERDICT_EXPLAINED,  /* it differs for a reason that is known */
+    KOKSMA_VERDICT_UNEXPLAINED /* it differs, and no reason is known */
+} koksma_study_verdict;
+
+/* "agrees", "fitted", ...; NULL of what is none. */
+KOKSMA_API const char *koksma_study_verdict_name(koksma_study_verdict verdict);
+
 /* A row of a published table beside ours. NaN where there is no number. */
 typedef struct koksma_study_row {
     const char *pattern, *label;
+    long long n; /* points, or samples per pixel */
     double published[3];    /* mean, SD, max */
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN of one) */
     double sd, max;         /* image tables: means over the trials; discrepancies: SD over the sets, mean of the
                                largest of 100 (of fewer sets: of all) */
     double converged;       /* image tables: the mean against the last reference of the plan */
     size_t trials;
+    koksma_study_verdict verdict; /* of the mean */
 } koksma_study_row;
 
 /* Row i of the published table `id` ("5.1"), from what the store has; where several plans have one of that id, of the
-   first that does. *found is false past the end. */
+   first that does. A table over several n has a row for each pattern and n. *found is false past the end. */
 KOKSMA_API koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                                 bool *found);
 

@@ -2,6 +2,7 @@
 #include "core/points_io.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -44,6 +45,20 @@ koksma_status koksma_points_write(const char *path, const koksma_points *points,
 {
     const koksma_status status = koksma__points_check(points);
     return status ? status : koksma__numbers_write(path, points, comment, run);
+}
+
+koksma_status koksma_points_write_mapped(const char *path, const koksma_points *points, const char *comment,
+                                         const koksma_run *run)
+{
+    if (!points || !points->xs || points->n == 0 || points->dim < 1) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there are no points to write");
+    }
+    for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
+        if (!isfinite(points->xs[i])) {
+            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: a coordinate is not finite", i / (size_t)points->dim);
+        }
+    }
+    return koksma__numbers_write(path, points, comment, run);
 }
 
 koksma_status koksma__numbers_write(const char *path, const koksma_points *points, const char *comment,

@@ -108,15 +108,16 @@ void koksma__canvas_dash(koksma__canvas *canvas, bool on)
     cairo_set_dash(canvas->cairo, dashes, on ? 2 : 0, 0);
 }
 
-bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
-                         int rows, const unsigned char *grey)
+bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                           int rows, const unsigned char *rgb)
 {
     cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows);
     unsigned char *data = cairo_image_surface_get_data(image);
     const size_t stride = (size_t)cairo_image_surface_get_stride(image);
     for (size_t row = 0; data && row < (size_t)rows; row++) {
         for (size_t column = 0; column < (size_t)columns; column++) {
-            const uint32_t pixel = 0x010101u * grey[row * (size_t)columns + column];
+            const unsigned char *from = rgb + 3 * (row * (size_t)columns + column);
+            const uint32_t pixel = (uint32_t)from[0] << 16 | (uint32_t)from[1] << 8 | from[2];
             memcpy(data + row * stride + 4 * column, &pixel, sizeof pixel);
         }
     }
@@ -252,10 +253,10 @@ void koksma__canvas_dash(koksma__canvas *canvas, bool on)
     (void)canvas, (void)on;
 }
 
-bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
-                         int rows, const unsigned char *grey)
+bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                           int rows, const unsigned char *rgb)
 {
-    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)columns, (void)rows, (void)grey;
+    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)columns, (void)rows, (void)rgb;
     return false;
 }
 

@@ -26,9 +26,9 @@ void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double ra
                            koksma__colour colour); /* thickness 0: filled */
 /* Lines are dashed from here on, or whole again. */
 void koksma__canvas_dash(koksma__canvas *canvas, bool on);
-/* columns x rows grey squares, from the upper left corner; false when memory runs out. */
-bool koksma__canvas_grey(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
-                         int rows, const unsigned char *grey);
+/* columns x rows squares of red, green and blue bytes, from the upper left corner; false when memory runs out. */
+bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
+                           int rows, const unsigned char *rgb);
 /* anchor 0: x is the left end, 0.5: the middle, 1: the right end. */
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                          koksma__colour colour);

@@ -236,6 +236,11 @@ bool koksma__json_is_array(const koksma__json_node *node)
     return json_is_array((const json_t *)node->value);
 }
 
+bool koksma__json_is_text(const koksma__json_node *node)
+{
+    return json_is_string((const json_t *)node->value);
+}
+
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key)
 {
     return json_is_object(json_object_get(node->value, key));

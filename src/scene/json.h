@@ -47,6 +47,7 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
 /* Whether the object has the key with an object. */
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key);
 bool koksma__json_is_array(const koksma__json_node *node);
+bool koksma__json_is_text(const koksma__json_node *node);
 
 /* Whether the object has the key; a member of an object, which must be there; an item of an array. */
 bool koksma__json_has(const koksma__json_node *node, const char *key);

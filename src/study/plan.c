@@ -155,78 +155,6 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
                                       (void **)&b->references, &b->n_references);
 }
 
-/* ---- Published tables and figures ------------------------------------------------------------------------ */
-
-/* Mean, SD and max; those that a paper does not print are left out at the end. */
-static koksma_status parse_published(const koksma__json_node *node, double published[3])
-{
-    koksma__json_node list;
-    size_t length = 0;
-    koksma_status status = koksma__json_member(node, "published", &list);
-    status = status ? status : koksma__json_length(&list, 3, &length);
-    for (size_t i = 0; !status && i < 3; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
-        published[i] = NAN;
-        status = i < length ? koksma__json_number(&item, -1e30, 1e30, &published[i]) : KOKSMA_OK;
-    }
-    return status;
-}
-
-static koksma_status parse_row(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "pattern", "label", "published", NULL};
-    (void)trials;
-    koksma__table_row *r = item;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
-    status = status ? status : koksma__plan_text(node, "label", true, &r->label);
-    return status ? status : parse_published(node, r->published);
-}
-
-static koksma_status parse_note(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "pattern", "statistic", "reason", NULL};
-    static const char *const statistics[] = {"mean", "sd", "max"};
-    (void)trials;
-    koksma__note *n = item;
-    const char *statistic;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, false, &n->pattern);
-    status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
-    status = status ? status : koksma__json_get_text(node, "statistic", true, &statistic);
-    for (n->statistic = 0; !status && strcmp(statistics[n->statistic], statistic) != 0;) {
-        if (++n->statistic == 3) {
-            return koksma__json_fail(node, "statistic '%s': it takes mean, sd or max", statistic);
-        }
-    }
-    return status;
-}
-
-static koksma_status parse_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    static const char *const keys[] = {"comment", "id",  "title", "scene", "measure", "also",
-                                       "n",       "dim", "rows",  "notes", NULL};
-    koksma__table *t = item;
-    koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_id(node, true, &t->id);
-    status = status ? status : koksma__plan_text(node, "title", true, &t->title);
-    status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
-    status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);
-    status = status ? status : koksma__plan_spec(node, "also", koksma_measure_spec, false, &t->also);
-    status = status ? status : koksma__json_get_whole(node, "n", true, 1, (int)KOKSMA_MAX_COORDINATES, &t->n);
-    t->dim = 2;
-    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
-    if (!status && !t->scene == !t->measure) {
-        return koksma__json_fail(node, "a table has either a scene or a measure");
-    }
-    status = status ? status
-                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, parse_row, trials, (void **)&t->rows,
-                                        &t->n_rows);
-    return status ? status
-                  : koksma__plan_list(node, "notes", false, sizeof *t->notes, parse_note, trials, (void **)&t->notes,
-                                      &t->n_notes);
-}
-
 /* ---- The whole ------------------------------------------------------------------------------------------- */
 
 bool koksma__texts_have(const koksma__texts *texts, const char *text)
@@ -239,7 +167,7 @@ bool koksma__texts_have(const koksma__texts *texts, const char *text)
     return false;
 }
 
-static bool has_whole(const koksma__wholes *wholes, long long value)
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
 {
     for (size_t i = 0; i < wholes->n; i++) {
         if (wholes->at[i] == value) {
@@ -253,82 +181,18 @@ bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char
                               long long n, long long dim)
 {
     return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
-           koksma__texts_have(&block->patterns, pattern) && has_whole(&block->n, n);
-}
-
-static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
-{
-    return koksma__texts_have(&i->variants, "") && koksma__texts_have(&i->scenes, t->scene) &&
-           koksma__texts_have(&i->patterns, pattern) && has_whole(&i->spp, t->n);
-}
-
-/* The first image block that makes all rows of a table: they are compared with the same references, at one size. With
-   none the plan has no such block for *row. */
-static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
-{
-    *row = 0;
-    for (size_t b = 0; b < plan->n_images; b++) {
-        size_t r = 0;
-        while (r < t->n_rows && makes_image(&plan->images[b], t, t->rows[r].pattern)) {
-            r++;
-        }
-        if (r == t->n_rows) {
-            t->images = b;
-            return true;
-        }
-        *row = r > *row ? r : *row;
-    }
-    return false;
-}
-
-/* Whether a discrepancy block makes the measure of a row. */
-static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
-{
-    for (size_t b = 0; b < plan->n_discrepancies; b++) {
-        if (koksma__plan_block_makes(&plan->discrepancies[b], measure, pattern, t->n, t->dim)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row)
-{
-    for (*row = 0; *row < t->n_rows; ++*row) {
-        const char *pattern = t->rows[*row].pattern;
-        if (!is_made(plan, t, t->measure, pattern) || (t->also && !is_made(plan, t, t->also, pattern))) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static koksma_status check_tables(const koksma__json_node *root, const koksma__plan *plan)
-{
-    for (size_t i = 0; i < plan->n_tables; i++) {
-        koksma__table *t = &plan->tables[i];
-        size_t row;
-        if (!(t->scene ? find_images(plan, t, &row) : find_discrepancies(plan, t, &row))) {
-            koksma__json_node tables;
-            koksma__json_member(root, "tables", &tables);
-            const koksma__json_node table = koksma__json_item(&tables, i);
-            return row && t->scene
-                       ? koksma__json_fail(&table, "no block of the plan makes the row of %s with those before it",
-                                           t->rows[row].pattern)
-                       : koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[row].pattern);
-        }
-    }
-    return KOKSMA_OK;
+           koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
 }
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {
-    static const char *const keys[] = {"comment", "name",   "title",   "about",     "discrepancies",
+    static const char *const keys[] = {"comment", "name",   "title",   "about",     "order", "discrepancies",
                                        "images",  "tables", "figures", "questions", NULL};
     koksma_status status = koksma__json_only(root, keys);
     status = status ? status : koksma__plan_text(root, "name", true, &p->name);
     status = status ? status : koksma__plan_text(root, "title", true, &p->title);
     status = status ? status : koksma__plan_text(root, "about", false, &p->about);
+    status = status ? status : koksma__plan_text(root, "order", false, &p->order);
     status = status ? status
                     : koksma__plan_list(root, "discrepancies", false, sizeof *p->discrepancies, parse_discrepancy,
                                         trials, (void **)&p->discrepancies, &p->n_discrepancies);
@@ -336,7 +200,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
                     : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
                                         (void **)&p->images, &p->n_images);
     status = status ? status
-                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, parse_table, trials,
+                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, koksma__plan_table, trials,
                                         (void **)&p->tables, &p->n_tables);
     status = status ? status
                     : koksma__plan_list(root, "figures", false, sizeof *p->figures, koksma__plan_figure, trials,
@@ -348,7 +212,7 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     if (!status && p->n_discrepancies + p->n_images == 0) {
         return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
     }
-    status = status ? status : check_tables(root, p);
+    status = status ? status : koksma__plan_check_tables(root, p);
     return status ? status : koksma__plan_own(p);
 }
 

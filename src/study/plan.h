@@ -47,17 +47,29 @@ typedef struct koksma__image_block {
     koksma__reference *references;
 } koksma__image_block;
 
-/* A published table: rows of a pattern with mean, SD and max. */
+/* A number of a paper: NaN and "" where it prints none. */
+typedef struct koksma__printed {
+    double value, half_digit; /* half a unit of the last printed digit */
+    char text[16];            /* as printed */
+} koksma__printed;
+
+enum { KOKSMA__TABLE_PRINTED = 8 };
+
+/* A row of a published table: one pattern. */
 typedef struct koksma__table_row {
     char *pattern, *label;
-    double published[3];
+    size_t n_published;
+    koksma__printed published[KOKSMA__TABLE_PRINTED]; /* mean, SD, max; of a table over several n: the means */
+    double rate;                                      /* exponent of n that theory gives; NaN: none is known */
 } koksma__table_row;
 
-/* Why a published cell is not what its definition gives. */
+/* Why a published cell differs from ours. */
 typedef struct koksma__note {
     char *pattern; /* NULL: the whole column */
+    long long n;   /* of a table over several n: the column; 0: all */
     int statistic; /* 0 mean, 1 SD, 2 max */
     char *reason;
+    bool explained; /* the reason is known; else it says what was tried */
 } koksma__note;
 
 typedef struct koksma__table {
@@ -65,7 +77,9 @@ typedef struct koksma__table {
     size_t part;          /* whose table it is */
     char *scene;          /* an image table */
     char *measure, *also; /* a discrepancy table; `also`: shown beside it, NULL: none */
-    long long n, dim;     /* dim: of a discrepancy table */
+    koksma__wholes n;     /* numbers of points; several: n are the columns (discrepancy tables only) */
+    long long dim;        /* of a discrepancy table */
+    bool fitted;          /* the scene was fitted to the printed numbers: agreement with them confirms nothing */
     size_t images;        /* of an image table: the image block that makes all its rows */
     size_t n_rows, n_notes;
     koksma__table_row *rows;
@@ -78,6 +92,7 @@ typedef struct koksma__figure {
     char *variant;       /* of a scene: variants.h */
     char *adaptive;      /* a method of adaptive sampling, or NULL */
     char *warp;          /* of points: the map that they are shown through, or NULL */
+    char *printed;       /* what the paper's text says of it, shown beside ours; or NULL */
     long long n;         /* points, or samples per pixel */
     long long detail[4]; /* x, y, width and height of what is shown; width 0: all */
     long long strata[2]; /* the pixel whose strata are shown; -1: none */
@@ -105,13 +120,16 @@ typedef struct koksma__question {
 /* One of the plans that became one: its tables and questions speak of its own blocks, whatever others have. */
 typedef struct koksma__plan_part {
     char *title;
+    char *about, *order;     /* order: the overall order of the patterns, as printed; both may be NULL */
     bool asks;               /* it has tables or questions */
     size_t discrepancies[2]; /* its blocks: the first, and behind the last */
     size_t images[2];
+    size_t figures[2];
 } koksma__plan_part;
 
 typedef struct koksma__plan {
     char *name, *title, *about;
+    char *order; /* of a plan just parsed; then its part's */
     size_t n_parts, n_discrepancies, n_images, n_tables, n_figures, n_questions;
     koksma__plan_part *parts;
     koksma__question *questions;
@@ -140,6 +158,14 @@ koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
 
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
+
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
+
+/* Whether the columns of a table are numbers of points. */
+static inline bool koksma__table_is_over_n(const koksma__table *table)
+{
+    return table->n.n > 1;
+}
 
 /* Whether the block has these points and this measure. */
 bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,

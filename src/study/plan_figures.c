@@ -42,8 +42,8 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (status) {
         return koksma__json_fail_in(node, status);
     }
-    if (f->warp && (!koksma_warp_find(f->warp) || koksma_warp_find(f->warp)->domain != KOKSMA_DOMAIN_DISK)) {
-        return koksma__json_fail(node, "no warp '%s' to the disk", f->warp);
+    if (f->warp && !koksma_warp_find(f->warp)) {
+        return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", f->warp);
     }
     if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
         return koksma__json_fail(node, "options, adaptive and detail go with a scene");
@@ -76,8 +76,9 @@ static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
 
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment",  "id",     "title",  "pattern", "scene",   "n",     "cells",
-                                       "adaptive", "strata", "detail", "warp",    "options", "lines", NULL};
+    static const char *const keys[] = {"comment", "id",      "title",    "pattern", "scene",
+                                       "n",       "cells",   "adaptive", "strata",  "detail",
+                                       "warp",    "options", "lines",    "printed", NULL};
     koksma__figure *f = item;
     koksma__texts variants = {0};
     (void)trials;
@@ -88,6 +89,7 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
     status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
     status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
+    status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
     status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
     status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);

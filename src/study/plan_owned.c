@@ -47,16 +47,21 @@ static koksma_status join_text(char **to, const char *between, const char *from)
 koksma_status koksma__plan_own(koksma__plan *p)
 {
     koksma__plan_part *part = calloc(1, sizeof *part);
-    char *title = strdup(p->title);
-    if (!part || !title) {
+    char *title = strdup(p->title), *about = p->about ? strdup(p->about) : NULL;
+    if (!part || !title || (p->about && !about)) {
         free(part);
         free(title);
+        free(about);
         return koksma__fail_memory(sizeof *part + strlen(p->title));
     }
     *part = (koksma__plan_part){.title = title,
+                                .about = about,
+                                .order = p->order,
                                 .asks = p->n_tables || p->n_questions,
                                 .discrepancies = {0, p->n_discrepancies},
-                                .images = {0, p->n_images}};
+                                .images = {0, p->n_images},
+                                .figures = {0, p->n_figures}};
+    p->order = NULL;
     p->parts = part;
     p->n_parts = 1;
     return KOKSMA_OK;
@@ -69,6 +74,7 @@ static void shift(const koksma__plan *p, koksma__plan *q)
         for (int end = 0; end < 2; end++) {
             q->parts[i].discrepancies[end] += p->n_discrepancies;
             q->parts[i].images[end] += p->n_images;
+            q->parts[i].figures[end] += p->n_figures;
         }
     }
     for (size_t t = 0; t < q->n_tables; t++) {
@@ -121,6 +127,7 @@ static void free_table(koksma__table *t)
         free(t->notes[n].pattern);
         free(t->notes[n].reason);
     }
+    free(t->n.at);
     free(t->rows);
     free(t->notes);
     free(t->id);
@@ -167,6 +174,7 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->figures[i].variant);
         free(p->figures[i].adaptive);
         free(p->figures[i].warp);
+        free(p->figures[i].printed);
     }
     for (size_t i = 0; i < p->n_questions; i++) {
         free(p->questions[i].id);
@@ -176,6 +184,8 @@ void koksma__plan_fini(koksma__plan *p)
     }
     for (size_t i = 0; i < p->n_parts; i++) {
         free(p->parts[i].title);
+        free(p->parts[i].about);
+        free(p->parts[i].order);
     }
     free(p->parts);
     free(p->questions);
@@ -186,5 +196,6 @@ void koksma__plan_fini(koksma__plan *p)
     free(p->name);
     free(p->title);
     free(p->about);
+    free(p->order);
     *p = (koksma__plan){0};
 }

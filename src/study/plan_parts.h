@@ -41,6 +41,10 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *plan);
 
+/* An item of "tables", and whether blocks of the plan make every row (plan_tables.c). */
+koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
+koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan);
+
 /* An item of "figures" (plan_figures.c). */
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 

@@ -5,14 +5,14 @@
 #include "study/html.h"
 #include "study/study.h"
 
-/* Published means: how many have one of ours beside them, agree, and differ for a known reason; how many have none.
- */
-typedef struct koksma__tally {
-    size_t cells, agree, explained, waiting;
-} koksma__tally;
+/* How many published means have each verdict. */
+typedef struct koksma__agreement {
+    size_t of[KOKSMA_VERDICT_UNEXPLAINED + 1];
+} koksma__agreement;
 
-/* Appends the figures of the plan: point sets as SVG, scenes as pixels. */
-koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma_run *run);
+/* Appends the figures of one of the study's plans: point sets as SVG, scenes as pixels. */
+koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
+                                     const koksma_run *run);
 
 /* Appends one trial of every pattern of the image blocks beside its reference: pictures, error maps, and a comparer.
  */

@@ -124,16 +124,23 @@ static void add_bar_end(koksma__html *h, const axis *y, double at_x, double valu
 
 /* A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
    neighbours don't. */
-static void add_shape(koksma__html *h, size_t index, double x, double y)
+static void add_shape(koksma__html *h, size_t index, double x, double y, bool large)
 {
+    const double r = large ? 5 : 3, wide = r * 4 / 3;
     if (index % SHAPES == 0) {
-        koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\">", x, y);
+        koksma__html_add(h, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.0f\">", x, y, r);
     } else if (index % SHAPES == 1) {
-        koksma__html_add(h, "<rect x=\"%.1f\" y=\"%.1f\" width=\"6\" height=\"6\">", x - 3, y - 3);
+        koksma__html_add(h, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.0f\" height=\"%.0f\">", x - r, y - r, 2 * r,
+                         2 * r);
     } else {
-        koksma__html_add(h, "<polygon points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\">", x - 4, y + 3, x + 4, y + 3, x,
-                         y - 4);
+        koksma__html_add(h, "<polygon points=\"%.1f,%.1f %.1f,%.1f %.1f,%.1f\">", x - wide, y + r, x + wide, y + r, x,
+                         y - wide);
     }
+}
+
+static size_t style_of(const koksma__chart *c, size_t s)
+{
+    return c->series[s].like ? c->series[s].like - 1 : s;
 }
 
 static const char *end_of_shape(size_t index)
@@ -151,7 +158,7 @@ static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma
         add_bar_end(h, y, at_x, s->high[i]);
         koksma__html_add(h, "\"/>");
     }
-    add_shape(h, index, at_x, at_y);
+    add_shape(h, index, at_x, at_y, s->hollow);
     koksma__html_add(h, "<title>");
     koksma__html_text(h, s->label);
     koksma__html_add(h, ": %.6g, %.6g</title>%s", s->x[i], s->y[i], end_of_shape(index));
@@ -159,7 +166,11 @@ static void add_mark(koksma__html *h, const axis *x, const axis *y, const koksma
 
 static void add_series(koksma__html *h, const axis *x, const axis *y, const koksma__chart_series *s, size_t index)
 {
-    koksma__html_add(h, "<g class=\"%s s%zu\">", s->theory ? "theory" : "series", index % COLOURS);
+    koksma__html_add(h, "<g class=\"%s s%zu\">",
+                     s->theory   ? "theory"
+                     : s->hollow ? "series hollow"
+                                 : "series",
+                     index % COLOURS);
     bool begun = false;
     for (size_t i = 0; i < s->n && (s->line || s->theory); i++) {
         if (fits(x, s->x[i]) && fits(y, s->y[i])) {
@@ -179,19 +190,24 @@ static void add_series(koksma__html *h, const axis *x, const axis *y, const koks
 
 static void add_legend(koksma__html *h, const koksma__chart *c)
 {
+    double at = TOP + 12;
     for (size_t s = 0; s < c->n; s++) {
-        const double at = TOP + 12 + 15 * (double)s;
-        koksma__html_add(h, "<g class=\"%s s%zu\">", c->series[s].theory ? "theory" : "series", s % COLOURS);
+        if (c->series[s].hollow) {
+            continue;
+        }
+        koksma__html_add(h, "<g class=\"%s s%zu\">", c->series[s].theory ? "theory" : "series",
+                         style_of(c, s) % COLOURS);
         if (c->series[s].line || c->series[s].theory) {
             koksma__html_add(h, "<path class=\"line\" d=\"M%d %.1fh18\"/>", WIDTH - RIGHT + 8, at - 4);
         }
         if (!c->series[s].theory) {
-            add_shape(h, s, WIDTH - RIGHT + 17, at - 4);
-            koksma__html_add(h, "%s", end_of_shape(s));
+            add_shape(h, style_of(c, s), WIDTH - RIGHT + 17, at - 4, false);
+            koksma__html_add(h, "%s", end_of_shape(style_of(c, s)));
         }
         koksma__html_add(h, "</g><text x=\"%d\" y=\"%.1f\">", WIDTH - RIGHT + 30, at);
         koksma__html_text(h, c->series[s].label);
         koksma__html_add(h, "</text>");
+        at += 15;
     }
 }
 
@@ -221,7 +237,7 @@ void koksma__html_chart(koksma__html *h, const koksma__chart *c)
     koksma__html_text(h, c->y_title);
     koksma__html_add(h, "</text>\n");
     for (size_t s = 0; s < c->n; s++) {
-        add_series(h, &x, &y, &c->series[s], s);
+        add_series(h, &x, &y, &c->series[s], style_of(c, s));
     }
     add_legend(h, c);
     koksma__html_add(h, "</svg><figcaption>");

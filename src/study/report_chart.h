@@ -11,6 +11,8 @@ typedef struct koksma__chart_series {
     char label[96];
     bool line;   /* joined, else marks alone; which is whose tells the legend, by colour and shape */
     bool theory; /* a dashed line without marks */
+    bool hollow; /* larger marks that are not filled, without a line in the legend */
+    size_t like; /* the number, from 1, of the series whose colour and shape it has; 0: its own */
     size_t n;
     double x[KOKSMA__CHART_POINTS], y[KOKSMA__CHART_POINTS];
     double low[KOKSMA__CHART_POINTS], high[KOKSMA__CHART_POINTS]; /* of y; equal or NaN for none */

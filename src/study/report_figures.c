@@ -15,18 +15,6 @@
 
 enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
-/* Points mapped to the disk, which fills the square. */
-static void through_warp(const char *name, koksma_points *points)
-{
-    const koksma_warp *warp = koksma_warp_find(name);
-    for (size_t i = 0; i < points->n; i++) {
-        double x[3];
-        warp->map(points->xs + 2 * i, x);
-        points->xs[2 * i] = 0.5 + 0.5 * x[0];
-        points->xs[2 * i + 1] = 0.5 + 0.5 * x[1];
-    }
-}
-
 static koksma_status add_points(koksma__html *h, const koksma__figure *f)
 {
     koksma_spec spec;
@@ -41,13 +29,10 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
         return status;
     }
     status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
-    koksma_scatter_options options = {.size = POINTS_WIDTH};
+    koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
     if (f->cells) { /* the strata: n x n rows and columns, or the cells of a grid */
         options.columns = options.rows =
             spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
-    }
-    if (!status && f->warp) {
-        through_warp(f->warp, &points);
     }
     if (!status) {
         status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
@@ -166,14 +151,15 @@ static koksma_status add_scene(const koksma_study *study, koksma__html *h, const
     return status;
 }
 
-koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma_run *run)
+koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
+                                     const koksma_run *run)
 {
     koksma_status status = KOKSMA_OK;
-    if (study->plan.n_figures == 0) {
+    if (part->figures[0] == part->figures[1]) {
         return status;
     }
     koksma__html_add(html, "<h2>Figures</h2>\n<div class=\"figures\">\n");
-    for (size_t i = 0; !status && i < study->plan.n_figures; i++) {
+    for (size_t i = part->figures[0]; !status && i < part->figures[1]; i++) {
         const koksma__figure *f = &study->plan.figures[i];
         char note[NOTE] = "";
         koksma__html_add(html, "<figure");
@@ -187,6 +173,10 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
         koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
         koksma__html_text(html, f->title);
         koksma__html_text(html, note);
+        if (f->printed) {
+            koksma__html_add(html, ". In the text: ");
+            koksma__html_text(html, f->printed);
+        }
         koksma__html_add(html, "</figcaption></figure>\n");
     }
     koksma__html_add(html, "</div>\n");

@@ -9,9 +9,6 @@
 #include "core/status.h"
 #include "study/report_tables.h"
 
-/* How far an image table's mean may be from the published one: the scenes are stand-ins. */
-static const double IMAGE_TOLERANCE = 0.25;
-
 static void add_image_cell(koksma__html *h, const koksma__cell *cell)
 {
     koksma__html_add(h, "<td>");
@@ -27,8 +24,8 @@ typedef struct row_means {
     double *mean[2];
 } row_means;
 
-static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma__html *csv, koksma__tally *tally,
-                                   const koksma__table *t, size_t r, row_means *means)
+static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma__html *csv,
+                                   koksma__agreement *agreement, const koksma__table *t, size_t r, row_means *means)
 {
     const koksma__image_block *block = koksma__table_images(study, t);
     const koksma__table_row *row = &t->rows[r];
@@ -46,10 +43,8 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     koksma__table_csv_cell(csv, &cell);
     koksma__table_csv_cell(csv, &last);
     add_image_cell(h, &cell);
-    const double ratio = cell.mean.mean / row->published[0];
-    char text[48];
-    koksma__snprintf(text, sizeof text, "%+.0f %%", 100 * (ratio - 1));
-    koksma__table_judge(h, tally, t, row, cell.mean.n, fabs(ratio - 1) <= IMAGE_TOLERANCE, text);
+    const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
+    koksma__table_add_verdict(h, agreement, &verdict);
     add_image_cell(h, &last);
     koksma__html_add(h, "</tr>\n");
     return KOKSMA_OK;
@@ -138,7 +133,7 @@ static void add_heads(koksma__html *h, const koksma__image_block *block)
                      "<th>mean <span class=\"pm\">95 %%</span></th><th>SD</th><th>max</th></tr></thead>\n<tbody>\n");
 }
 
-koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, koksma__tally *tally,
+koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, koksma__agreement *agreement,
                                          const koksma__table *t)
 {
     const size_t n = t->n_rows;
@@ -155,13 +150,89 @@ koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, k
         add_heads(h, block);
     }
     for (size_t r = 0; !status && r < n; r++) {
-        status = add_image_row(study, h, &csv, tally, t, r, &means);
+        status = add_image_row(study, h, &csv, agreement, t, r, &means);
     }
+    koksma__html_add(h, "</tbody>");
     koksma__table_end(h, &csv, t);
     if (!status) {
         status = add_reference_remark(study, h, t, &means);
     }
     free(numbers);
     free(places);
+    return status;
+}
+
+/* ---- The overall order ----------------------------------------------------------------------------------- */
+
+/* Adds the rank of every row of the table, by its mean against the first reference, to that of the row of `first`
+   with its pattern. False: a row has no trials yet, or no such row. */
+static koksma_status add_ranks(koksma_study *study, const koksma__table *t, const koksma__table *first, double *ranks,
+                               bool *whole)
+{
+    double *means = malloc(t->n_rows * sizeof *means);
+    koksma_status status = means ? KOKSMA_OK : koksma__fail_memory(t->n_rows * sizeof *means);
+    for (size_t r = 0; !status && r < t->n_rows; r++) {
+        koksma__cell cell;
+        status =
+            koksma__table_image(study, t, &koksma__table_images(study, t)->references[0], t->rows[r].pattern, &cell);
+        means[r] = cell.mean.mean;
+        *whole &= !status && cell.mean.n > 0;
+    }
+    for (size_t r = 0; !status && r < t->n_rows; r++) {
+        size_t at = 0, below = 0;
+        for (size_t k = 0; k < t->n_rows; k++) {
+            below += means[k] < means[r];
+        }
+        while (at < first->n_rows && strcmp(first->rows[at].pattern, t->rows[r].pattern) != 0) {
+            at++;
+        }
+        *whole &= at < first->n_rows;
+        if (at < first->n_rows) {
+            ranks[at] += (double)below + 1;
+        }
+    }
+    free(means);
+    return status;
+}
+
+koksma_status koksma__report_order(koksma_study *study, koksma__html *h, size_t part)
+{
+    const koksma__table *first = NULL;
+    double *ranks = NULL;
+    size_t tables = 0, *order = NULL;
+    bool whole = true;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < study->plan.n_tables; i++) {
+        const koksma__table *t = &study->plan.tables[i];
+        if (t->part != part || !t->scene) {
+            continue;
+        }
+        if (!first) {
+            first = t;
+            ranks = calloc(t->n_rows, sizeof *ranks);
+            order = calloc(t->n_rows, sizeof *order);
+            status = ranks && order ? KOKSMA_OK : koksma__fail_memory(2 * t->n_rows * sizeof *ranks);
+        }
+        whole &= t->n_rows == first->n_rows;
+        status = status ? status : add_ranks(study, t, first, ranks, &whole);
+        tables++;
+    }
+    if (!status && whole && tables > 1) {
+        order_rows(ranks, first->n_rows, order);
+        koksma__html_add(
+            h, "<p>Best to worst over the %zu tables, by mean rank against the paper's reference: ", tables);
+        for (size_t r = 0; r < first->n_rows; r++) {
+            koksma__html_text(h, first->rows[order[r]].label);
+            koksma__html_add(h, " (%.4g)%s", ranks[order[r]] / (double)tables, r + 1 < first->n_rows ? ", " : ".");
+        }
+        if (study->plan.parts[part].order) {
+            koksma__html_add(h, " The overall order in the text: ");
+            koksma__html_text(h, study->plan.parts[part].order);
+            koksma__html_add(h, ".");
+        }
+        koksma__html_add(h, "</p>\n");
+    }
+    free(ranks);
+    free(order);
     return status;
 }

@@ -10,46 +10,34 @@
 
 /* ---- Marks ------------------------------------------------------------------------------------------------- */
 
-/* The number of the note on a cell, from 1, or 0. */
-static size_t note_of(const koksma__table *t, const char *pattern, int statistic)
-{
-    for (size_t i = 0; i < t->n_notes; i++) {
-        const koksma__note *n = &t->notes[i];
-        if (n->statistic == statistic && (!n->pattern || !strcmp(n->pattern, pattern))) {
-            return i + 1;
-        }
-    }
-    return 0;
-}
-
 void koksma__table_begin_row(koksma__html *h, koksma__html *csv, const koksma__table *t, const koksma__table_row *row)
 {
     koksma__csv_row(csv);
     koksma__csv_text(csv, row->label);
     koksma__csv_text(csv, row->pattern);
     for (int s = 0; s < 3; s++) {
-        koksma__csv_number(csv, row->published[s]);
+        koksma__csv_number(csv, row->published[s].value);
     }
     koksma__html_add(h, "<tr><td>");
     koksma__html_text(h, row->label);
     koksma__html_add(h, "</td>");
     for (int s = 0; s < 3; s++) {
-        const size_t note = note_of(t, row->pattern, s);
-        const double value = row->published[s];
-        if (isnan(value)) {
-            koksma__html_add(h, "<td>&#8211;</td>");
-            continue;
-        }
-        int decimals = 4; /* all that are printed, at least four */
-        while (decimals < 7 && fabs(value * pow(10, decimals) - round(value * pow(10, decimals))) > 1e-6) {
-            decimals++;
-        }
-        koksma__html_add(h, "<td>%.*f", decimals, value);
-        if (note) {
-            koksma__html_add(h, "<sup class=\"note\">%zu</sup>", note);
-        }
-        koksma__html_add(h, "</td>");
+        koksma__table_add_printed(h, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
     }
+}
+
+void koksma__table_add_printed(koksma__html *h, const koksma__printed *printed, size_t note)
+{
+    if (isnan(printed->value)) {
+        koksma__html_add(h, "<td>&#8211;</td>");
+        return;
+    }
+    koksma__html_add(h, "<td>");
+    koksma__html_text(h, printed->text);
+    if (note) {
+        koksma__html_add(h, "<sup class=\"note\">%zu</sup>", note);
+    }
+    koksma__html_add(h, "</td>");
 }
 
 void koksma__table_add_mean(koksma__html *h, const koksma__summary *mean, int digits, bool behind_point)
@@ -62,7 +50,7 @@ void koksma__table_add_mean(koksma__html *h, const koksma__summary *mean, int di
     koksma__html_add(h, behind_point ? "%.*f" : "%.*g", digits, mean->mean);
     if (isnan(half)) {
         koksma__html_add(h, " <span class=\"pm\">&#177; ?</span>");
-    } else {
+    } else if (half > 0) {
         koksma__html_add(
             h, behind_point ? " <span class=\"pm\">&#177; %.*f</span>" : " <span class=\"pm\">&#177; %.*g</span>",
             behind_point ? digits : 2, half);
@@ -78,31 +66,44 @@ void koksma__table_add_number(koksma__html *h, double value, int digits, bool be
     }
 }
 
-void koksma__table_judge(koksma__html *h, koksma__tally *tally, const koksma__table *t, const koksma__table_row *row,
-                         size_t trials, bool good, const char *text)
+void koksma__table_add_judgement(koksma__html *h, koksma__agreement *agreement, const koksma__verdict *v,
+                                 bool with_number)
 {
-    const size_t note = note_of(t, row->pattern, 0);
-    if (isnan(row->published[0])) {
-        koksma__html_add(h, "<td>new</td>");
-    } else if (trials == 0) {
-        tally->waiting++;
-        koksma__html_add(h, "<td>not yet</td>");
-    } else if (!good && note) {
-        tally->cells++;
-        tally->explained++;
-        koksma__html_add(h, "<td class=\"note\">note %zu</td>", note);
-    } else {
-        tally->cells++;
-        tally->agree += good;
-        koksma__html_add(h, "<td class=\"%s\">%s %s</td>", good ? "good" : "bad", good ? "&#10003;" : "&#10007;",
-                         text);
+    static const char *const classes[] = {[KOKSMA_VERDICT_AGREES] = "good",
+                                          [KOKSMA_VERDICT_FITTED] = "good",
+                                          [KOKSMA_VERDICT_EXPLAINED] = "note",
+                                          [KOKSMA_VERDICT_UNEXPLAINED] = "bad"};
+    char text[48] = "";
+    agreement->of[v->kind]++;
+    if (v->kind == KOKSMA_VERDICT_NEW || v->kind == KOKSMA_VERDICT_WAITING) {
+        koksma__html_add(h, v->kind == KOKSMA_VERDICT_NEW ? "new" : "not yet");
+        return;
     }
+    if (!isnan(v->z)) {
+        koksma__snprintf(text, sizeof text, "z = %+.1f", v->z);
+    } else {
+        koksma__snprintf(text, sizeof text, "%+.0f %%", 100 * v->ratio);
+    }
+    koksma__html_add(h, "<span class=\"%s\" title=\"%s\">", classes[v->kind], text);
+    if (v->kind == KOKSMA_VERDICT_EXPLAINED) {
+        koksma__html_add(h, "note %zu", v->note);
+    } else {
+        koksma__html_add(h, v->kind == KOKSMA_VERDICT_UNEXPLAINED ? "&#10007;" : "&#10003;");
+    }
+    koksma__html_add(h, with_number ? " %s</span>" : "</span>", text);
+}
+
+void koksma__table_add_verdict(koksma__html *h, koksma__agreement *agreement, const koksma__verdict *v)
+{
+    koksma__html_add(h, "<td>");
+    koksma__table_add_judgement(h, agreement, v, true);
+    koksma__html_add(h, "</td>");
 }
 
 void koksma__table_end(koksma__html *h, koksma__html *csv, const koksma__table *t)
 {
     char name[96];
-    koksma__html_add(h, "</tbody></table></div>\n");
+    koksma__html_add(h, "</table></div>\n");
     snprintf(name, sizeof name, "table-%.80s", t->id);
     koksma__csv_close(csv, h, name);
     if (t->n_notes) {
@@ -135,12 +136,8 @@ void koksma__table_csv_cell(koksma__html *csv, const koksma__cell *cell)
     koksma__csv_number(csv, cell->max);
 }
 
-void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table *t)
+void koksma__table_open(koksma__html *h, const koksma__table *t)
 {
-    static const char *const names[] = {"row", "pattern", "published mean", "published SD", "published max"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        koksma__csv_text(csv, names[i]);
-    }
     koksma__html_add(h, "<h3");
     koksma__html_id(h, "table", t->id);
     koksma__html_add(h, ">Table %s: ", t->id);
@@ -148,6 +145,15 @@ void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table
     koksma__html_add(
         h, "</h3>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"table %s\"><table>\n<thead>",
         t->id);
+}
+
+void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table *t)
+{
+    static const char *const names[] = {"row", "pattern", "published mean", "published SD", "published max"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        koksma__csv_text(csv, names[i]);
+    }
+    koksma__table_open(h, t);
 }
 
 /* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
@@ -164,13 +170,13 @@ static void add_set_mean(koksma__html *h, const koksma__summary *mean, bool diff
 }
 
 static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
-                                         koksma__tally *tally, const koksma__table *t, const koksma__table_row *row,
-                                         bool differ)
+                                         koksma__agreement *agreement, const koksma__table *t,
+                                         const koksma__table_row *row, bool differ)
 {
     koksma__cell cell, also = {0};
-    koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, &cell);
+    koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, t->n.at[0], &cell);
     if (!status && t->also) {
-        status = koksma__table_discrepancy(study, t, t->also, row->pattern, &also);
+        status = koksma__table_discrepancy(study, t, t->also, row->pattern, t->n.at[0], &also);
     }
     if (status) {
         return status;
@@ -184,13 +190,8 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
         koksma__html_add(h, " <span class=\"pm\">&#177; %.3f</span>", cell.max_sd);
     }
     koksma__html_add(h, "</td>");
-    /* The published mean is of 100 sets, rounded to three digits. */
-    const double n = (double)cell.mean.n, half_digit = 0.5 * pow(10, floor(log10(row->published[0])) - 2);
-    const double error = sqrt(cell.sd * cell.sd * (0.01 + 1 / n)) + half_digit;
-    const double z = (row->published[0] - cell.mean.mean) / error;
-    char text[48];
-    koksma__snprintf(text, sizeof text, "z = %+.1f", z);
-    koksma__table_judge(h, tally, t, row, isnan(z) ? 0 : cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
+    const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
+    koksma__table_add_verdict(h, agreement, &verdict);
     if (t->also) {
         add_set_mean(h, &also.mean, differ);
         koksma__table_csv_cell(csv, &also);
@@ -199,7 +200,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     return KOKSMA_OK;
 }
 
-koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *h, koksma__tally *tally,
+koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *h, koksma__agreement *agreement,
                                                const koksma__table *t)
 {
     size_t sets;
@@ -217,7 +218,7 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     koksma__html_add(h, "<tr><th></th><th colspan=\"3\">published (100 sets)</th><th colspan=\"3\">");
     koksma__html_text(h, t->measure);
     koksma__html_add(h, ", %s%zu sets</th><th></th>%s</tr>\n", differ ? "up to " : "", sets,
-                     t->also ? "<th>exact</th>" : "");
+                     t->also ? "<th>beside it</th>" : "");
     koksma__html_add(
         h,
         "<tr><th>pattern</th><th>ave</th><th>SD</th><th>max</th><th>mean <span class=\"pm\">95 %%</span></th>"
@@ -230,8 +231,9 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "</tr></thead>\n<tbody>\n");
     for (size_t r = 0; !status && r < t->n_rows; r++) {
-        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r], differ);
+        status = add_discrepancy_row(study, h, &csv, agreement, t, &t->rows[r], differ);
     }
+    koksma__html_add(h, "</tbody>");
     koksma__table_end(h, &csv, t);
     return status;
 }

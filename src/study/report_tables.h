@@ -7,7 +7,10 @@
 #include "study/report.h"
 #include "study/tables.h"
 
-/* The heads of the CSV's first columns, too. */
+/* The table's heading and the start of its element. */
+void koksma__table_open(koksma__html *html, const koksma__table *table);
+
+/* The same, and the heads of the CSV's first columns. */
 void koksma__table_begin(koksma__html *html, koksma__html *csv, const koksma__table *table);
 
 /* The label and what is published; in the CSV the pattern besides. */
@@ -23,20 +26,28 @@ void koksma__table_add_mean(koksma__html *html, const koksma__summary *mean, int
 
 void koksma__table_add_number(koksma__html *html, double value, int digits, bool behind_point);
 
-/* How the published mean goes with ours: it agrees or doesn't, or has a note; or there is none, or none of ours yet.
- */
-void koksma__table_judge(koksma__html *html, koksma__tally *tally, const koksma__table *table,
-                         const koksma__table_row *row, size_t trials, bool good, const char *text);
+/* A printed number, with the number of its note; a dash where nothing is printed. */
+void koksma__table_add_printed(koksma__html *html, const koksma__printed *printed, size_t note);
+
+/* How the printed mean goes with ours, counted in *agreement: as text, where the
+   number (z, or per cent) may be left to a tooltip, and as a cell of its own. */
+void koksma__table_add_judgement(koksma__html *html, koksma__agreement *agreement, const koksma__verdict *verdict,
+                                 bool with_number);
+void koksma__table_add_verdict(koksma__html *html, koksma__agreement *agreement, const koksma__verdict *verdict);
 
 /* Ends the table: the CSV and the notes. */
 void koksma__table_end(koksma__html *html, koksma__html *csv, const koksma__table *table);
 
-koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *html, koksma__tally *tally,
+koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html *html, koksma__agreement *agreement,
                                                const koksma__table *table);
-koksma_status koksma__report_image_table(koksma_study *study, koksma__html *html, koksma__tally *tally,
+koksma_status koksma__report_image_table(koksma_study *study, koksma__html *html, koksma__agreement *agreement,
                                          const koksma__table *table);
 
-/* Published means are of 100 sets; |z| below this is chance. */
-static const double KOKSMA__AGREEMENT_Z = 2.6;
+/* The patterns by their mean rank over the image tables of a plan, beside the overall order that is printed. */
+koksma_status koksma__report_order(koksma_study *study, koksma__html *html, size_t part);
+
+/* A table whose columns are numbers of points, with the slopes of its rows and a chart (report_sizes.c). */
+koksma_status koksma__report_sizes_table(koksma_study *study, koksma__html *html, koksma__agreement *agreement,
+                                         const koksma__table *table);
 
 #endif

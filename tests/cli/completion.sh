@@ -94,7 +94,7 @@ study export x --format=js^ json
 study images ^ FILES
 study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions FILES
-reproduce shirley1991 --table ^ none
+reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
 list ^ patterns measures scenes integrators filters uses adaptive warps parameters
 list patterns ^

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* --warp of measure, generate and plot: looks a map up by its name, and maps sets of points. */
+#include "warps.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *name)
+{
+    const koksma_warp *warp = koksma_warp_find(name);
+    if (!warp) {
+        char names[512] = "";
+        for (size_t i = 0; koksma_warp_at(i); i++) {
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", koksma_warp_at(i)->name);
+        }
+        cli_usage_error(arguments, "--warp %s: it takes %s", name, names);
+    }
+    return warp;
+}
+
+koksma_status cli_map_points(const koksma_warp *warp, koksma_points *points)
+{
+    koksma_points mapped;
+    const koksma_status status = koksma_points_init(&mapped, points->n, warp->dim);
+    if (status) {
+        return status;
+    }
+    for (size_t i = 0; i < points->n; i++) {
+        warp->map(points->xs + i * (size_t)points->dim, mapped.xs + i * (size_t)warp->dim);
+    }
+    koksma_points_fini(points);
+    *points = mapped;
+    return KOKSMA_OK;
+}

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The local discrepancy of points at x: D(x) = #{i : p_i in [0, x)} / n - x_1 ... x_d, signed; the star discrepancy
+ * is the supremum of |D|, the L2 star discrepancy its root mean square (Mitchell 1992, first equation; Niederreiter
+ * 1992, section 2.1). The grid counts each point in the cell from which on it is inside, and sums along both axes:
+ * O(n + side^2).
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/points_io.h"
+#include "core/status.h"
+
+koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out)
+{
+    double volume = 1;
+    size_t inside = 0;
+    if (!points || !x || !out) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "koksma_local_discrepancy takes points, a corner and room for the result");
+    }
+    const koksma_status status = koksma__points_check(points);
+    if (status) {
+        return status;
+    }
+    for (int k = 0; k < points->dim; k++) {
+        if (!(x[k] >= 0 && x[k] <= 1)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "a corner's coordinates are in [0,1]");
+        }
+        volume *= x[k];
+    }
+    for (size_t i = 0; i < points->n; i++) {
+        const double *p = points->xs + i * (size_t)points->dim;
+        int k = 0;
+        while (k < points->dim && p[k] < x[k]) {
+            k++;
+        }
+        inside += k == points->dim;
+    }
+    *out = (double)inside / (double)points->n - volume;
+    return KOKSMA_OK;
+}
+
+/* The first of the corners (k + 1/2) / side that lies above the coordinate; side: none does. */
+static size_t first_corner(double coordinate, size_t side)
+{
+    const double at = coordinate * (double)side - 0.5;
+    size_t k = at < 0 ? 0 : (size_t)at;
+    while (k < side && ((double)k + 0.5) / (double)side <= coordinate) {
+        k++;
+    }
+    return k;
+}
+
+koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out)
+{
+    if (!points || !out || side < 1 || side > KOKSMA_MAX_LOCAL_GRID) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a grid of local discrepancies has a side of 1 to %d",
+                            KOKSMA_MAX_LOCAL_GRID);
+    }
+    const koksma_status status = koksma__points_check(points);
+    if (status) {
+        return status;
+    }
+    if (points->dim != 2) {
+        return koksma__fail(KOKSMA_DIM, "a grid of local discrepancies takes points of 2 dimensions, not %d",
+                            points->dim);
+    }
+    for (size_t i = 0; i < side * side; i++) {
+        out[i] = 0;
+    }
+    for (size_t i = 0; i < points->n; i++) {
+        const size_t column = first_corner(points->xs[2 * i], side), row = first_corner(points->xs[2 * i + 1], side);
+        if (column < side && row < side) {
+            out[row * side + column] += 1;
+        }
+    }
+    for (size_t row = 0; row < side; row++) { /* counts of whole numbers: exact */
+        for (size_t column = 1; column < side; column++) {
+            out[row * side + column] += out[row * side + column - 1];
+        }
+        for (size_t column = 0; row && column < side; column++) {
+            out[row * side + column] += out[(row - 1) * side + column];
+        }
+    }
+    for (size_t i = 0; i < side * side; i++) {
+        const double x = ((double)(i % side) + 0.5) / (double)side, y = ((double)(i / side) + 0.5) / (double)side;
+        out[i] = out[i] / (double)points->n - x * y;
+    }
+    return KOKSMA_OK;
+}
