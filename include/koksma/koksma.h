@@ -163,7 +163,7 @@ KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 /* Properties that a pattern claims; each switches on its test for every pattern that makes it.
    A stratum [j/m, (j+1)/m) is bounded by the doubles nearest to its two fractions. */
 enum {
-    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter */
+    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter, but for scramble= and shift=1 */
     KOKSMA_CLAIM_SEQUENCE = 1u << 1,       /* the first k of n points are the set of k points */
     KOKSMA_CLAIM_ANY_N = 1u << 2,          /* serves every n >= 1 */
     KOKSMA_CLAIM_STRATIFIED = 1u << 3,     /* n = m^dim: one point in each of the m^dim cells, in order of the

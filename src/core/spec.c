@@ -309,6 +309,16 @@ static const koksma_pattern *pattern_of(const koksma_spec *spec)
     return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
 }
 
+bool koksma__is_deterministic(const koksma_spec *spec)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    bool fixed = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC;
+    for (int k = 0; fixed && p->params && p->params[k].name; k++) {
+        fixed = strcmp(p->params[k].name, "scramble") || spec->params[k] == p->params[k].fallback;
+    }
+    return fixed;
+}
+
 koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)
 {
     const koksma_pattern *p = pattern_of(spec);

@@ -15,6 +15,9 @@ KOKSMA__LAB koksma_status koksma__params_parse(const char *owner, const koksma_p
    cube in as many dimensions as it has a form for. caller is what errors call the function. Errors: ARGUMENT, DIM. */
 koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points);
 
+/* Whether the seed does not matter: the pattern claims so, and the spec neither shifts nor scrambles it. */
+KOKSMA__LAB bool koksma__is_deterministic(const koksma_spec *spec);
+
 /* Appends ":key=value,…" for the parameters that are not at their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/random.h"
+#include "core/spec.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "render/sampler.h"
@@ -162,7 +163,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
         return koksma__fail_memory(2 * n * sizeof *xs);
     }
     koksma_status status = generate(spec, options->seed, n, dims, xs);
-    if (!status && !spec->shift && spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC) {
+    if (!status && koksma__is_deterministic(spec)) {
         *fixed = malloc(2 * n * sizeof **fixed);
         status = *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * sizeof **fixed);
         if (dims == 1) {

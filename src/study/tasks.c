@@ -9,6 +9,7 @@
 #include <koksma/warp.h>
 
 #include "core/room.h"
+#include "core/spec.h"
 #include "core/status.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -39,7 +40,7 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 bool koksma__has_one_set(const char *pattern)
 {
     koksma_spec spec;
-    return !koksma_pattern_spec(pattern, &spec) && !spec.shift && (spec.pattern->claims & KOKSMA_CLAIM_DETERMINISTIC);
+    return !koksma_pattern_spec(pattern, &spec) && koksma__is_deterministic(&spec);
 }
 
 static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
