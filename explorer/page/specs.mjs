@@ -4,7 +4,7 @@ import { element } from "./dom.mjs";
 
 // In the order of the bits of KOKSMA_CLAIM_..: the program's word, and what it means.
 export const claims = [
-  ["deterministic", "The seed does not matter."],
+  ["deterministic", "The seed does not matter, unless the points are scrambled or shifted."],
   ["sequence", "The first k of n points are the set of k points."],
   ["any-n", "Any number of points."],
   ["stratified", "One point in each cell of a grid."],

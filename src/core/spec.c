@@ -254,18 +254,6 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
     }
 }
 
-bool koksma__spec_is_deterministic(const koksma_spec *spec)
-{
-    bool deterministic = !spec->shift && spec->pattern->claims & KOKSMA_CLAIM_DETERMINISTIC;
-    const koksma_param *params = spec->pattern->params;
-    for (int k = 0; params && params[k].name; k++) {
-        if (!strcmp(params[k].name, "scramble") || !strcmp(params[k].name, "shuffle")) {
-            deterministic = deterministic && spec->params[k] == 0;
-        }
-    }
-    return deterministic;
-}
-
 static koksma_status check_params(const char *owner, const koksma_param *params, const double *values)
 {
     koksma_status status = KOKSMA_OK;
@@ -319,6 +307,18 @@ static koksma_status check_generate(const koksma_spec *spec, const koksma_patter
 static const koksma_pattern *pattern_of(const koksma_spec *spec)
 {
     return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
+}
+
+bool koksma__spec_is_deterministic(const koksma_spec *spec)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    bool deterministic = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC;
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
+            deterministic = deterministic && spec->params[k] == 0;
+        }
+    }
+    return deterministic;
 }
 
 koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)

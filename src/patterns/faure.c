@@ -5,16 +5,21 @@
  *     x_k = sum_r y_r b^(-r-1),   y = P^k a mod b: y_r = sum_(c >= r) C(c,r) k^(c-r) a_c
  *
  * with a the digits of i and P the upper triangular Pascal matrix. The first b^m points are a (0,m,dim)-net in base
- * b. Every value is the double nearest to its fraction. Source: Faure 1982.
+ * b. Every plain value is the double nearest to its fraction. Source: Faure 1982.
+ *
+ *     scramble=owen  Owen's nested uniform scrambling (1995) in base b, drawn exactly, by stochastic generation
+ * (Helmer, Christensen & Kensler 2021); values go in steps of b^-M, b^M the largest power up to 2^53
  */
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "patterns/parts/columns.h"
+#include "patterns/parts/owen_sequence.h"
 #include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
 
 enum { MAX_DIGITS = 32, FEW = 4096 };
+enum { NONE, OWEN };
 
 typedef struct job {
     uint32_t base;
@@ -93,12 +98,30 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
     }
 }
 
+/* y = P^k a has the digit a_l at place l, and above it column l of P^k times a_l is added. What takes that away from
+   the lower digits is P^-k = (P^(b-k) modulo b): its column l, the coefficients of (x + b - k)^l. */
+static void relatives(const void *context, int k, int level, uint32_t *digits)
+{
+    const uint32_t b = *(const uint32_t *)context, t = (b - (uint32_t)k) % b;
+    uint32_t power[KOKSMA__OWEN_DIGITS + 1] = {1};
+    for (int l = 1; l <= level; l++) {
+        for (int c = l; c >= 0; c--) {
+            power[c] = ((c > 0 ? power[c - 1] : 0) + t * power[c]) % b;
+        }
+    }
+    for (int c = 0; c < level; c++) {
+        digits[c] = power[c];
+    }
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
     job j = {.base = 2, .digits = 1};
     for (int k = 1; j.base < (uint32_t)out->dim; k++) {
         j.base = koksma__prime(k);
+    }
+    if (args->params[0] == OWEN) {
+        return koksma__owen_sequence(seed, j.base, relatives, &j.base, args->run, out);
     }
     for (j.whole = j.base; j.whole < (double)out->n; j.whole *= j.base) {
         j.digits++;
@@ -119,12 +142,20 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return status;
 }
 
+static const char *const scrambles[] = {"none", "owen", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none or owen (nested, in base b, exact)", NONE, NONE, OWEN, scrambles, true},
+    {0},
+};
+
 const koksma_pattern koksma__pattern_faure = {
     .name = "faure",
     .title = "the (0,dim)-sequence in the smallest prime base",
-    .cite = "faure1982",
+    .cite = "faure1982 owen1995 helmer2021",
     .min_dim = 1,
     .max_dim = 1000,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET_PREFIXES,
+    .params = params,
     .generate = generate,
 };

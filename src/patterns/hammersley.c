@@ -6,13 +6,20 @@
  *
  * Source: Hammersley 1960. offset=0.5 has the lower star discrepancy. In 2D with n = 2^m a (0,m,2)-net.
  * Known exactly, 2D, n = 16: D* = 0.171875 with offset 0, 0.15234375 with offset 1/2.
+ *
+ *     scramble=owen  Owen's nested uniform scrambling (1995), exact: of the radical inverses as in halton; of x_0 in
+ *                    base 2 where n is a power of 2, else x_0 is uniform in [i/n, (i+1)/n). offset has no effect
  */
 #include <math.h>
 
+#include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
+#include "patterns/parts/owen_hammersley.h"
 #include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+
+enum { NONE, OWEN };
 
 typedef struct job {
     double n, offset;
@@ -67,9 +74,14 @@ static void rows(const void *context, size_t first, size_t count, bool stream, k
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
     job j;
     net digital;
+    if (args->params[1] == OWEN && args->params[0] != 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "hammersley: offset has no effect with scramble=owen; leave one out");
+    }
+    if (args->params[1] == OWEN) {
+        return koksma__owen_hammersley(seed, args->run, out);
+    }
     if (out->dim == 2 && make_net(out->n, args->params[0], &digital)) {
         return koksma__fill_rows(args->run, out, rows, &digital);
     }
@@ -83,15 +95,18 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return status;
 }
 
+static const char *const scrambles[] = {"none", "owen", NULL};
+
 static const koksma_param params[] = {
     {"offset", "of the first coordinate, in steps of 1/n", 0, 0, 0.999, NULL, false},
+    {"scramble", "none or owen (nested, each coordinate in its base, exact)", NONE, NONE, OWEN, scrambles, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_hammersley = {
     .name = "hammersley",
     .title = "equidistant first coordinate, radical inverses for the others",
-    .cite = "hammersley1960",
+    .cite = "hammersley1960 owen1995 helmer2021",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,

@@ -7,10 +7,29 @@
  * The matrix of y has ones on and above its diagonal. Source: Larcher & Pillichshammer 2001; the generator in the
  * form of Kollig & Keller 2002. Known exactly, n = 16: D* = 0.140625; n = 1024: 3.41796875 / n. For n = 2^m, n D*
  * grows like m / 5 (Larcher & Pillichshammer 2003), Hammersley's like m / 3.
+ *
+ *     scramble=owen  Owen's nested uniform scrambling (1995) in base 2, exact, in steps of 2^-32; where n is not a
+ * power of 2, x is uniform in [i/n, (i+1)/n)
  */
+#include <stdlib.h>
+
+#include "core/random.h"
+#include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
+#include "patterns/parts/grow.h"
+#include "patterns/parts/owen_hammersley.h"
+#include "patterns/parts/sobol_table.h"
 #include "patterns/patterns.h"
+
+enum { NONE, OWEN };
+
+static void fill_directions(uint32_t directions[32])
+{
+    for (int b = 0; b < 32; b++) {
+        directions[b] = 0xffffffffu << (31 - b);
+    }
+}
 
 static void column(const void *context, int k, size_t first, size_t count, double *xs)
 {
@@ -20,27 +39,54 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
         return;
     }
     uint32_t directions[32], v[KOKSMA__COLUMN_BLOCK], start = 0;
+    fill_directions(directions);
     for (int b = 0; b < 32; b++) {
-        directions[b] = 0xffffffffu << (31 - b);
         start ^= first >> b & 1 ? directions[b] : 0;
     }
     koksma__kernels()->digital(count, directions, start, v);
     koksma__kernels()->fractions(count, v, xs);
 }
 
+static koksma_status generate_owen(uint64_t seed, const koksma_run *run, koksma_points *out)
+{
+    uint32_t directions[32], partners[32], *v = malloc(out->n * sizeof *v);
+    if (!v) {
+        return koksma__fail_memory(out->n * sizeof *v);
+    }
+    fill_directions(directions);
+    koksma__partners(directions, 32, partners);
+    koksma_status status = koksma__grow_column(seed, KOKSMA__PURPOSE_SCRAMBLE, partners, run, out->n, v);
+    status = status ? status : koksma__owen_equidistant(seed, run, out);
+    for (size_t i = 0; i < out->n && !status; i++) {
+        out->xs[2 * i + 1] = v[i] * 0x1p-32;
+    }
+    free(v);
+    return status;
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
+    if (args->params[0] == OWEN) {
+        return generate_owen(seed, args->run, out);
+    }
     const double n = (double)out->n;
     return koksma__fill_columns(args->run, out, column, &n);
 }
 
+static const char *const scrambles[] = {"none", "owen", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none or owen (nested, in base 2, exact)", NONE, NONE, OWEN, scrambles, true},
+    {0},
+};
+
 const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .name = "larcher-pillichshammer",
     .title = "a digital net that beats Hammersley's",
-    .cite = "larcher2001 larcher2003 kollig2002",
+    .cite = "larcher2001 larcher2003 kollig2002 owen1995 helmer2021",
     .min_dim = 2,
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
+    .params = params,
     .generate = generate,
 };

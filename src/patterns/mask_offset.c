@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mask-offset: the points of all pixels of a square tile, pixel after pixel: each pixel has the same spp
- * hash-Owen-scrambled points, shifted on the torus by the ranks of two void-and-cluster masks.
+ * mask-offset: the points of all pixels of a square tile, pixel after pixel: each pixel has its own copy of one
+ * hash-Owen-scrambled (0,2)-sequence, which the values of three void-and-cluster masks at the pixel choose.
  *
- *     point s of pixel p = {sobol(s) + ((rank_1(p) + 1/2) / width^2, (rank_2(p) + 1/2) / width^2)},   n = width^2 spp
+ *     point s of pixel p = koksma_mask_2d(sequence, {value_0(p), value_1(p), value_2(p)}, s, spp),   n = width^2 spp
  *
- * Source: Georgiev & Fajardo 2016, with void-and-cluster masks (Ulichney 1993) in the place of their optimised one.
+ * koksma/mask.h has the rule, and how blue the errors are for which numbers of samples. Alone, a pixel's points have
+ * the law of sobol:scramble=hash-owen: for any spp its error is that of an independently scrambled pixel.
+ *
+ * Sources: Georgiev & Fajardo 2016, who shift on the torus by two masks; void-and-cluster masks (Ulichney 1993) in
+ * the place of their optimised ones; the scrambling of Laine & Karras 2011 and Burley 2020. The shift by digits below
+ * the net's, and the mask that pairs the strata, are this project's.
  */
 #include <koksma/mask.h>
 #include <koksma/sampler.h>
@@ -17,7 +22,7 @@
 #include "core/status.h"
 #include "patterns/patterns.h"
 
-enum { BLOCK = 4096 };
+enum { BLOCK = 4096, MASKS = 3, VALUE_LANE = 1 };
 
 typedef struct filling {
     uint64_t seed;
@@ -26,17 +31,28 @@ typedef struct filling {
     koksma_points *out;
 } filling;
 
+/* The values of the three masks at a pixel. */
+static void values_at(const filling *f, size_t pixel, uint32_t values[MASKS])
+{
+    uint32_t random[4];
+    koksma_words(f->seed, KOKSMA_FOR_SHIFT, pixel, VALUE_LANE, random);
+    for (size_t k = 0; k < MASKS; k++) {
+        values[k] = koksma_mask_value(f->ranks[k * f->pixels + pixel], (uint32_t)f->pixels, random[k]);
+    }
+}
+
 static koksma_status fill_block(void *context, size_t block)
 {
     const filling *f = context;
+    const koksma_sobol sequence = koksma_sobol_of((koksma_domain){f->seed});
     const size_t end = (block + 1) * BLOCK < f->out->n ? (block + 1) * BLOCK : f->out->n;
+    uint32_t values[MASKS];
+    values_at(f, block * BLOCK / f->spp, values);
     for (size_t i = block * BLOCK; i < end; i++) {
-        double *xy = f->out->xs + 2 * i;
-        koksma_sobol_2d((koksma_domain){f->seed}, (uint32_t)(i % f->spp), xy);
-        for (size_t k = 0; k < 2; k++) {
-            xy[k] += ((double)f->ranks[k * f->pixels + i / f->spp] + 0.5) / (double)f->pixels;
-            xy[k] -= xy[k] >= 1;
+        if (i % f->spp == 0) {
+            values_at(f, i / f->spp, values);
         }
+        koksma_mask_2d(&sequence, values, (uint32_t)(i % f->spp), (uint32_t)f->spp, f->out->xs + 2 * i);
     }
     return KOKSMA_OK;
 }
@@ -48,12 +64,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         return koksma__fail(KOKSMA_N, "mask-offset: n = %zu is no multiple of the %zu pixels; n = %zu would do",
                             out->n, pixels, (out->n / pixels + 1) * pixels);
     }
-    uint32_t *ranks = malloc(2 * pixels * sizeof *ranks);
+    uint32_t *ranks = malloc(MASKS * pixels * sizeof *ranks);
     if (!ranks) {
-        return koksma__fail_memory(2 * pixels * sizeof *ranks);
+        return koksma__fail_memory(MASKS * pixels * sizeof *ranks);
     }
     koksma_status status = KOKSMA_OK;
-    for (size_t k = 0; k < 2 && !status; k++) {
+    for (size_t k = 0; k < MASKS && !status; k++) {
         status = koksma_mask_void_and_cluster((int)width, koksma__random_seed(seed, k, KOKSMA__PURPOSE_SHIFT),
                                               args->run, ranks + k * pixels);
     }
@@ -66,14 +82,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"width", "pixels a side", 4, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
+    {"width", "pixels a side of the tile", 64, KOKSMA_MASK_MIN, KOKSMA_MASK_MAX, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_mask_offset = {
     .name = "mask-offset",
-    .title = "one pattern, shifted in each pixel by blue-noise masks",
-    .cite = "georgiev2016 ulichney1993",
+    .title = "one (0,2)-sequence, varied from pixel to pixel by blue-noise masks",
+    .cite = "georgiev2016 ulichney1993 laine2011 burley2020",
     .min_dim = 2,
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_UNBIASED,

@@ -10,11 +10,17 @@
  * without the infinite row of zeros, or with places counted from 1, they come out otherwise. Known exactly: L2 star
  * for n = 16, 256, 1600: 0.035833915 0.002550635 0.000438 in 2D, 0.039301 0.003756 0.000761 in 3D. In base 2 it is a
  * digital shift of Hammersley's.
+ *
+ *     scramble=owen  Owen's nested uniform scrambling (1995), exact, as in hammersley, with the same points: folding
+ * is a permutation of the digits of each place, and has no effect on what is scrambled uniformly
  */
 #include "kernels/kernels.h"
 #include "patterns/parts/columns.h"
+#include "patterns/parts/owen_hammersley.h"
 #include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+
+enum { NONE, OWEN };
 
 typedef struct job {
     double n;
@@ -39,8 +45,10 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
     job j;
+    if (args->params[0] == OWEN) {
+        return koksma__owen_hammersley(seed, args->run, out);
+    }
     j.n = (double)out->n;
     koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, out->n, fold, NULL);
     if (!status) {
@@ -50,12 +58,20 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     return status;
 }
 
+static const char *const scrambles[] = {"none", "owen", NULL};
+
+static const koksma_param params[] = {
+    {"scramble", "none or owen (nested, each coordinate in its base, exact)", NONE, NONE, OWEN, scrambles, true},
+    {0},
+};
+
 const koksma_pattern koksma__pattern_zaremba = {
     .name = "zaremba",
     .title = "Hammersley points with folded radical inverses",
-    .cite = "zaremba1968 warnock1972 mitchell1992",
+    .cite = "zaremba1968 warnock1972 mitchell1992 owen1995 helmer2021",
     .min_dim = 2,
     .max_dim = KOKSMA_MAX_DIM,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
+    .params = params,
     .generate = generate,
 };

@@ -36,7 +36,7 @@ listed("patterns").forEach((row, i) => {
 // Points: every pattern, with each of its choices.
 const specs = tables.patterns.filter(p => !p.takes_path && !p.alias_of).flatMap(p => [p.name,
   ...p.params.flatMap(q => q.choices ? q.choices.slice(1).map(choice => `${p.name}:${q.name}=${choice}`) : [])]);
-specs.push("random:shift=1", "gaussian-jittered:sigma=2", "poisson-disk:d=0.06,torus=1", "sobol:scramble=hash-owen,shuffle=1");
+specs.push("random:shift=1", "gaussian-jittered:sigma=2", "poisson-disk:d=0.06,torus=1", "sobol:scramble=hash-owen,shuffle=1", "mask-offset:width=4");
 for (const spec of specs) {
   for (const [n, dim, seed] of [[16, 2, 7n], [64, 3, 0n], [100, 2, 12345678901234567890n], [55, 2, 1n]]) {
     const theirs = run("generate", spec, "-n", n, "-d", dim, "--seed", seed, "-q"), what = `${spec} n=${n} dim=${dim} seed=${seed}`;

@@ -31,6 +31,8 @@ static void large_sets_are_the_same(void **state)
                  {"halton:scramble=owen", 2, true},
                  {"halton:scramble=owen", 9, true},
                  {"faure", 3, true},
+                 {"faure:scramble=owen", 3, true},
+                 {"hammersley:scramble=owen", 3, false},
                  {"random", 2, true},
                  {"n-rooks", 2, false},
                  {"latin-hypercube", 3, false}};

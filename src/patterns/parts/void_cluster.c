@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Void and cluster (Ulichney 1993): the energy of a pixel is the sum of Gaussians (standard deviation 1.5 pixels, on
- * the torus) about the pixels that are set. A tenth of the pixels is set at random, and the tightest cluster is moved
- * to the largest void until that changes nothing. The ranks of those pixels are found by taking out tightest
- * clusters, the other ranks by filling largest voids. On the torus, filling voids and taking clusters out of the rest
- * are the same.
+ * the torus, cut off at 9 pixels along each axis) about the pixels that are set. A tenth of the pixels is set at
+ * random, and the tightest cluster is moved to the largest void until that changes nothing. The ranks of those pixels
+ * are found by taking out tightest clusters, the other ranks by filling largest voids. On the torus, filling voids
+ * and taking clusters out of the rest are the same.
+ *
+ * A change of one pixel changes the energies of the at most 19 x 19 about it. The largest void and the tightest
+ * cluster are the roots of two pyramids: a node of level 1 has the best of 2 x 2 pixels, a node of level l + 1 the
+ * best of 2 x 2 nodes of level l. A change renews 100 nodes of level 1, 36 of level 2, ...: a constant number but for
+ * the height of the pyramid, so that a mask takes time in size^2 log(size). Energies are sums of doubles in a fixed
+ * order, and ties go to the pixel with the lowest index: the ranks do not depend on the instruction set.
  */
 #include <koksma/mask.h>
 
@@ -17,65 +23,149 @@
 #include "core/random.h"
 #include "core/status.h"
 
-enum { REACH = 9 }; /* six standard deviations */
+enum { REACH = 9, LEVELS = 12 }; /* six standard deviations; 2^LEVELS >= KOKSMA_MASK_MAX */
+enum { VOIDS, CLUSTERS };
+
+typedef struct best {
+    double merit; /* the energy of a set pixel, minus that of another; -INFINITY without a pixel */
+    size_t at;
+} best;
 
 typedef struct mask {
-    int size;
+    int size, levels;
     size_t n;
     double *energy;
     bool *set;
+    best *pyramids[2][LEVELS + 1]; /* VOIDS: of the pixels that are not set, CLUSTERS: of those that are; level 0 is
+                                      energy itself */
+    bool maintained[2];
     double gauss[2 * REACH + 1][2 * REACH + 1];
 } mask;
 
+static int width_of(const mask *m, int level)
+{
+    return (m->size + (1 << level) - 1) >> level;
+}
+
+static best better(best a, best b)
+{
+    return b.merit > a.merit || (b.merit == a.merit && b.at < a.at) ? b : a;
+}
+
+static best pixel(const mask *m, int kind, size_t at)
+{
+    best one = {kind == CLUSTERS ? m->energy[at] : -m->energy[at], at};
+    if (m->set[at] != (kind == CLUSTERS)) {
+        one.merit = -INFINITY;
+    }
+    return one;
+}
+
+/* Node (x, y) of a level, from the four below it; at the far sides there may be fewer. */
+static void renew_node(mask *m, int kind, int level, int x, int y)
+{
+    const int below = width_of(m, level - 1), right = 2 * x + 1 < below, down = 2 * y + 1 < below;
+    const size_t first = (size_t)(2 * y) * (size_t)below + (size_t)(2 * x);
+    best found = {-INFINITY, SIZE_MAX};
+    for (int i = 0; i < 4; i++) {
+        if ((i & 1) <= right && i >> 1 <= down) {
+            const size_t at = first + (size_t)(i >> 1) * (size_t)below + (size_t)(i & 1);
+            found = better(found, level == 1 ? pixel(m, kind, at) : m->pyramids[kind][level - 1][at]);
+        }
+    }
+    m->pyramids[kind][level][(size_t)y * (size_t)width_of(m, level) + (size_t)x] = found;
+}
+
+/* The nodes above the pixels of columns x[0] to x[1] and rows y[0] to y[1]. */
+static void renew(mask *m, const int x[2], const int y[2])
+{
+    for (int kind = VOIDS; kind <= CLUSTERS; kind++) {
+        for (int level = 1; m->maintained[kind] && level <= m->levels; level++) {
+            for (int v = y[0] >> level; v <= y[1] >> level; v++) {
+                for (int u = x[0] >> level; u <= x[1] >> level; u++) {
+                    renew_node(m, kind, level, u, v);
+                }
+            }
+        }
+    }
+}
+
+/* The parts of from .. to on a circle of `size` pixels: one, or two where it crosses the end. */
+static int unwrap(int from, int to, int size, int parts[2][2])
+{
+    if (from >= 0 && to < size) {
+        parts[0][0] = from;
+        parts[0][1] = to;
+        return 1;
+    }
+    parts[0][0] = 0;
+    parts[0][1] = to < size ? to : to - size;
+    parts[1][0] = from < 0 ? from + size : from;
+    parts[1][1] = size - 1;
+    return 2;
+}
+
 static void change(mask *m, size_t at, bool on)
 {
-    const int size = m->size, reach = size < 2 * REACH + 1 ? (size - 1) / 2 : REACH;
-    const int x = (int)at % size, y = (int)at / size;
+    /* On a small torus each pixel is met once, along the shortest way. */
+    const int size = m->size, after = size / 2 < REACH ? size / 2 : REACH;
+    const int before = (size - 1) / 2 < REACH ? (size - 1) / 2 : REACH;
+    const int x = (int)(at % (size_t)size), y = (int)(at / (size_t)size);
     const double sign = on ? 1 : -1;
     m->set[at] = on;
-    for (int v = -reach; v <= reach; v++) {
+    for (int v = -before; v <= after; v++) {
         double *row = m->energy + (size_t)((y + v + size) % size) * (size_t)size;
-        for (int u = -reach; u <= reach; u++) {
+        for (int u = -before; u <= after; u++) {
             row[(x + u + size) % size] += sign * m->gauss[v + REACH][u + REACH];
         }
     }
-}
-
-/* The set pixel with the most energy, or the other with the least. Ties go to the first. */
-static size_t extreme(const mask *m, bool set)
-{
-    size_t best = 0;
-    double value = -INFINITY;
-    for (size_t i = 0; i < m->n; i++) {
-        const double e = set ? m->energy[i] : -m->energy[i];
-        if (m->set[i] == set && e > value) {
-            value = e;
-            best = i;
-        }
+    int columns[2][2], rows[2][2];
+    const int across = unwrap(x - before, x + after, size, columns), down = unwrap(y - before, y + after, size, rows);
+    for (int i = 0; i < across * down; i++) {
+        renew(m, columns[i % across], rows[i / across]);
     }
-    return best;
 }
 
-static size_t begin(mask *m, uint64_t seed)
+/* Keeps the pyramid of one kind from now on, and that of the other kind no more. */
+static void maintain_only(mask *m, int kind)
 {
-    const size_t count = m->n / 10 ? m->n / 10 : 1;
-    for (size_t placed = 0, i = 0; placed < count; i++) {
+    const int all[2] = {0, m->size - 1};
+    m->maintained[1 - kind] = false;
+    m->maintained[kind] = true;
+    renew(m, all, all);
+}
+
+static size_t extreme(const mask *m, int kind)
+{
+    return m->pyramids[kind][m->levels][0].at;
+}
+
+static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t *count)
+{
+    const int all[2] = {0, m->size - 1};
+    *count = m->n / 10 ? m->n / 10 : 1;
+    for (size_t placed = 0, i = 0; placed < *count; i++) {
         const size_t at = koksma__below(koksma__random(seed, KOKSMA__PURPOSE_DART, i, 0).w[0], (uint32_t)m->n);
         if (!m->set[at]) {
             change(m, at, true);
             placed++;
         }
     }
+    m->maintained[VOIDS] = m->maintained[CLUSTERS] = true;
+    renew(m, all, all);
     for (size_t step = 0; step < 16 * m->n; step++) {
-        const size_t cluster = extreme(m, true);
+        const size_t cluster = extreme(m, CLUSTERS);
         change(m, cluster, false);
-        const size_t hole = extreme(m, false);
+        const size_t hole = extreme(m, VOIDS);
         change(m, hole, true);
         if (hole == cluster) {
             break;
         }
+        if (step % 256 == 255 && !koksma__keep_going(run, 0)) {
+            return koksma__fail_interrupted();
+        }
     }
-    return count;
+    return KOKSMA_OK;
 }
 
 /* The ranks of the first pixels, taken out one by one, and put back. */
@@ -84,12 +174,14 @@ static void rank_first(mask *m, size_t count, uint32_t *ranks)
     for (size_t i = 0; i < m->n; i++) {
         ranks[i] = UINT32_MAX;
     }
+    maintain_only(m, CLUSTERS);
     for (size_t left = count; left > 0; left--) {
-        const size_t at = extreme(m, true);
+        const size_t at = extreme(m, CLUSTERS);
         change(m, at, false);
         ranks[at] = (uint32_t)left - 1;
     }
     memset(m->energy, 0, m->n * sizeof *m->energy);
+    m->maintained[CLUSTERS] = false;
     for (size_t i = 0; i < m->n; i++) {
         if (ranks[i] < count) {
             change(m, i, true);
@@ -99,14 +191,39 @@ static void rank_first(mask *m, size_t count, uint32_t *ranks)
 
 static koksma_status fill_voids(mask *m, size_t count, const koksma_run *run, uint32_t *ranks)
 {
+    maintain_only(m, VOIDS);
     for (; count < m->n; count++) {
-        const size_t at = extreme(m, false);
+        const size_t at = extreme(m, VOIDS);
         change(m, at, true);
         ranks[at] = (uint32_t)count;
         if (count % 256 == 0 && !koksma__keep_going(run, (double)count / (double)m->n)) {
             return koksma__fail_interrupted();
         }
     }
+    return KOKSMA_OK;
+}
+
+/* All memory is one block, which begins with m->energy. */
+static koksma_status make_room(mask *m)
+{
+    size_t nodes = 0;
+    for (m->levels = 0; width_of(m, m->levels) > 1; m->levels++) {
+        const size_t width = (size_t)width_of(m, m->levels + 1);
+        nodes += width * width;
+    }
+    const size_t bytes = m->n * (sizeof *m->energy + sizeof *m->set) + 2 * nodes * sizeof(best);
+    m->energy = calloc(1, bytes);
+    if (!m->energy) {
+        return koksma__fail_memory(bytes);
+    }
+    best *node = (best *)(m->energy + m->n);
+    for (int kind = VOIDS; kind <= CLUSTERS; kind++) {
+        for (int level = 1; level <= m->levels; level++) {
+            m->pyramids[kind][level] = node;
+            node += (size_t)width_of(m, level) * (size_t)width_of(m, level);
+        }
+    }
+    m->set = (bool *)node;
     return KOKSMA_OK;
 }
 
@@ -117,20 +234,21 @@ koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma
                             KOKSMA_MASK_MIN, KOKSMA_MASK_MAX);
     }
     mask m = {.size = size, .n = (size_t)size * (size_t)size};
+    koksma_status status = make_room(&m);
+    if (status) {
+        return status;
+    }
     for (int v = -REACH; v <= REACH; v++) {
         for (int u = -REACH; u <= REACH; u++) {
             m.gauss[v + REACH][u + REACH] = koksma__exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
         }
     }
-    m.energy = calloc(m.n, sizeof *m.energy);
-    m.set = calloc(m.n, sizeof *m.set);
-    koksma_status status = m.energy && m.set ? KOKSMA_OK : koksma__fail_memory(m.n * 10);
+    size_t count;
+    status = begin(&m, seed, run, &count);
     if (!status) {
-        const size_t count = begin(&m, seed);
         rank_first(&m, count, ranks);
         status = fill_voids(&m, count, run, ranks);
     }
-    free(m.set);
     free(m.energy);
     return status;
 }

@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Masks against their definitions, and the pattern that is made of them against independent pixels: the error within
+   a pixel is that of independently scrambled points, and neighbours' errors cancel. */
+#include <koksma/mask.h>
+
+#include <stdlib.h>
+
+#include "claims/claims.h"
+#include "test.h"
+
+static uint32_t *mask_of(int size, uint64_t seed)
+{
+    uint32_t *ranks = malloc((size_t)(size * size) * sizeof *ranks);
+    assert_non_null(ranks);
+    assert_ok(koksma_mask_void_and_cluster(size, seed, NULL, ranks));
+    return ranks;
+}
+
+/* The energy of each pixel: Gaussians of standard deviation 1.5 about the pixels with rank < below, the shortest way
+   on the torus, up to 9 pixels along each axis. */
+static void energies_of(const uint32_t *ranks, int size, uint32_t below, double *energy)
+{
+    double gauss[10][10];
+    for (int i = 0; i < 100; i++) {
+        gauss[i / 10][i % 10] = exp(-(i / 10 * (i / 10) + i % 10 * (i % 10)) / 4.5);
+    }
+    for (int p = 0; p < size * size; p++) {
+        energy[p] = 0;
+        for (int q = 0; q < size * size; q++) {
+            int x = abs(p % size - q % size), y = abs(p / size - q / size);
+            x = x < size - x ? x : size - x;
+            y = y < size - y ? y : size - y;
+            if (ranks[q] < below && x <= 9 && y <= 9) {
+                energy[p] += gauss[y][x];
+            }
+        }
+    }
+}
+
+/* Ulichney's three rules, to 1e-9, at every size that a window of 19 pixels treats in its own way. */
+static void masks_are_ulichneys(void **state)
+{
+    (void)state;
+    static const int sizes[] = {4, 5, 6, 7, 8, 10, 12, 16, 17, 18, 19, 20, 23};
+    for (size_t t = 0; t < sizeof sizes / sizeof *sizes; t++) {
+        const int size = sizes[t], n = size * size;
+        const uint32_t count = (uint32_t)(n / 10 ? n / 10 : 1);
+        uint32_t *ranks = mask_of(size, t), *at = malloc((size_t)n * sizeof *at);
+        double *energy = malloc((size_t)n * sizeof *energy);
+        for (int p = 0; p < n; p++) {
+            at[p] = UINT32_MAX;
+        }
+        for (int p = 0; p < n; p++) {
+            assert_true(ranks[p] < (uint32_t)n && at[ranks[p]] == UINT32_MAX);
+            at[ranks[p]] = (uint32_t)p;
+        }
+        for (uint32_t r = 0; r<(uint32_t)n; r += size> 8 && r > 2 * count ? 11 : 1) {
+            /* rank r <  count: of the pixels to r, that of rank r is in the tightest cluster
+               rank r >= count: of the others than those below r, that of rank r is in the largest void */
+            const bool cluster = r < count;
+            energies_of(ranks, size, cluster ? r + 1 : r, energy);
+            for (int p = 0; p < n; p++) {
+                if (cluster ? ranks[p] <= r && energy[p] > energy[at[r]] + 1e-9
+                            : ranks[p] >= r && energy[p] < energy[at[r]] - 1e-9) {
+                    fail_msg("size %d: pixel %d, not %u, has rank %u", size, p, at[r], r);
+                }
+            }
+        }
+        /* the first pixels are stable: without the tightest, its own place is the largest void */
+        energies_of(ranks, size, count - 1, energy);
+        for (int p = 0; p < n; p++) {
+            assert_true(energy[p] >= energy[at[count - 1]] - 1e-9 || ranks[p] < count - 1);
+        }
+        free(energy);
+        free(at);
+        free(ranks);
+    }
+    uint32_t none[16];
+    assert_int_equal(koksma_mask_void_and_cluster(3, 3, NULL, none), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_mask_void_and_cluster(KOKSMA_MASK_MAX + 1, 3, NULL, none), KOKSMA_ARGUMENT);
+}
+
+/* The bits that scanning all pixels for each extreme gave. */
+static void masks_keep_their_bits(void **state)
+{
+    (void)state;
+    static const struct {
+        int size;
+        uint64_t hash;
+    } known[] = {
+        {19, 0x426ca9b3c3923321}, {33, 0x7032ee9742c90a39}, {64, 0xbae89ec7e10647b}, {100, 0x8eed46ed0d7b1bd8}};
+    for (size_t t = 0; t < sizeof known / sizeof *known; t++) {
+        uint32_t *ranks = mask_of(known[t].size, 7);
+        uint64_t hash = 0;
+        for (int p = 0; p < known[t].size * known[t].size; p++) {
+            hash = (hash ^ ranks[p]) * 0x9e3779b97f4a7c15u;
+            hash ^= hash >> 32;
+        }
+        free(ranks);
+        if (hash != known[t].hash) {
+            fail_msg("size %d: hash 0x%llx", known[t].size, (unsigned long long)hash);
+        }
+    }
+}
+
+/* The mean power of the pixels below `count` at frequencies below `radius`, in which random pixels have 1 - count/n.
+ */
+static double low_power(const uint32_t *ranks, int size, uint32_t count, double radius)
+{
+    double sum = 0, cosine[64], sine[64];
+    assert_true(size <= 64);
+    for (int p = 0; p < size; p++) {
+        cosine[p] = cos(2 * 3.14159265358979323846 * p / size);
+        sine[p] = sin(2 * 3.14159265358979323846 * p / size);
+    }
+    int bins = 0;
+    for (int v = -(int)radius; v <= radius; v++) {
+        for (int u = 0; u <= radius; u++) {
+            if (u * u + v * v == 0 || u * u + v * v > radius * radius) {
+                continue;
+            }
+            double re = 0, im = 0;
+            for (int p = 0; p < size * size; p++) {
+                if (ranks[p] < count) {
+                    const int phase = ((u * (p % size) + v * (p / size)) % size + size) % size;
+                    re += cosine[phase];
+                    im += sine[phase];
+                }
+            }
+            sum += (re * re + im * im) / count;
+            bins++;
+        }
+    }
+    return sum / bins;
+}
+
+/* Blue noise at every threshold: below 0.4 of the frequency sqrt(density) there is a tenth of white noise's
+   power at most. */
+static void thresholded_masks_are_blue(void **state)
+{
+    (void)state;
+    enum { SIZE = 64, N = SIZE * SIZE };
+    for (uint64_t seed = 0; seed < 2; seed++) {
+        uint32_t *ranks = mask_of(SIZE, seed);
+        for (int percent = 5; percent <= 50; percent += 15) {
+            const uint32_t count = (uint32_t)(N * percent / 100);
+            const double power = low_power(ranks, SIZE, count, 0.4 * sqrt(count));
+            if (!(power < 0.1 * (1 - percent / 100.0))) {
+                fail_msg("%d %%: power %.4f", percent, power);
+            }
+        }
+        free(ranks);
+    }
+}
+
+/* The points of mask-offset with given masks. */
+static koksma_points tile_of(uint32_t *const ranks[3], size_t pixels, size_t spp, uint64_t seed)
+{
+    koksma_points tile;
+    assert_ok(koksma_points_init(&tile, pixels * spp, 2));
+    const koksma_sobol sequence = koksma_sobol_of((koksma_domain){seed});
+    for (size_t p = 0; p < pixels; p++) {
+        uint32_t w[4], values[3];
+        koksma_words(seed, KOKSMA_FOR_SHIFT, p, 1, w);
+        for (int k = 0; k < 3; k++) {
+            values[k] = koksma_mask_value(ranks[k][p], (uint32_t)pixels, w[k]);
+        }
+        for (size_t s = 0; s < spp; s++) {
+            koksma_mask_2d(&sequence, values, (uint32_t)s, (uint32_t)spp, tile.xs + 2 * (p * spp + s));
+        }
+    }
+    return tile;
+}
+
+static void the_header_has_the_patterns_points(void **state)
+{
+    (void)state;
+    static const struct {
+        int width;
+        size_t spp;
+    } cases[] = {{4, 1}, {5, 3}, {8, 16}, {12, 40}, {4, 1000}, {64, 1}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char spec[40]; /* the default width is 64 */
+        const uint64_t seed = 9 + c;
+        const size_t pixels = (size_t)(cases[c].width * cases[c].width), spp = cases[c].spp;
+        snprintf(spec, sizeof spec, cases[c].width == 64 ? "mask-offset" : "mask-offset:width=%d", cases[c].width);
+        koksma_points points = test_points(spec, pixels * spp, 2, seed);
+        uint32_t *ranks[3];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t w[4];
+            koksma_words(seed, KOKSMA_FOR_DOMAIN, k, KOKSMA_FOR_SHIFT, w);
+            ranks[k] = mask_of(cases[c].width, (uint64_t)w[1] << 32 | w[0]);
+        }
+        koksma_points expected = tile_of(ranks, pixels, spp, seed);
+        assert_memory_equal(points.xs, expected.xs, 2 * points.n * sizeof *points.xs);
+        for (int k = 0; k < 3; k++) {
+            free(ranks[k]);
+        }
+        koksma_points_fini(&expected);
+        koksma_points_fini(&points);
+    }
+    assert_int_equal(koksma_mask_value(0, 16, 0), 0);
+    assert_int_equal(koksma_mask_value(15, 16, 0xffffffffu), 0xffffffffu);
+    assert_int_equal(koksma_mask_value(5, 16, 0), 0x50000000u);
+}
+
+static void pixels_have_nets(void **state)
+{
+    (void)state;
+    for (size_t spp = 1; spp <= 256; spp *= 2) {
+        koksma_points tile = test_points("mask-offset:width=6", 36 * spp, 2, spp);
+        for (size_t pixel = 0; pixel < 36; pixel++) {
+            const koksma_points own = {spp, 2, tile.xs + 2 * spp * pixel};
+            assert_true(is_net2(&own, spp));
+        }
+        koksma_points_fini(&tile);
+    }
+}
+
+enum { INTEGRANDS = 6 };
+
+static const struct {
+    const char *name;
+    double mean;
+} integrands[INTEGRANDS] = {{"x", 0.5},
+                            {"xy", 0.25},
+                            {"gaussian", 0.55774628535103},
+                            {"quarter disk", 0.5},
+                            {"step", 0.31830988618379},
+                            {"step in y", 0.31830988618379}};
+
+static void evaluate(const double *xy, double f[INTEGRANDS])
+{
+    const double square = xy[0] * xy[0] + xy[1] * xy[1];
+    f[0] += xy[0];
+    f[1] += xy[0] * xy[1];
+    f[2] += exp(-square);
+    f[3] += square < 0.63661977236758;
+    f[4] += xy[0] < 0.31830988618379;
+    f[5] += xy[1] < 0.31830988618379;
+}
+
+/* errors[width^2 f + pixel] of a tile. */
+static void errors_of(const koksma_points *tile, size_t pixels, double *errors)
+{
+    const size_t spp = tile->n / pixels;
+    for (size_t p = 0; p < pixels; p++) {
+        double f[INTEGRANDS] = {0};
+        for (size_t s = 0; s < spp; s++) {
+            evaluate(tile->xs + 2 * (p * spp + s), f);
+        }
+        for (int k = 0; k < INTEGRANDS; k++) {
+            errors[(size_t)k * pixels + p] = f[k] / (double)spp - integrands[k].mean;
+        }
+    }
+}
+
+/* Over many tiles the mean square error in a pixel is that of independently scrambled pixels, within 3 standard
+   errors of the mean over tiles, and the mean error is 0. A toroidal shift has 5 times as much for x with 4 samples.
+ */
+static void pixels_err_like_independent_ones(void **state)
+{
+    (void)state;
+    enum { WIDTH = 8, PIXELS = WIDTH * WIDTH, TILES = 200 };
+    static const size_t spps[] = {1, 3, 4, 6, 16, 64};
+    for (size_t t = 0; t < sizeof spps / sizeof *spps; t++) {
+        double sum[2][INTEGRANDS] = {{0}}, square[2][INTEGRANDS] = {{0}}, bias[INTEGRANDS] = {0};
+        double biases[INTEGRANDS] = {0};
+        for (uint64_t seed = 0; seed < 2 * TILES; seed++) {
+            double errors[INTEGRANDS * PIXELS];
+            koksma_points tile;
+            if (seed % 2) {
+                tile = test_points("mask-offset:width=8", PIXELS * spps[t], 2, seed);
+            } else {
+                assert_ok(koksma_points_init(&tile, PIXELS * spps[t], 2));
+                for (size_t i = 0; i < tile.n; i++) {
+                    const koksma_domain pixel = koksma_domain_of_pixel(seed, (uint32_t)(i / spps[t]), 0);
+                    koksma_sobol_2d(pixel, (uint32_t)(i % spps[t]), tile.xs + 2 * i);
+                }
+            }
+            errors_of(&tile, PIXELS, errors);
+            koksma_points_fini(&tile);
+            for (int k = 0; k < INTEGRANDS; k++) {
+                double mean = 0, error = 0;
+                for (int p = 0; p < PIXELS; p++) {
+                    mean += errors[k * PIXELS + p] * errors[k * PIXELS + p] / PIXELS;
+                    error += errors[k * PIXELS + p] / PIXELS;
+                }
+                sum[seed % 2][k] += mean / TILES;
+                square[seed % 2][k] += mean * mean / TILES;
+                bias[k] += seed % 2 ? error / TILES : 0;
+                biases[k] += seed % 2 ? error * error / TILES : 0;
+            }
+        }
+        for (int k = 0; k < INTEGRANDS; k++) {
+            const double variance = square[0][k] - sum[0][k] * sum[0][k] + square[1][k] - sum[1][k] * sum[1][k];
+            const double deviation = sqrt(fmax(variance, 0) / TILES);
+            if (!(sum[1][k] < sum[0][k] + 3 * deviation + 1e-12)) {
+                fail_msg("%zu samples, %s: mean square error %.3g, independent pixels %.3g +- %.2g", spps[t],
+                         integrands[k].name, sum[1][k], sum[0][k], deviation);
+            }
+            assert_near(bias[k], 0, 4 * sqrt(biases[k] / TILES));
+        }
+    }
+}
+
+/* The variance of means over 8 x 8 pixels, times 64, in that of pixels: 1 for white noise. */
+static void neighbours_errors_cancel(void **state)
+{
+    (void)state;
+    enum { WIDTH = 64, BLOCK = 8, PIXELS = WIDTH * WIDTH, TILES = 6, N_SPP = 8 };
+    static const struct {
+        size_t spp;
+        double most[INTEGRANDS];
+    } cases[N_SPP] = {{1, {.15, .35, .2, .6, .25, .25}},  {2, {.15, .35, .25, .9, .25, .25}},
+                      {4, {.2, .35, .25, .6, .3, .3}},    {16, {.15, .35, .25, .6, .4, .4}},
+                      {64, {.15, .5, .35, .6, .25, .25}}, {3, {.2, .65, .35, 1, .3, .3}},
+                      {6, {.2, .55, .35, 1, .3, .3}},     {12, {.25, .4, .35, .95, .4, .4}}};
+    static double errors[INTEGRANDS * PIXELS];
+    uint32_t *ranks[TILES][3];
+    for (size_t m = 0; m < TILES * 3; m++) {
+        ranks[m / 3][m % 3] = mask_of(WIDTH, 100 + m);
+    }
+    for (size_t t = 0; t < N_SPP; t++) {
+        double pixels[INTEGRANDS] = {0}, blocks[INTEGRANDS] = {0};
+        for (uint64_t seed = 0; seed < TILES; seed++) {
+            koksma_points tile = tile_of(ranks[seed], PIXELS, cases[t].spp, seed);
+            errors_of(&tile, PIXELS, errors);
+            koksma_points_fini(&tile);
+            for (size_t k = 0; k < INTEGRANDS; k++) {
+                double sums[WIDTH / BLOCK][WIDTH / BLOCK] = {{0}};
+                for (size_t p = 0; p < PIXELS; p++) {
+                    const double e = errors[k * PIXELS + p];
+                    pixels[k] += e * e;
+                    sums[p / WIDTH / BLOCK][p % WIDTH / BLOCK] += e;
+                }
+                for (size_t b = 0; b < (WIDTH / BLOCK) * (WIDTH / BLOCK); b++) {
+                    blocks[k] += sums[b / (WIDTH / BLOCK)][b % (WIDTH / BLOCK)] *
+                                 sums[b / (WIDTH / BLOCK)][b % (WIDTH / BLOCK)];
+                }
+            }
+        }
+        for (int k = 0; k < INTEGRANDS; k++) {
+            if (!(blocks[k] < cases[t].most[k] * pixels[k])) {
+                fail_msg("%zu samples, %s: the share of low frequencies is %.2f", cases[t].spp, integrands[k].name,
+                         blocks[k] / pixels[k]);
+            }
+        }
+    }
+    for (size_t m = 0; m < TILES * 3; m++) {
+        free(ranks[m / 3][m % 3]);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masks_are_ulichneys),        cmocka_unit_test(masks_keep_their_bits),
+        cmocka_unit_test(thresholded_masks_are_blue), cmocka_unit_test(the_header_has_the_patterns_points),
+        cmocka_unit_test(pixels_have_nets),           cmocka_unit_test(pixels_err_like_independent_ones),
+        cmocka_unit_test(neighbours_errors_cancel),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
