@@ -8,19 +8,18 @@
  * Formula: P_2 = (1/n) sum_i prod_k (1 + gamma 2 pi^2 B_2({i z_k / n})) - 1,  B_2(x) = x^2 - x + 1/6,  with the
  * weight gamma = 3/(8 pi^2) = 0.038, with which it is the square of l2-wraparound over (4/3)^d. The points in fewer
  * dimensions are the first coordinates of those in more.
- * Source: Sloan & Reztsov 2002, with gamma = 1; all multipliers at once in O(n log n): Nuyens & Cools 2006, for any n
+ * Source: Sloan & Reztsov 2002, with gamma = 1; all multipliers at once in O(n log n): Nuyens & Cools 2006 and 2006a,
  * as parts/unit_sums.c says; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013; l2-wraparound: Hickernell
- * 1998.
- * With gamma = 1 the products of many coordinates outweigh all pairs: from some 8 dimensions on one multiplier
+ * 1998. With gamma = 1 the products of many coordinates outweigh all pairs: from some 8 dimensions on one multiplier
  * comes again and again (n = 4096: 1615), which lays the points on diagonals. Weights 1/k^2 for coordinate k are
  * customary where the first coordinates matter most; here none does, and with them multipliers repeat still (n = 256:
  * within 32 dimensions). With this gamma none came twice, itself or as n - z, before all phi(n)/2 were there, for
  * each n from 5 to 700 in 64 dimensions and for powers of two to 65,536 in 128: no rule forbids it. In more
- * dimensions than phi(n)/2 there are diagonals. In two dimensions the minimiser hangs on no weight.
- * z and n - z tie always, and the smaller is taken; other multipliers whose sums are equal to the last bit, likewise.
- * Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9 (docs/findings/lattices.md).
- * Time: O(dim n log n): 2^20 points in
- * 10 dimensions take half a second; memory: 28 n bytes for powers of two, up to 95 n for others, beside the points'.
+ * dimensions than phi(n)/2 there are diagonals. In two dimensions the minimiser hangs on no weight. z and n - z tie
+ * always, and the smaller is taken, but for n = 12 and a few others below 30 (lattice.h); of others whose sums are
+ * equal to the last bit, the smallest. Known: P_2 in 10 dimensions: n = 1024: 1.979e-4, 2^20: 7.69e-9
+ * (docs/findings/lattices.md). Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number
+ * of them hardly more. Memory beside the points: 28 n bytes for powers of two, up to 95 n for others.
  */
 #include <stdlib.h>
 
