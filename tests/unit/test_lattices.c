@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The searched lattices: their multipliers against a search in long double, that none comes twice, and that they
-   integrate better than random points in many dimensions. */
+/* The searched lattices: their multipliers against a search of all in long double, that none comes twice, and that
+   they integrate better than random points in many dimensions. test_lattice_errors.c has more points. */
 #include <string.h>
 
 #include "test.h"
@@ -47,15 +47,14 @@ static long double error_of(size_t n, const size_t *z, int dim)
     return sum;
 }
 
-/* The least error that a coordinate k can bring whose multiplier is not among z[first .. k-1]; infinite without one.
- */
-static long double least_error(size_t n, const size_t *z, int k, int first)
+/* The least error that a coordinate k can bring. */
+static long double least_error(size_t n, const size_t *z, int k)
 {
     size_t other[8];
     long double least = HUGE_VALL;
     memcpy(other, z, (size_t)k * sizeof *z);
     for (other[k] = 1; other[k] < n; other[k]++) {
-        if (common_divisor(other[k], n) == 1 && !is_among(other[k], n, z + first, k - first)) {
+        if (common_divisor(other[k], n) == 1) {
             least = fminl(least, error_of(n, other, k + 1));
         }
     }
@@ -65,16 +64,13 @@ static long double least_error(size_t n, const size_t *z, int k, int first)
 static void components_are_the_best(void **state)
 {
     (void)state;
-    for (size_t n = 5; n <= 40; n++) {
+    for (size_t n = 5; n <= 80; n += n < 40 ? 1 : 5) {
         size_t z[8];
         multipliers("lattice-rank1", n, 8, z);
         assert_int_equal(z[0], 1);
-        int first = 0;
         for (int k = 1; k < 8; k++) {
-            first = least_error(n, z, k, first) < HUGE_VALL ? first : k;
             assert_int_equal(common_divisor(z[k], n), 1);
-            assert_false(is_among(z[k], n, z + first, k - first));
-            assert_near((double)error_of(n, z, k + 1), (double)least_error(n, z, k, first), 1e-13 * (double)n);
+            assert_near((double)error_of(n, z, k + 1), (double)least_error(n, z, k), 1e-13 * (double)n);
         }
     }
 }
@@ -116,7 +112,8 @@ static void error_is_wraparound(void **state)
     }
 }
 
-/* None comes twice, as itself or mirrored, while there are others: phi(n)/2 of them. */
+/* None comes twice, as itself or mirrored, while there are others: phi(n)/2 of them. No rule says so: with the
+   weights of this criterion a diagonal is never the least bad. */
 static void multipliers_are_distinct(void **state)
 {
     (void)state;
@@ -193,7 +190,7 @@ static void planar_multipliers_stay(void **state)
 {
     (void)state;
     static const size_t rows[][2] = {{12, 7},     {20, 11},    {57, 16},    {64, 27},      {1021, 374},
-                                     {1024, 275}, {1999, 872}, {2048, 857}, {10136, 4205}, {19897, 6037}};
+                                     {1024, 275}, {1999, 872}, {2048, 857}, {10136, 3921}, {19897, 7554}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         size_t z[2];
         multipliers("lattice-rank1", rows[i][0], 2, z);

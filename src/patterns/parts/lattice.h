@@ -3,7 +3,7 @@
 #ifndef KOKSMA_PATTERNS_PARTS_LATTICE_H
 #define KOKSMA_PATTERNS_PARTS_LATTICE_H
 
-#include <koksma/koksma.h>
+#include "patterns/parts/unit_sums.h"
 
 /* z[k] < n for each coordinate. */
 koksma_status koksma__fill_lattice(const koksma_run *run, const uint64_t *z, koksma_points *out);
@@ -12,21 +12,43 @@ koksma_status koksma__fill_lattice(const koksma_run *run, const uint64_t *z, kok
    B_2(x) = x^2 - x + 1/6 and gamma = 3/(8 pi^2): the worst-case error P_2 with one weight for all coordinates, and
    the square of l2-wraparound over (4/3)^dim, plus 1. The term of i = 0 is the same for all multipliers and grows as
    1.125^dim: it stays out, as digits of the others would be lost in it, and so does the half of i that repeats the
-   other. product has n doubles, whose entries 1 .. n/2 hold the products of the coordinates so far; n > 1. */
-void koksma__lattice_start(size_t n, double *product);
+   other. */
+enum { KOKSMA__LATTICE_FEW = 64 };
 
-/* How much a coordinate with the multiplier z would add, in a unit that is the same for all z; and with the
-   coordinate taken into product. */
-double koksma__lattice_added(size_t n, uint64_t z, const double *product);
-double koksma__lattice_extend(size_t n, uint64_t z, double *product);
+typedef struct koksma__lattice_search {
+    size_t n;
+    const koksma_run *run;
+    koksma__unit_sums *sums; /* NULL until they are needed */
+    double *product;         /* n numbers, of which [1 .. n/2] hold the products of the coordinates so far */
+    double *values;          /* n/2 + 1 numbers: what each multiplier would add, up to rounding */
+    double few[2 * KOKSMA__LATTICE_FEW], kernel[KOKSMA__LATTICE_FEW]; /* instead of more memory; B_2(i / n) */
+} koksma__lattice_search;
+
+/* n > 1. To be closed when it failed, too. */
+koksma_status koksma__lattice_open(koksma__lattice_search *search, size_t n, const koksma_run *run);
+void koksma__lattice_close(koksma__lattice_search *search);
+
+/* No coordinates yet; and one more, which adds the result, in a unit that is the same for all z. */
+void koksma__lattice_start(koksma__lattice_search *search);
+double koksma__lattice_extend(koksma__lattice_search *search, uint64_t z);
+
+/* What each z would add, in search->values: infinity at those that have a divisor in common with n. *window: those
+   up to so much above the least may be the least. For few points, all are 0; units says only which have a divisor. */
+koksma_status koksma__lattice_value(koksma__lattice_search *search, double *window);
+
+void koksma__lattice_units(koksma__lattice_search *search);
+
+/* Candidates go up to n/2, as n - z is z mirrored; and, for even n, to the least unit above: the mirror of one below,
+   whose sum has other last bits. It decides for n = 12 and a few others below 30, whose points stay so what they
+   were. */
+uint64_t koksma__lattice_last(size_t n);
+
+/* The z that adds least: among those that the values leave open, by their sums in order of i, and the smallest if
+   these are equal. */
+koksma_status koksma__lattice_best(koksma__lattice_search *search, uint64_t *best);
 
 /* The best z_1 beside z_0 = 1, whatever the weights are: in two dimensions they scale the sums of all candidates
-   alike. scratch has n doubles. */
-koksma_status koksma__lattice_second(size_t n, const koksma_run *run, double *scratch, uint64_t *best);
-
-/* The c-th of the multipliers to try for n points: all units modulo n while n is small, evenly chosen ones above; 0
-   past the end. Some come twice. tries is how many of them a search looks at. */
-uint64_t koksma__lattice_candidate(size_t n, size_t c);
-size_t koksma__lattice_tries(size_t n);
+   alike. */
+koksma_status koksma__lattice_second(koksma__lattice_search *search, uint64_t *best);
 
 #endif

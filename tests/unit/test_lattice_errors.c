@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the searched lattices are worth: P_2 by two formulas of the tests' own, beside vectors that were published and
+   beside each other for up to 2^20 points; and the sums behind the search for all kinds of n, one by one. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "patterns/parts/unit_sums.h"
+#include "test.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SLOW 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SLOW 1
+#endif
+#endif
+
+enum {
+    MAX_DIM = 64,
+#ifdef SLOW
+    MOST_BITS = 14,
+#else
+    MOST_BITS = 20,
+#endif
+};
+
+/* gamma of the criterion that patterns/lattice_rank1.c states, times 2 pi^2. */
+#define WEIGHT 0.75
+
+static void multipliers(const char *pattern, size_t n, int dim, size_t *z)
+{
+    koksma_points points = test_points(pattern, n, dim, 0);
+    for (int k = 0; k < dim; k++) {
+        z[k] = (size_t)(points.xs[dim + k] * (double)n + 0.5);
+    }
+    koksma_points_fini(&points);
+}
+
+static size_t common_divisor(size_t a, size_t b)
+{
+    return b ? common_divisor(b, a % b) : a;
+}
+
+static double kernel(size_t numerator, size_t n)
+{
+    const double x = (double)numerator / (double)n;
+    return x * x - x + 1.0 / 6;
+}
+
+/* P_2: the mean of the products, less 1, with the weights gamma = weight / 2 pi^2; i and n - i have the same. */
+static double p2(size_t n, const size_t *z, int dim, double weight)
+{
+    size_t at[MAX_DIM] = {0};
+    double sum = 0, lost = 0;
+    for (size_t i = 0; 2 * i <= n; i++) {
+        double product = 1;
+        for (int k = 0; k < dim; k++) {
+            product *= 1 + weight * kernel(at[k], n);
+            at[k] += z[k] % n;
+            at[k] -= at[k] >= n ? n : 0;
+        }
+        const double term = (i == 0 || 2 * i == n ? 1 : 2) * (product - 1) - lost, total = sum + term;
+        lost = total - sum - term;
+        sum = total;
+    }
+    return sum / (double)n;
+}
+
+/* P_2 from the dual lattice: the sum over all h other than 0 with h z = 0 modulo n of the product over the h_k that
+   are not 0 of gamma / h_k^2. The h that are c modulo n give (pi/n)^2 / sin^2(pi c/n), those that n divides pi^2 / 3
+   n^2. */
+static double dual_p2(size_t n, const size_t *z, int dim, double weight)
+{
+    const double pi = acos(-1), gamma = weight / (2 * pi * pi);
+    size_t h[4] = {0}, combinations = 1;
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        combinations *= n;
+    }
+    for (size_t c = 0; c < combinations; c++) {
+        size_t rest = c, inner = 0;
+        double product = 1;
+        for (int k = 0; k < dim; k++, rest /= n) {
+            h[k] = rest % n;
+            inner += h[k] * z[k];
+            product *= h[k] ? gamma * pow(pi / (double)n / sin(pi * (double)h[k] / (double)n), 2)
+                            : 1 + gamma * pi * pi / (3.0 * (double)n * (double)n);
+        }
+        sum += inner % n == 0 ? product : 0;
+    }
+    return sum - 1;
+}
+
+static void error_is_that_of_the_dual_lattice(void **state)
+{
+    (void)state;
+    for (size_t n = 2; n <= 24; n++) {
+        for (int dim = 1; dim <= (n <= 12 ? 4 : 3); dim++) {
+            size_t z[4];
+            multipliers("lattice-rank1", n, dim, z);
+            const double error = p2(n, z, dim, WEIGHT), unweighted = p2(n, z, dim, 19.7);
+            assert_near(error, dual_p2(n, z, dim, WEIGHT), 1e-11 * error);
+            assert_near(unweighted, dual_p2(n, z, dim, 19.7), 1e-11 * unweighted);
+        }
+    }
+}
+
+/* n of each kind: primes (1 and 3 modulo 4), powers, products of primes that are all 1 modulo 4, of few and of many.
+ */
+static const size_t kinds[] = {60,   64,   65,   66,   81,   97,   100,  120,  125,  128,  169,  210,  221,  243,
+                               256,  257,  263,  289,  343,  420,  512,  625,  650,  729,  840,  1000, 1021, 1024,
+                               1105, 1155, 1260, 1331, 1365, 1517, 1681, 2047, 2048, 2187, 2310, 4096, 4199, 5005};
+enum { N_KINDS = sizeof kinds / sizeof *kinds };
+
+/* The sum of what i adds, for one z. */
+static double sum_of(size_t n, size_t z, const double *product)
+{
+    double sum = 0;
+    for (size_t i = 1; i <= n / 2; i++) {
+        sum += product[i] * kernel(i * z % n, n);
+    }
+    return sum;
+}
+
+/* Each value is the sum, but for a constant, within half of the bound that the search takes for it. */
+static void sums_are_those_of_the_definition(void **state)
+{
+    (void)state;
+    for (size_t c = 0; c < N_KINDS; c++) {
+        const size_t n = kinds[c];
+        koksma__unit_sums *sums;
+        double *product = malloc((n / 2 + 1) * 2 * sizeof *product), *values = product + n / 2 + 1, bound, one = 0;
+        assert_non_null(product);
+        for (size_t i = 0; i <= n / 2; i++) {
+            product[i] = 1 + 0.5 * sin((double)(i * i) + 1);
+        }
+        assert_ok(koksma__unit_sums_open(n, NULL, &sums));
+        assert_ok(koksma__unit_sums_find(sums, NULL, product, values, &bound));
+        assert_true(bound < 1e-9);
+        for (size_t z = 1; z <= n / 2; z += n > 1000 && z > 50 ? 37 : 1) {
+            if (common_divisor(z, n) != 1) {
+                assert_true(isinf(values[z]));
+                continue;
+            }
+            const double sum = sum_of(n, z, product);
+            one = z == 1 ? values[1] - sum : one;
+            if (!(fabs(values[z] - sum - one) <= bound / 2)) {
+                fail_msg("n = %zu, z = %zu: %.17g is %.3g off", n, z, values[z], values[z] - sum - one);
+            }
+        }
+        koksma__unit_sums_close(sums);
+        free(product);
+    }
+}
+
+/* The construction by the definition: every unit is tried, for the products of the coordinates before. */
+static void components_are_the_best_of_all(void **state)
+{
+    (void)state;
+    enum { DIM = 5 };
+    for (size_t c = 0; c < N_KINDS; c++) {
+        const size_t n = kinds[c];
+#ifdef SLOW
+        if (n > 300) {
+            break;
+        }
+#endif
+        size_t z[DIM];
+        multipliers("lattice-rank1", n, DIM, z);
+        double *product = malloc((n / 2 + 1) * sizeof *product);
+        assert_non_null(product);
+        for (size_t i = 0; i <= n / 2; i++) {
+            product[i] = 2 * i == n ? 0.5 : 1;
+        }
+        for (int k = 0; k < DIM; k++) {
+            double least = HUGE_VAL;
+            for (size_t other = 1; other <= n / 2 && k > 0; other++) {
+                least = common_divisor(other, n) == 1 ? fmin(least, sum_of(n, other, product)) : least;
+            }
+            const double own = sum_of(n, z[k], product);
+            if (k > 0 && !(own <= least + 1e-12 * (double)n)) {
+                fail_msg("n = %zu: coordinate %d adds %.17g, another %.17g", n, k, own, least);
+            }
+            for (size_t i = 1; i <= n / 2; i++) {
+                product[i] *= 1 + WEIGHT * kernel(i * z[k] % n, n);
+            }
+        }
+        free(product);
+    }
+}
+
+/* Of Cools, Kuo & Nuyens 2006, for powers of two up to 2^20 at once, order-2 weights: the first ten numbers of the
+   vector that Nuyens's Magic Point Shop has as exod2_base2_m20_CKN; P_2 as others computed it. */
+static const size_t ckn[10] = {1, 182667, 469891, 498753, 110745, 446247, 250185, 118627, 245333, 283199};
+
+/* Of Hickernell, Kritzer, Kuo & Nuyens 2012, for all n up to 2^20, weights all 1; LatNet Builder has it. */
+static const size_t hkkn[10] = {1, 364981, 245389, 97823, 488939, 62609, 400749, 385317, 21281, 223487};
+
+static void published_errors_are_found(void **state)
+{
+    (void)state;
+    static const struct {
+        int bits;
+        double error;
+    } rows[] = {{10, 2.79e-4}, {12, 8.69e-5}, {14, 2.37e-5}, {16, 9.4e-6}, {17, 6.5e-6}, {18, 5.0e-6}, {20, 8.8e-7}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows && rows[i].bits <= MOST_BITS; i++) {
+        assert_near(p2((size_t)1 << rows[i].bits, ckn, 10, WEIGHT) / rows[i].error, 1, 0.01);
+    }
+}
+
+static void search_is_no_worse_than_others(void **state)
+{
+    (void)state;
+    static const size_t others[] = {30,   60,   100,   1000,  1009,  1155,  2187,
+                                    3000, 6561, 10007, 30030, 59049, 65537, 131071};
+    double before = HUGE_VAL, korobov_before = HUGE_VAL;
+    for (size_t c = 4; c <= 20 + sizeof others / sizeof *others; c++) {
+        const size_t n = c <= 20 ? (size_t)1 << c : others[c - 21];
+        size_t z[10], powers[10];
+        if (n >> MOST_BITS > 1 || (n >> MOST_BITS == 1 && n & (n - 1))) {
+            continue;
+        }
+        multipliers("lattice-rank1", n, 10, z);
+        multipliers("korobov", n, 10, powers);
+        const double own = p2(n, z, 10, WEIGHT), korobov = p2(n, powers, 10, WEIGHT);
+        const double first = p2(n, ckn, 10, WEIGHT), second = p2(n, hkkn, 10, WEIGHT);
+        if (!(own <= korobov * (1 + 1e-12) && own <= first && own <= second)) {
+            fail_msg("n = %zu: %.4g; korobov %.4g, published %.4g and %.4g", n, own, korobov, first, second);
+        }
+        if (c <= 20 && !(own < before / 2.2)) { /* it falls to .36 on average */
+            fail_msg("n = %zu: %.4g after %.4g with half as many points", n, own, before);
+        }
+        assert_true(c > 20 || korobov < korobov_before / 1.5);
+        before = own;
+        korobov_before = korobov;
+    }
+}
+
+/* The pairs of coordinates, too, are far from a diagonal, whose P_2 doesn't fall: of its order n^-2 they have 2
+ * to 27. */
+static void worst_pairs_fall(void **state)
+{
+    (void)state;
+    for (int bits = 8; bits <= MOST_BITS && bits <= 18; bits += 2) {
+        const size_t n = (size_t)1 << bits;
+        size_t z[10];
+        double worst = 0;
+        multipliers("lattice-rank1", n, 10, z);
+        for (int k = 1; k < 10; k++) {
+            for (int l = 0; l < k; l++) {
+                worst = fmax(worst, p2(n, (size_t[]){z[l], z[k]}, 2, WEIGHT));
+            }
+        }
+        assert_true(worst < 60 / (double)n / (double)n);
+    }
+}
+
+/* prod(1 + B_2(x_k)) - 1 over shifted lattices in 8 dimensions: the root mean square of a few shifts. */
+static double shifted_error(const size_t *z, size_t n)
+{
+    enum { DIM = 8, SHIFTS = 2 };
+    koksma_points shifts = test_points("random", SHIFTS, DIM, 1);
+    double squares = 0;
+    for (int s = 0; s < SHIFTS; s++) {
+        double sum = 0, lost = 0;
+        for (size_t i = 0; i < n; i++) {
+            double product = 1;
+            for (int k = 0; k < DIM; k++) {
+                const double moved = (double)(i * z[k] % n) / (double)n + shifts.xs[s * DIM + k];
+                const double x = moved - (moved >= 1);
+                product *= 1 + x * x - x + 1.0 / 6;
+            }
+            const double term = product - 1 - lost, total = sum + term;
+            lost = total - sum - term;
+            sum = total;
+        }
+        squares += pow(sum / (double)n, 2) / SHIFTS;
+    }
+    koksma_points_fini(&shifts);
+    return sqrt(squares);
+}
+
+static void shifted_lattices_converge(void **state)
+{
+    (void)state;
+    double before = HUGE_VAL;
+    for (int bits = 10; bits <= MOST_BITS && bits <= 20; bits += 2) {
+        const size_t n = (size_t)1 << bits;
+        size_t z[8];
+        multipliers("lattice-rank1", n, 8, z);
+        const double error = shifted_error(z, n);
+        if (!(error < before / 2)) {
+            fail_msg("n = 2^%d: %.3g after %.3g with a quarter of the points", bits, error, before);
+        }
+        before = error;
+    }
+    assert_true(before < (MOST_BITS == 20 ? 1e-9 : 3e-7));
+}
+
+/* In the plane korobov searches all, too, and none is better than the lattices of Fibonacci. */
+static void plane(void **state)
+{
+    (void)state;
+    double before = HUGE_VAL;
+    for (size_t n = 8, last = 5; n >> 17 == 0 && n >> MOST_BITS == 0; n += last, last = n - last) {
+        size_t z[2], other[2];
+        multipliers("lattice-rank1", n, 2, z);
+        multipliers("korobov", n, 2, other);
+        const double own = p2(n, z, 2, 2 * acos(-1) * acos(-1)), error = p2(n, (size_t[]){1, last}, 2, 19.7392088);
+        assert_int_equal(z[1], other[1]);
+        assert_near(own, error, 1e-7 * error);
+        assert_true(own < before / 1.8);
+        before = own;
+    }
+}
+
+static bool count_down(void *context, double done)
+{
+    (void)done;
+    int *left = context;
+    return (*left)-- > 0;
+}
+
+/* The search is asked again and again whether to go on, and ends at any of these. */
+static void search_is_interrupted(void **state)
+{
+    (void)state;
+    koksma_spec spec;
+    koksma_points points;
+    int asked = 0;
+    assert_ok(koksma_pattern_spec("lattice-rank1", &spec));
+    assert_ok(koksma_points_init(&points, 30030, 4));
+    for (koksma_status status = KOKSMA_INTERRUPTED; status; asked += asked < 40 ? 1 : 25) {
+        int left = asked;
+        const koksma_run run = {.threads = 1, .keep_going = count_down, .context = &left};
+        status = koksma_generate(&spec, 0, &run, &points);
+        assert_true(status == KOKSMA_OK || status == KOKSMA_INTERRUPTED);
+    }
+    assert_true(asked > 100);
+    koksma_points_fini(&points);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(error_is_that_of_the_dual_lattice),
+        cmocka_unit_test(sums_are_those_of_the_definition),
+        cmocka_unit_test(components_are_the_best_of_all),
+        cmocka_unit_test(published_errors_are_found),
+        cmocka_unit_test(search_is_no_worse_than_others),
+        cmocka_unit_test(worst_pairs_fall),
+        cmocka_unit_test(shifted_lattices_converge),
+        cmocka_unit_test(plane),
+        cmocka_unit_test(search_is_interrupted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
