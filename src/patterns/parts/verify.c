@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/net.h"
 #include "core/points_io.h"
 #include "core/room.h"
 #include "core/status.h"
@@ -44,6 +45,20 @@ void koksma_findings_fini(koksma_findings *findings)
     }
 }
 
+/* How many points each of the n cells holds that m[k] strata along each of the first dim coordinates of `use` make.
+ */
+static void count_cells(const koksma_points *points, const int *use, const size_t *m, int dim, uint32_t *counts)
+{
+    memset(counts, 0, points->n * sizeof *counts);
+    for (size_t i = 0; i < points->n; i++) {
+        size_t cell = 0;
+        for (int k = 0; k < dim; k++) {
+            cell = cell * m[k] + koksma__stratum(points->xs[i * (size_t)points->dim + (size_t)use[k]], m[k]);
+        }
+        counts[cell]++;
+    }
+}
+
 static koksma_status add_strata(const koksma_points *points, const int *use, const size_t *m, int dim,
                                 const char *subject, uint32_t *counts, koksma_findings *findings)
 {
@@ -51,7 +66,7 @@ static koksma_status add_strata(const koksma_points *points, const int *use, con
     if (!f) {
         return KOKSMA_MEMORY;
     }
-    koksma__wrong_cells(points, points->n, use, m, dim, 1, 1, counts);
+    count_cells(points, use, m, dim, counts);
     size_t empty = 0;
     for (size_t c = 0; c < points->n; c++) {
         empty += counts[c] == 0;
@@ -230,7 +245,7 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
     uint32_t *counts = malloc((points->n + 1) * sizeof *counts);
     status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);
     if (!status) {
-        status = koksma__verify_nets(points, run, counts, findings);
+        status = koksma__verify_nets(points, run, findings);
     }
     if (!status) {
         status = koksma__verify_strata(points, counts, findings);
