@@ -153,22 +153,23 @@ static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 static koksma_status verify_origin(const koksma_points *points, uint32_t *counts, koksma_findings *findings)
 {
     const size_t count = at_origin(points);
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_REPEATED);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_UNIQUE);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count <= 1;
-    f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_MISSING);
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin", count);
+    f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_PRESENT);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count > 0 || !is_sequence_from_one(points, counts);
-    if (!f->holds) {
-        snprintf(f->detail, sizeof f->detail,
-                 "different multiples of 2^-m in each coordinate: an unscrambled sequence without its first");
-    }
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin%s", count,
+             count > 0  ? ""
+             : f->holds ? ", where only unscrambled sequences need one"
+                        : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
     return KOKSMA_OK;
 }
 
@@ -181,14 +182,16 @@ static koksma_status verify_floats(const koksma_points *points, koksma_findings 
             first = i / (size_t)points->dim;
         }
     }
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ROUNDS_TO_ONE);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_BELOW_ONE_AS_FLOAT);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count == 0;
+    const size_t all = points->n * (size_t)points->dim;
+    int used = snprintf(f->detail, sizeof f->detail, "%zu of %zu coordinates become 1", count, all);
     if (count) {
-        snprintf(f->detail, sizeof f->detail, "first: point %zu", first);
+        snprintf(f->detail + used, sizeof f->detail - (size_t)used, ", first of point %zu", first);
     }
     return KOKSMA_OK;
 }
