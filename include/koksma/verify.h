@@ -63,8 +63,8 @@ KOKSMA_API const char *koksma_property_name_at(size_t i);
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
-/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: ARGUMENT (no
-   points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
+/* The smallest distance of two points, on the torus or in the cube. Errors: ARGUMENT (no points, a coordinate outside
+   [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                                   double *distance);
 

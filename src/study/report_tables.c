@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/quantiles.h"
 
 /* ---- Marks ------------------------------------------------------------------------------------------------- */
 
@@ -163,9 +164,29 @@ static void add_set_mean(koksma__html *h, const koksma__summary *mean, bool diff
     koksma__html_add(h, "</td>");
 }
 
+/* The z of a table, each of other sets: as independent as the published trials were. */
+typedef struct z_sums {
+    size_t count;
+    double sum, squares;
+} z_sums;
+
+/* Many z that are each within chance can be beyond it together: all to one side, or all large. */
+static void add_together(koksma__html *h, const z_sums *z)
+{
+    if (z->count > 1) {
+        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
+        koksma__html_add(
+            h,
+            "<p class=\"note\">The %zu values of z taken together: their sum over &#8730;%zu is %+.1f (by "
+            "chance between -2 and +2 in 95 %% of tables: beyond, all means are off to one side), and the "
+            "sum of their squares %.1f (by chance below %.1f in 95 %%).</p>\n",
+            z->count, z->count, z->sum / sqrt(k), z->squares, limit);
+    }
+}
+
 static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
                                          koksma__tally *tally, const koksma__table *t, const koksma__table_row *row,
-                                         bool differ)
+                                         bool differ, z_sums *together)
 {
     koksma__cell cell, also = {0};
     koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, &cell);
@@ -190,6 +211,12 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     const double z = (row->published[0] - cell.mean.mean) / error;
     char text[48];
     koksma__snprintf(text, sizeof text, "z = %+.1f", z);
+    const bool explained = fabs(z) >= KOKSMA__AGREEMENT_Z && note_of(t, row->pattern, 0);
+    if (isfinite(z) && cell.sd > 0 && !explained) { /* sets that are all the same differ by rounding alone */
+        together->count++;
+        together->sum += z;
+        together->squares += z * z;
+    }
     koksma__table_judge(h, tally, t, row, isnan(z) ? 0 : cell.mean.n, fabs(z) < KOKSMA__AGREEMENT_Z, text);
     if (t->also) {
         add_set_mean(h, &also.mean, differ);
@@ -209,6 +236,7 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
         return status;
     }
     koksma__html csv = {0};
+    z_sums together = {0};
     koksma__table_begin(h, &csv, t);
     koksma__table_csv_heads(&csv, t->measure);
     if (t->also) {
@@ -230,8 +258,9 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "</tr></thead>\n<tbody>\n");
     for (size_t r = 0; !status && r < t->n_rows; r++) {
-        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r], differ);
+        status = add_discrepancy_row(study, h, &csv, tally, t, &t->rows[r], differ, &together);
     }
     koksma__table_end(h, &csv, t);
+    add_together(h, &together);
     return status;
 }

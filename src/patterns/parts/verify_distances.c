@@ -110,8 +110,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
         return status;
     }
     if (points->n == 1) {
-        *distance = INFINITY;
-        return KOKSMA_OK;
+        return koksma__fail(KOKSMA_N, "smallest distance: n = 1: one point has no distance; two points or more have");
     }
     if (points->dim == 2) {
         return koksma__closest_pair(points, torus, run, distance);
