@@ -183,7 +183,10 @@ const cli_command cli_command_curve = {
     .summary = "measures that are functions: power spectrum, pair correlation",
     .synopsis = "power|rings|quality|pairs FILE|-|pattern:SPEC@N... [--trials T] [--json]",
     .details =
-        "power: (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency. rings: its mean over |k|, and the anisotropy.\n"
+        "power: (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency. rings: its mean over |k|, and the anisotropy\n"
+        "(Ulichney 1987): the variance of the power along the ring, divided by the square of its mean, in dB; "
+        "random\n"
+        "points have -10 log10 of the trials.\n"
         "quality: effective Nyquist frequency, also over sqrt(n)/2 in steps of 1/sqrt(n), so that a square lattice "
         "of\n"
         "16 points has 3/4; and oscillation (Heck, Schlomer, Deussen 2013), which takes frequencies up to about\n"

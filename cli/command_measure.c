@@ -148,22 +148,28 @@ static int measure_source(measuring *j, const char *source)
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
-/* --prefixes powers, or a list of numbers. */
+/* --prefixes powers, or a list of numbers; --sizes and such a list. */
 static bool parse_prefixes(measuring *j)
 {
-    const char *text = cli_text(j->arguments, "prefixes", NULL);
-    j->powers = text && !strcmp(text, "powers");
+    const char *sizes = cli_text(j->arguments, "sizes", NULL), *prefixes = cli_text(j->arguments, "prefixes", NULL),
+               *text = sizes ? sizes : prefixes, *option = sizes ? "sizes" : "prefixes";
+    if (sizes && prefixes) {
+        cli_usage_error(j->arguments, "--sizes and --prefixes: it takes one of them");
+        return false;
+    }
+    j->own_sets = sizes;
+    j->powers = prefixes && !strcmp(prefixes, "powers");
     while (text && *text && !j->powers) {
         char *end;
         const unsigned long long k = strtoull(text, &end, 10);
         if (*text < '0' || *text > '9' || k == 0 || (*end && *end != ',') || j->n_prefixes == MAX_PREFIXES) {
-            cli_usage_error(j->arguments, "--prefixes %s: it takes powers, or up to %d numbers as in 16,64,256", text,
-                            MAX_PREFIXES);
+            cli_usage_error(j->arguments, "--%s %s: it takes %sup to %d numbers as in 16,64,256", option, text,
+                            sizes ? "" : "powers, or ", MAX_PREFIXES);
             return false;
         }
         for (size_t i = 0; i < j->n_prefixes; i++) {
             if (j->prefixes[i] == k) {
-                cli_usage_error(j->arguments, "--prefixes: %llu stands twice", k);
+                cli_usage_error(j->arguments, "--%s: %llu stands twice", option, k);
                 return false;
             }
         }
@@ -217,7 +223,7 @@ static bool parse_options(measuring *j)
     if (!parse_warps(j) || !cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &j->seed) ||
         !cli_whole(j->arguments, "trials", 1, 1, 1000000000, &j->trials) ||
         !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) ||
-        !cli_sources_check(j->arguments, 0, j->trials, j->n_warps)) {
+        !measuring_check_prefixes(j) || !cli_sources_check(j->arguments, 0, j->trials, j->n_warps)) {
         return false;
     }
     const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);
@@ -305,6 +311,8 @@ static const cli_option options[] = {
      "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
     {0, "at", "X,Y..",
      "only the local discrepancy at this corner: the share of the points in [0, x) less its volume"},
+    {0, "sizes", "N,..",
+     "a set of each N (as in 16,64,256), for any pattern, and the slope; of a file its first N points"},
     {0, "warp", "WARP,..", "measure the points mapped by WARP: see 'koksma list warps'"},
     {0, "paired", NULL,
      "with --trials: every further source or warp minus the first, set by set, with 95 % interval"},
@@ -321,7 +329,14 @@ const cli_command cli_command_measure = {
     .details =
         "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures the points of a pattern without a file.\n"
         "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
-        "Slopes of --prefixes stand beside the exponent that theory gives for the pattern and the best that any "
+        "The first points of a pattern that is no sequence, such as n-rooks, are a strip of a set: --prefixes "
+        "refuses "
+        "it,\n"
+        "and --sizes measures a set of each N, whatever the source's own N is. powers leaves out sizes that a "
+        "measure\n"
+        "does not take, such as one point for min-distance, which has no distance.\n"
+        "Slopes of --prefixes and --sizes stand beside the exponent that theory gives for the pattern and the best "
+        "that any "
         "points\n"
         "can have, powers of logarithms aside. Their standard error is that of the trials' spread; one set has "
         "none,\n"

@@ -44,6 +44,16 @@ static bool is_property(const char *name)
     return false;
 }
 
+static const char *all_properties(char *text, size_t size)
+{
+    const char *known;
+    size_t used = 0;
+    for (size_t i = 0; (known = koksma_property_name_at(i)) && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", known);
+    }
+    return text;
+}
+
 /* The first name of the list that is no property; NULL: none. */
 static const char *misspelt(const char *list, char *name, size_t size)
 {
@@ -91,7 +101,8 @@ static int run(const cli_arguments *arguments)
     const char *expect = cli_text(arguments, "expect", NULL);
     char name[64];
     if (expect && misspelt(expect, name, sizeof name)) {
-        return cli_usage_error(arguments, "no property '%s'; plain verify lists them", name);
+        char names[512];
+        return cli_usage_error(arguments, "no property '%s'; it takes %s", name, all_properties(names, sizeof names));
     }
     if (arguments->n_operands == 0) {
         return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
@@ -135,10 +146,17 @@ const cli_command cli_command_verify = {
     .summary = "find out which properties points really have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--json]",
     .details =
-        "net-base-2, -3, -5: the worst t of the (t,m,s)-nets that prefixes are, for all pairs of coordinates; "
-        "stratified\n"
-        "and latin: one point in each stratum; distance-square and -torus, also relative to the densest packing;\n"
-        "repeated points; origin-missing and -repeated; rounds-to-one as a float; progressive: even prefixes.",
+        "Each property is one to wish for, 'yes' means that the points have it, and the detail names what the value\n"
+        "counts. net-base-2, -3, -5: prefixes are (t,m,s)-nets with t = 0, value: the worst t; stratified and "
+        "latin:\n"
+        "one point in each stratum; distinct: no point repeats another; distance-square and -torus: the smallest\n"
+        "distance is above 0; origin-unique: at most one point at the origin; origin-present: no unscrambled "
+        "sequence\n"
+        "has lost its first point, the origin; below-one-as-float: no coordinate becomes 1 as a float; progressive:\n"
+        "prefixes are at most twice as uneven as random points (L2 star).\n"
+        "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "
+        "looked\n"
+        "at; 2 for a wrong command line, as an unknown property; 3 for points that are missing or malformed.",
     .options = options,
     .run = run,
 };

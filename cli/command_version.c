@@ -8,13 +8,44 @@
 
 #include "cli.h"
 
+/* Of a part that is left out null. */
+static void put_part(cli_rows *rows, const char *key, const char *what)
+{
+    if (what) {
+        cli_row_text(rows, key, what);
+    } else {
+        cli_row_json(rows, key, "null", "-");
+    }
+}
+
+static int put_json(void)
+{
+    cli_rows *rows = cli_rows_open(true);
+    const char *format, *left_out;
+    cli_row_text(rows, "version", koksma_version());
+    cli_row_text(rows, "kernels", koksma_instruction_set());
+    for (size_t i = 0; (format = koksma_image_format(i, &left_out)); i++) {
+        cli_row_flag(rows, format, !left_out);
+    }
+    put_part(rows, "plots", koksma_plot_library());
+    put_part(rows, "mpi", koksma_study_mpi());
+    put_part(rows, "meshes", koksma_mesh_tracer());
+    put_part(rows, "mesh_files", koksma_mesh_reader());
+    cli_row_end(rows);
+    return cli_rows_close(rows);
+}
+
 static int run(const cli_arguments *arguments)
 {
     if (arguments->n_operands) {
         return cli_usage_error(arguments, "it takes no operands");
     }
     const char *tracer = koksma_mesh_tracer(), *reader = koksma_mesh_reader();
+    if (cli_flag(arguments, "json")) {
+        return put_json();
+    }
     printf("koksma %s\n", koksma_version());
+    printf("kernels: %s\n", koksma_instruction_set());
     const char *format, *left_out;
     for (size_t i = 0; (format = koksma_image_format(i, &left_out)); i++) {
         printf("%s images: %s%s%s\n", format, left_out ? "left out (" : "yes", left_out ? left_out : "",
@@ -28,12 +59,15 @@ static int run(const cli_arguments *arguments)
     return CLI_YES;
 }
 
-static const cli_option options[] = {{0}};
+static const cli_option options[] = {{0, "json", NULL, "one JSON object instead of text"}, {0}};
 
 const cli_command cli_command_version = {
     .name = "version",
-    .summary = "print the version, and which optional parts are in",
-    .synopsis = "",
+    .summary = "print the version, the kernels, and which optional parts are in",
+    .synopsis = "[--json]",
+    .details = "kernels names the instruction set whose inner loops run: avx512, avx2 or baseline, the first of "
+               "these that the\n"
+               "machine has, or what the environment variable KOKSMA_KERNELS names; ref is the plain twins.",
     .options = options,
     .run = run,
 };

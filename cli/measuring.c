@@ -64,7 +64,7 @@ static void put_tail(measuring *j, tail t)
         cli_row_number(j->rows, "low", t.low);
         cli_row_number(j->rows, "high", t.high);
     }
-    if (j->powers || cli_text(j->arguments, "prefixes", NULL)) {
+    if (measuring_by_size(j)) {
         if (j->trials == 1) {
             cli_row_number(j->rows, "residual_error", t.residual_error);
         }
@@ -86,13 +86,37 @@ static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
     put_tail(j, (tail){n_exact, t->mean - half, t->mean + half, NAN, NAN, NAN});
 }
 
-/* Whether the first k points are such a set of the pattern as theory speaks of: those of a sequence, or independent
-   ones without cells. Of prefixes of others, and of mapped points, there is no theorem. */
+bool measuring_by_size(const measuring *j)
+{
+    return cli_text(j->arguments, "prefixes", NULL) || cli_text(j->arguments, "sizes", NULL);
+}
+
+/* Whether the first k points are a set of the pattern, for all k, so that theory and a slope are about the pattern:
+   those of a sequence, or independent ones without cells. The first k points of others are a part of a set, such as
+   a strip of cells. */
 static bool prefixes_are_sets(const koksma_pattern *pattern)
 {
     const bool independent =
         pattern->claims & KOKSMA_CLAIM_INDEPENDENT && !(pattern->claims & KOKSMA_CLAIM_STRATIFIED);
     return pattern->claims & KOKSMA_CLAIM_SEQUENCE || independent;
+}
+
+bool measuring_check_prefixes(const measuring *j)
+{
+    for (int i = 0; cli_text(j->arguments, "prefixes", NULL) && i < j->arguments->n_operands; i++) {
+        cli_source parts;
+        if (cli_source_open(j->arguments, j->arguments->operands[i], &parts)) {
+            return false;
+        }
+        if (parts.is_pattern && !prefixes_are_sets(parts.spec.pattern)) {
+            cli_usage_error(j->arguments,
+                            "--prefixes: %s is no sequence, its first points are a part of a set; --sizes 16,64,256 "
+                            "measures a set of each n",
+                            parts.spec.pattern->name);
+            return false;
+        }
+    }
+    return true;
 }
 
 /* Of estimates none is exact, and none is a bound. */
@@ -118,7 +142,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
         return;
     }
     const koksma_measure *m = j->measures[measure].measure;
-    const bool known = parts.is_pattern && !j->warp && prefixes_are_sets(parts.spec.pattern);
+    const bool known = parts.is_pattern && !j->warp; /* of mapped points there is no theorem */
     koksma_spec_text(&j->measures[measure], text);
     snprintf(name, sizeof name, "slope of %s", text);
     put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);
@@ -159,7 +183,7 @@ static void put_tallies(measuring *j, const char *source, int dim)
 /* The prefixes that a set of n has; the whole set without --prefixes. The exit code after an error. */
 static int choose_prefixes(measuring *j, size_t n)
 {
-    if (j->powers || !cli_text(j->arguments, "prefixes", NULL)) {
+    if (j->powers || !measuring_by_size(j)) {
         j->n_prefixes = 0;
         for (size_t k = 1; j->powers && k < n; k *= 2) {
             j->prefixes[j->n_prefixes++] = k;
@@ -168,7 +192,8 @@ static int choose_prefixes(measuring *j, size_t n)
     }
     for (size_t i = 0; i < j->n_prefixes; i++) {
         if (j->prefixes[i] > n) {
-            return cli_usage_error(j->arguments, "prefixes: %zu points: the set has %zu", j->prefixes[i], n);
+            return cli_usage_error(j->arguments, "%s: %zu points: the set has %zu",
+                                   j->own_sets ? "sizes" : "prefixes", j->prefixes[i], n);
         }
     }
     return CLI_YES;
@@ -214,55 +239,87 @@ static void tally_value(measuring *j, const koksma_value *value, size_t at, uint
     }
 }
 
-static koksma_status tally_points(measuring *j, const koksma_points *points, uint64_t trial, bool first)
-{
+/* What a trial gave: values by prefix, and whether all of a measure's are exact. */
+typedef struct trial_values {
     double values[MAX_MEASURES][MAX_PREFIXES];
     bool whole[MAX_MEASURES];
+} trial_values;
+
+/* The measures of prefix i. Of the powers of two, which nobody has asked for one by one, those are left out that a
+   measure does not take, as distances of one point. */
+static koksma_status tally_set(measuring *j, const koksma_points *points, size_t i, uint64_t trial, bool first,
+                               trial_values *v)
+{
+    const bool chosen_here = j->powers && i + 1 < j->n_prefixes;
+    for (size_t m = 0; m < j->n_measures; m++) {
+        const size_t at = i * j->n_measures + m;
+        koksma_value value = {.value = NAN};
+        const koksma_status status = measuring_evaluate(j, m, points, &value);
+        if (measuring_forgive(j, status) && !(chosen_here && status == KOKSMA_N)) {
+            return status;
+        }
+        if (!status) {
+            tally_value(j, &value, at, trial, first);
+        } else if (j->paired && first) {
+            j->firsts[trial * j->n_firsts + at] = NAN;
+        }
+        v->values[m][i] = status ? (double)NAN : value.value;
+        v->whole[m] = (i == 0 || v->whole[m]) && (status || value.exact);
+    }
+    return KOKSMA_OK;
+}
+
+/* points: the whole set; NULL: source makes one of each size. */
+static koksma_status tally_points(measuring *j, const koksma_points *points, const cli_source *source, uint64_t trial,
+                                  bool first)
+{
+    trial_values v;
     for (size_t i = 0; i < j->n_prefixes; i++) {
-        const koksma_points prefix = {j->prefixes[i], points->dim, points->xs};
-        for (size_t m = 0; m < j->n_measures; m++) {
-            const size_t at = i * j->n_measures + m;
-            koksma_value value = {.value = NAN};
-            const koksma_status status = measuring_evaluate(j, m, &prefix, &value);
-            if (measuring_forgive(j, status)) {
-                return status;
-            }
-            if (!status) {
-                tally_value(j, &value, at, trial, first);
-            } else if (j->paired && first) {
-                j->firsts[trial * j->n_firsts + at] = NAN;
-            }
-            values[m][i] = status ? (double)NAN : value.value;
-            whole[m] = (i == 0 || whole[m]) && (status || value.exact);
+        koksma_points own = {0};
+        koksma_status status = KOKSMA_OK;
+        if (!points) {
+            status = koksma_points_init(&own, j->prefixes[i], source->dim);
+            status = status ? status : koksma_generate(&source->spec, j->seed + trial, &j->work.run, &own);
+        }
+        if (!status) {
+            const koksma_points prefix = {j->prefixes[i], points ? points->dim : 0, points ? points->xs : NULL};
+            status = tally_set(j, points ? &prefix : &own, i, trial, first, &v);
+        }
+        koksma_points_fini(&own);
+        if (status) {
+            return status;
         }
     }
     for (size_t m = 0; m < j->n_measures; m++) {
-        cli_joint_add(&j->joints[m], j->n_prefixes, values[m]);
-        j->n_whole[m] += whole[m];
+        cli_joint_add(&j->joints[m], j->n_prefixes, v.values[m]);
+        j->n_whole[m] += v.whole[m];
     }
     return KOKSMA_OK;
 }
 
 int measuring_trials(measuring *j, const char *source)
 {
-    int code = CLI_YES, dim = 0;
-    const bool first = !j->firsts;
+    cli_source parts;
+    int code = cli_source_open(j->arguments, source, &parts), dim = 0;
+    const bool first = !j->firsts, own_sets = j->own_sets && !code && parts.is_pattern;
     memset(j->tallies, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->tallies);
     memset(j->n_exact, 0, 2 * MAX_PREFIXES * (j->n_measures + 1) * sizeof *j->n_exact);
     memset(j->n_whole, 0, (j->n_measures + 1) * sizeof *j->n_whole);
     memset(j->joints, 0, (j->n_measures + 1) * sizeof *j->joints);
     for (uint64_t t = 0; t < j->trials && !code; t++) {
         koksma_points points = {0};
-        code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
+        if (!own_sets) {
+            code = cli_source_points(j->arguments, source, j->seed + t, &j->work.run, &points);
+        }
         if (!code) {
-            dim = points.dim;
-            code = choose_prefixes(j, points.n);
+            dim = own_sets ? parts.dim : points.dim;
+            code = own_sets ? CLI_YES : choose_prefixes(j, points.n);
         }
         if (!code) {
             code = open_firsts(j, source);
         }
         if (!code) {
-            const koksma_status status = tally_points(j, &points, t, first);
+            const koksma_status status = tally_points(j, own_sets ? NULL : &points, &parts, t, first);
             cli_work_end(&j->work);
             code = status ? cli_fail(j->arguments, status) : CLI_YES;
         }

@@ -20,7 +20,8 @@ typedef struct measuring {
     const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the present one, or NULL */
     size_t n_warps;
     size_t prefixes[MAX_PREFIXES], n_prefixes;
-    bool powers; /* prefixes are the powers of two */
+    bool powers;   /* prefixes are the powers of two */
+    bool own_sets; /* --sizes: of patterns not prefixes, but a set of each size */
     double time_limit_s;
     cli_work work;
     cli_rows *rows;
@@ -47,7 +48,13 @@ void measuring_close(measuring *j);
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value);
 koksma_status measuring_forgive(const measuring *j, koksma_status status);
 
-/* Many sets, or prefixes: what was done is printed even if it was cut short. Returns the exit code. */
+/* Whether values are wanted at several sizes, with a slope. */
+bool measuring_by_size(const measuring *j);
+
+/* Refuses --prefixes of a pattern whose first points are no set of it; false after an error on stderr. */
+bool measuring_check_prefixes(const measuring *j);
+
+/* Many sets, or several sizes: what was done is printed even if it was cut short. Returns the exit code. */
 int measuring_trials(measuring *j, const char *source);
 
 #endif

@@ -47,9 +47,10 @@ function lineText(label, line) {
 
 // Who asks for the values, and keeps them: one chart for the sets that are shown.
 export class Decay {
-  // state(), points(name): what is shown now; spec(measure): with its parameters; changed(): sizes are others now
-  constructor(jobs, rank, state, points, spec, changed) {
-    Object.assign(this, { jobs, rank, state, points, spec, changed, sets: {} });
+  // state(), points(name): what is shown now; spec(measure): with its parameters; isSequence(spec): whether the first
+  // points are a set of the pattern; changed(): sizes are others now
+  constructor(jobs, rank, state, points, spec, isSequence, changed) {
+    Object.assign(this, { jobs, rank, state, points, spec, isSequence, changed, sets: {} });
   }
 
   sizes(name) {
@@ -72,6 +73,11 @@ export class Decay {
     this.jobs.drop(`${name}/decay`);
     const set = this.sets[name] = { name, samples: [], line: null, waiting: 0, why: "" };
     set.label = `${spec}${prefixes ? `, first points of ${n}` : ""}`;
+    if (prefixes && state[name].edits.size === 0 && !this.isSequence(spec)) {
+      set.why = "The pattern is no sequence, its first points are a part of a set: choose sets of each size.";
+      this.draw();
+      return;
+    }
     const family = k => {
       const sizes = prefixes ? prefixSizes(n) : sizeFamilies[k].filter(size => size <= largest);
       set.waiting = sizes.length;

@@ -6,6 +6,7 @@ import { commands, save, svgFile } from "./export.mjs";
 import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
 import { SetView } from "./set_view.mjs";
+import { parseSpec, prefixesAreSets } from "./specs.mjs";
 import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
 import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mjs";
 import { exponent, strataOf } from "./strata.mjs";
@@ -300,7 +301,11 @@ async function start() {
     keepHash();
   });
   measures.spec = name => state.measures[name] || name;
-  decay = new Decay(jobs, ranks.decay, () => state, name => views[name].points, measures.spec, () => soon(drawSets));
+  const isSequence = spec => {
+    const pattern = tables.patterns.find(p => p.name === parseSpec(spec).name);
+    return !pattern || prefixesAreSets(pattern); // an unknown one has an error of its own
+  };
+  decay = new Decay(jobs, ranks.decay, () => state, name => views[name].points, measures.spec, isSequence, () => soon(drawSets));
   names.forEach(openSet);
   byId("decay-measure").replaceChildren(...tables.measures.map(m => element("option", { value: m.name }, m.name)));
   byId("version").textContent = tables.version;

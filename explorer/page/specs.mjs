@@ -29,6 +29,12 @@ export const claims = [
 
 export const claimsOf = pattern => claims.filter((claim, bit) => pattern.claims >>> bit & 1);
 
+// Whether the first k points are a set of the pattern, for all k: of sequences, and of independent points without cells.
+export function prefixesAreSets(pattern) {
+  const words = claimsOf(pattern).map(([word]) => word), has = word => words.includes(word);
+  return has("sequence") || (has("independent") && !has("stratified"));
+}
+
 // "name:key=value,.." as { name, values: { key: text } }.
 export function parseSpec(spec) {
   const at = spec.indexOf(":"), name = at < 0 ? spec : spec.slice(0, at), values = {};

@@ -55,9 +55,10 @@ KOKSMA_API koksma_status koksma_spectrum_write(const char *path, const koksma_sp
 typedef struct koksma_ring {
     double frequency;
     double power, standard_error; /* the mean over the ring and the sets; NaN error for one set */
-    /* 10 log10 of the variance along the ring, of the mean over sets, over power^2. FAST leaves up to 1e-18 n of
-       power where there is none, and a relative 2e-9 sqrt(n/power) of spread. With either method it is NaN for a ring
-       of no more power than that, and -infinity for no more spread. */
+    /* Ulichney's (1987): 10 log10(s^2 / power^2), with P(k) the mean over the sets, s^2 the sum over the ring's
+       frequencies, one of k and -k, of (P(k) - power)^2 divided by their number less 1, and power the ring's mean.
+       FAST leaves up to 1e-18 n of power where there is none, and a relative 2e-9 sqrt(n/power) of spread. With
+       either method it is NaN for a ring of no more power than that, and -infinity for no more spread. */
     double anisotropy_db;
 } koksma_ring;
 

@@ -12,7 +12,8 @@
 extern "C" {
 #endif
 
-/* What was found. The properties:
+/* What was found: whether the points have a property, each of which is desirable, and a number, of which detail says
+   what it counts. The properties:
 
    net-base-2, -3, -5
        subject: two coordinates, or "all". value: the worst t of the (t,m,s)-nets that the prefixes of b^m points are;
@@ -24,14 +25,15 @@ extern "C" {
    distance-square, distance-torus
        value: the smallest distance; detail: as a fraction of the densest packing's (exact for squares of 30 points
        or fewer, else of an upper bound, which many points on the torus in 2D come near). Holds when above 0
-   repeated
-       value: points that are equal to another. Holds when 0
-   origin-repeated
+   distinct
+       value: points that repeat another. Holds when 0
+   origin-unique
        value: points at the origin. Holds when at most 1
-   origin-missing
-       value: points at the origin. Holds unless each coordinate has different multiples of 2^-m, 2^m > n, none of
-       them 0 nor all odd: an unscrambled sequence has these after its first point
-   rounds-to-one
+   origin-present
+       value: points at the origin. Holds when there is one, and also when none is expected: it fails where each
+       coordinate has different multiples of 2^-m, 2^m > n, none of them 0 nor all odd, as an unscrambled sequence has
+       after its first point
+   below-one-as-float
        value: coordinates that become 1 as a float. Holds when 0
    progressive
        value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of as many random points (root
@@ -61,8 +63,8 @@ KOKSMA_API const char *koksma_property_name_at(size_t i);
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
-/* The smallest distance of two points, on the torus or in the cube; infinity for one point. Errors: ARGUMENT (no
-   points, a coordinate outside [0,1]), DIM, MEMORY, INTERRUPTED. */
+/* The smallest distance of two points, on the torus or in the cube. Errors: ARGUMENT (no points, a coordinate outside
+   [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                                   double *distance);
 

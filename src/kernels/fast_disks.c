@@ -58,7 +58,8 @@ static inline double logarithm(double y)
 /* The overlap for r = 1 of disks whose centres are 2q apart; 0 from q = 1 on. */
 static inline double overlap(int law, double q)
 {
-    const double t = q < 1 ? q : 1, s = sqrt(1 - t * t), angle = arc_cosine(t);
+    const double t = q < 1 ? q : 1, s = sqrt((1 - t) * (1 + t)),
+                 angle = arc_cosine(t); /* 1 - t * t cancels at t = 1 */
     if (law == 0) {
         return 2 * (angle - t * s);
     }

@@ -184,7 +184,7 @@ static double overlap(int law, double r, double distance)
     if (h >= r) {
         return 0;
     }
-    const double s = sqrt(r * r - h * h), angle = acos(h / r);
+    const double s = sqrt((r - h) * (r + h)), angle = atan2(s, h); /* r * r - h * h cancels at h = r */
     switch (law) {
     case 0:
         return 2 * r * r * angle - 2 * h * s;

@@ -5,7 +5,7 @@
  * of r. The second paper's section 4.
  *
  * Formula: square = n^-2 sum_ij sum_k W(|x_i - x_j + k|) - c, k over the shifts of the torus; W(d) is the area that
- * two disks d apart share, or its mean over the radius; with h = d/2 < r, s = sqrt(r^2 - h^2):
+ * two disks d apart share, or its mean over the radius; with h = d/2 < r, s = sqrt((r - h) (r + h)):
  *   fixed   2 r^2 acos(h/r) - 2 h s,                                           c = pi^2 r^4
  *   radius  ((2/3) r^3 acos(h/r) - (4/3) h r s + (2/3) h^3 ln((r+s)/h)) / r,   c = pi^2 r^4 / 5
  *   area    (r^4 acos(h/r) - (5/3) h s^3 - h^3 s) / r^2,                       c = pi^2 r^4 / 3

@@ -5,7 +5,7 @@
  * Formula: min over i < j of |x_i - x_j|, on the unit torus or (torus=0) in the plane.
  * Source: Lagae and Dutre 2008, who compare Poisson disk patterns by it; see relative-radius.
  * Known exactly: two points at (0,0) and (1/2,1/2): 1/sqrt 2; m x m centres 1/m.
- * Limits: one point has no distance: null. Exact to rounding.
+ * Limits: one point has no distance: the error KOKSMA_N, in every interface. Exact to rounding.
  */
 #include <math.h>
 
@@ -14,7 +14,7 @@
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    return koksma__min_distance(points, args->params[0] > 0, args->run, &out->value);
+    return koksma__min_distance("min-distance", points, args->params[0] > 0, args->run, &out->value);
 }
 
 static const koksma_param params[] = {

@@ -14,7 +14,8 @@
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
-    const koksma_status status = koksma__min_distance(points, args->params[0] > 0, args->run, &out->value);
+    const koksma_status status =
+        koksma__min_distance("relative-radius", points, args->params[0] > 0, args->run, &out->value);
     out->value /= sqrt(2 / (sqrt(3) * (double)points->n));
     return status;
 }

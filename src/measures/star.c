@@ -7,9 +7,10 @@
  * coordinates are coordinates of points, or 1 (Niederreiter 1972): an excess at a closed box, a deficit at an open
  * one. Source: Zaremba 1968; Shirley 1991, section 5.5.7; in more than two dimensions Dobkin, Eppstein and Mitchell
  * 1996; bounds Thiemard 2001. Known exactly: one point at (g,g), g = (sqrt 5 - 1)/2, has D = g; 4 x 4 cell centres
- * 15/64; one point at the centre of the cube 7/8; Hammersley 2^m: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De Clerck
- * 1986). Limits: counts are exact, volumes are rounded products: errors of a few 1e-16 at any n. With a time limit,
- * in 3D and more, the value may be a lower bound; the upper bound beside it holds as well.
+ * 15/64; one point at the centre of the cube 7/8; Hammersley 2^m, m >= 2: n D = m/3 + 13/9 - (-1)^m 4/(9 2^m) (De
+ * Clerck 1986; n D is 1 for m = 0, 3/2 for m = 1). Limits: counts are exact, volumes are rounded products: errors of
+ * a few 1e-16 at any n. With a time limit, in 3D and more, the value may be a lower bound; the upper bound beside it
+ * holds as well.
  */
 #include <math.h>
 

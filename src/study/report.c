@@ -81,8 +81,11 @@ static koksma_status add_part(koksma_study *study, koksma__html *h, size_t part,
             "<h2>Irregularity of the patterns</h2>\n<p>Exact values, mean over point sets. z is the difference of "
             "the published mean from ours over SD &#8730;(1/100 + 1/T) and half of the last printed digit, with the "
             "SD and the number T of our sets: the errors of both means and the rounding. Below %.1f it is taken for "
-            "chance; in tables over several numbers of points it is the tooltip of each mark. The largest of 100 is "
-            "a mean over blocks of 100 sets, with the SD of such a block behind the "
+            "chance, one by one; in tables over several numbers of points it is the tooltip of each mark. Below each "
+            "table are its z taken together: of k independent z by chance the largest exceeds 2 with probability "
+            "1 - 0.954^k (25 %% for six), and six of -0.8 are as rare as one of -2. The largest of 100 is a mean "
+            "over "
+            "blocks of 100 sets, with the SD of such a block behind the "
             "&#177;, where others are 95 %% intervals of means; of fewer sets it is the largest of all.</p>\n",
             KOKSMA__AGREEMENT_Z);
         status = add_tables(study, h, part, false, agreement);

@@ -20,6 +20,7 @@ typedef struct sizes_page {
     koksma__html *html, csv;
     const koksma__table *table;
     koksma__agreement *agreement;
+    koksma__z_sums together;
     koksma__chart chart;
 } sizes_page;
 
@@ -131,6 +132,7 @@ static koksma_status add_our_line(sizes_page *p, const koksma__table_row *row, c
             const koksma__verdict verdict = koksma__table_judge(p->table, row, i, &cell);
             koksma__html_add(p->html, " ");
             koksma__table_add_judgement(p->html, p->agreement, &verdict, false);
+            koksma__table_add_z(&p->together, &verdict, &cell);
         }
         koksma__html_add(p->html, "</td>");
         koksma__csv_number(&p->csv, cell.mean.mean);
@@ -211,6 +213,7 @@ koksma_status koksma__report_sizes_table(koksma_study *study, koksma__html *h, k
         add_printed_marks(&p, &t->rows[r], r + 1);
     }
     koksma__table_end(h, &p.csv, t);
+    koksma__table_end_z(h, &p.together);
     status = status ? status : add_sets_sentence(&p);
     if (!status) {
         koksma__html_chart(h, &p.chart);

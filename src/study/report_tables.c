@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/quantiles.h"
 
 /* ---- Marks ------------------------------------------------------------------------------------------------- */
 
@@ -156,6 +157,29 @@ void koksma__table_begin(koksma__html *h, koksma__html *csv, const koksma__table
     koksma__table_open(h, t);
 }
 
+void koksma__table_add_z(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
+{
+    /* sets that are all the same differ by rounding alone */
+    if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
+        sums->count++;
+        sums->sum += v->z;
+        sums->squares += v->z * v->z;
+    }
+}
+
+void koksma__table_end_z(koksma__html *h, const koksma__z_sums *z)
+{
+    if (z->count > 1) {
+        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
+        koksma__html_add(
+            h,
+            "<p class=\"note\">The %zu values of z taken together: their sum over &#8730;%zu is %+.1f (by "
+            "chance between -2 and +2 in 95 %% of tables: beyond, all means are off to one side), and the "
+            "sum of their squares %.1f (by chance below %.1f in 95 %%).</p>\n",
+            z->count, z->count, z->sum / sqrt(k), z->squares, limit);
+    }
+}
+
 /* ---- Discrepancy tables ------------------------------------------------------------------------------------ */
 
 /* A mean and, where the rows differ in it, of how many sets. */
@@ -171,7 +195,7 @@ static void add_set_mean(koksma__html *h, const koksma__summary *mean, bool diff
 
 static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, koksma__html *csv,
                                          koksma__agreement *agreement, const koksma__table *t,
-                                         const koksma__table_row *row, bool differ)
+                                         const koksma__table_row *row, bool differ, koksma__z_sums *together)
 {
     koksma__cell cell, also = {0};
     koksma_status status = koksma__table_discrepancy(study, t, t->measure, row->pattern, t->n.at[0], &cell);
@@ -192,6 +216,7 @@ static koksma_status add_discrepancy_row(koksma_study *study, koksma__html *h, k
     koksma__html_add(h, "</td>");
     const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
     koksma__table_add_verdict(h, agreement, &verdict);
+    koksma__table_add_z(together, &verdict, &cell);
     if (t->also) {
         add_set_mean(h, &also.mean, differ);
         koksma__table_csv_cell(csv, &also);
@@ -210,6 +235,7 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
         return status;
     }
     koksma__html csv = {0};
+    koksma__z_sums together = {0};
     koksma__table_begin(h, &csv, t);
     koksma__table_csv_heads(&csv, t->measure);
     if (t->also) {
@@ -231,9 +257,10 @@ koksma_status koksma__report_discrepancy_table(koksma_study *study, koksma__html
     }
     koksma__html_add(h, "</tr></thead>\n<tbody>\n");
     for (size_t r = 0; !status && r < t->n_rows; r++) {
-        status = add_discrepancy_row(study, h, &csv, agreement, t, &t->rows[r], differ);
+        status = add_discrepancy_row(study, h, &csv, agreement, t, &t->rows[r], differ, &together);
     }
     koksma__html_add(h, "</tbody>");
     koksma__table_end(h, &csv, t);
+    koksma__table_end_z(h, &together);
     return status;
 }

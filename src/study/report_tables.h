@@ -35,6 +35,16 @@ void koksma__table_add_judgement(koksma__html *html, koksma__agreement *agreemen
                                  bool with_number);
 void koksma__table_add_verdict(koksma__html *html, koksma__agreement *agreement, const koksma__verdict *verdict);
 
+/* The z of a table taken together: many that are each within chance can be beyond it, all to one side or all large.
+   Those of cells that differ for a known reason are left out. */
+typedef struct koksma__z_sums {
+    size_t count;
+    double sum, squares;
+} koksma__z_sums;
+
+void koksma__table_add_z(koksma__z_sums *sums, const koksma__verdict *verdict, const koksma__cell *cell);
+void koksma__table_end_z(koksma__html *html, const koksma__z_sums *sums);
+
 /* Ends the table: the CSV and the notes. */
 void koksma__table_end(koksma__html *html, koksma__html *csv, const koksma__table *table);
 

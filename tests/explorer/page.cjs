@@ -199,9 +199,10 @@ async function commandsOfStates(browser) {
   for (const [hash, ...wanted] of [
     [`${one}${moves}`, "measure plot curve sets"], [`${one}${moves}&decay=l2-star:prefixes`, "measure plot curve --prefixes"],
     [`${one}&decay=diaphony:sets&witness=extreme`, "generate measure plot curve sets"],
-    [`${one}&decay=star:prefixes&axes=1,0`, "generate measure --prefixes"],
+    [`${one}&decay=star:prefixes&axes=1,0`, "generate measure"], // no sequence
+    ["#a=halton@30&a.seed=3&decay=star:prefixes&axes=1,0", "generate measure --prefixes"],
     [`${two}&decay=diaphony:sets&strata=rooks`, "measure plot curve sets", "generate measure plot curve sets"],
-    [`${two}&decay=diaphony:prefixes&strata=elementary:2,3`, "measure plot curve --prefixes", "generate measure plot curve --prefixes"],
+    [`${two}&decay=diaphony:prefixes&strata=elementary:2,3`, "measure plot curve --prefixes", "generate measure plot curve"],
     ["#a=halton@20@3&a.moved=1:0.5,0.25,1&witness=none", "measure sets"],
     ["#a=random@600&strata=rooks&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],
     ["#a=random@16&strata=grid:9000x2&decay=l2-star:prefixes", "generate measure plot curve --prefixes"],

@@ -16,8 +16,8 @@ static void exactly_n_points(void **state)
         for (uint64_t seed = 0; seed < 8; seed++) {
             koksma_points p = test_points("poisson-disk-maximal", counts[c], 2, seed);
             double d = 0;
-            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
             if (counts[c] > 3) {
+                assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
                 const double rho = d / koksma__packing_distance(counts[c], 2, true);
                 assert_true(rho > 0.6 && rho < 1);
             }
@@ -168,9 +168,10 @@ static void fractions_of_the_densest(void **state)
             double d;
             snprintf(text, sizeof text, "dart-throwing:f=%g", fractions[i]);
             koksma_points p = test_points(text, counts[c], 2, 5);
-            assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
-            assert_true(counts[c] == 1 ||
-                        d >= fractions[i] * koksma__packing_distance(counts[c], 2, true) * (1 - 1e-12));
+            if (counts[c] > 1) {
+                assert_ok(koksma_smallest_distance(&p, true, NULL, &d));
+                assert_true(d >= fractions[i] * koksma__packing_distance(counts[c], 2, true) * (1 - 1e-12));
+            }
             koksma_points_fini(&p);
         }
     }

@@ -231,6 +231,40 @@ static void search_is_a_lower_bound(void **state)
     assert_true(reached >= 55);
 }
 
+/* The default search against the exact value, over patterns and dimensions, and against the best values that are
+   published (Gnewuch, Wahlstrom and Winzen 2012) for the first points of Faure's sequence, which are given to four
+   digits. */
+static void search_reaches_star(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"random",  "n-rooks",    "sobol",      "sobol:scramble=owen",
+                                           "halton",  "faure",      "r-sequence", "lattice-rank1",
+                                           "korobov", "hammersley", "regular",    "jittered"};
+    static const struct {
+        size_t n;
+        int dim;
+        double best;
+    } published[] = {{343, 7, 0.1298},  {121, 8, 0.1702},  {121, 9, 0.2121},
+                     {121, 10, 0.2574}, {121, 11, 0.3010}, {169, 12, 0.2718}};
+    for (size_t s = 0; s < sizeof patterns / sizeof *patterns; s++) {
+        for (int dim = 2; dim <= 5; dim++) {
+            const size_t n = dim == 2 ? 144 : dim == 3 ? 125 : dim == 4 ? 81 : 32;
+            koksma_points p = test_points(patterns[s], n, dim, 1);
+            const double exact = test_measure("star", &p).value;
+            const koksma_value lower = test_measure("star-lower:restarts=3", &p);
+            if (!(lower.value >= exact - 1e-15 && lower.value <= exact + 1e-15)) {
+                fail_msg("%s, n = %zu, dim = %d: %.17g, exact %.17g", patterns[s], n, dim, lower.value, exact);
+            }
+            koksma_points_fini(&p);
+        }
+    }
+    for (size_t i = 0; i < sizeof published / sizeof *published; i++) {
+        koksma_points p = test_points("faure", published[i].n, published[i].dim, 0);
+        assert_near(test_measure("star-lower:restarts=3", &p).value, published[i].best, 0.5e-4);
+        koksma_points_fini(&p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,7 +272,7 @@ int main(void)
         cmocka_unit_test(line_equals_brute_force),   cmocka_unit_test(four_dimensions_equal_brute_force),
         cmocka_unit_test(partition_equals_sweep),    cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(short_time_gives_bounds),   cmocka_unit_test(no_time_gives_bounds),
-        cmocka_unit_test(search_is_a_lower_bound),
+        cmocka_unit_test(search_is_a_lower_bound),   cmocka_unit_test(search_reaches_star),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

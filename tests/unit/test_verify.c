@@ -32,9 +32,9 @@ static void healthy_points_pass(void **state)
     (void)state;
     koksma_points p = test_points("sobol", 256, 2, 0);
     static const char *const properties[][2] = {
-        {"net-base-2", "0,1"},    {"latin", "0"},      {"latin", "1"},           {"stratified", "16 x 16"},
-        {"stratified", "4 x 64"}, {"repeated", "-"},   {"origin-repeated", "-"}, {"origin-missing", "-"},
-        {"rounds-to-one", "-"},   {"progressive", "-"}};
+        {"net-base-2", "0,1"},       {"latin", "0"},      {"latin", "1"},         {"stratified", "16 x 16"},
+        {"stratified", "4 x 64"},    {"distinct", "-"},   {"origin-unique", "-"}, {"origin-present", "-"},
+        {"below-one-as-float", "-"}, {"progressive", "-"}};
     for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
         const koksma_finding f = one(&p, properties[i][0], properties[i][1]);
         if (!f.holds) {
@@ -245,9 +245,9 @@ static void a_repeated_point(void **state)
 {
     (void)state;
     koksma_points p = test_points("random", 100, 3, 4);
-    assert_true(one(&p, "repeated", "-").holds);
+    assert_true(one(&p, "distinct", "-").holds);
     memcpy(p.xs + 3 * 10, p.xs + 3 * 90, 3 * sizeof *p.xs);
-    assert_near(one(&p, "repeated", "-").value, 1, 0);
+    assert_near(one(&p, "distinct", "-").value, 1, 0);
     assert_false(one(&p, "distance-square", "-").holds);
     koksma_points_fini(&p);
 }
@@ -257,12 +257,12 @@ static void the_origin(void **state)
     (void)state;
     koksma_points p = test_points("sobol", 65, 2, 0);
     koksma_points skipped = {64, 2, p.xs + 2}; /* the first point dropped */
-    const koksma_finding f = one(&skipped, "origin-missing", "-");
+    const koksma_finding f = one(&skipped, "origin-present", "-");
     assert_false(f.holds);
     assert_false(one(&skipped, "net-base-2", "0,1").holds);
     p.xs[2 * 3] = p.xs[2 * 3 + 1] = 0;
-    assert_near(one(&p, "origin-repeated", "-").value, 2, 0);
-    assert_false(one(&p, "origin-repeated", "-").holds);
+    assert_near(one(&p, "origin-unique", "-").value, 2, 0);
+    assert_false(one(&p, "origin-unique", "-").holds);
     koksma_points_fini(&p);
     static const struct {
         const char *pattern;
@@ -279,14 +279,14 @@ static void the_origin(void **state)
                  {"void-and-cluster:size=4", 4, 2}};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) {
         p = test_points(whole[i].pattern, whole[i].n, whole[i].dim, 0);
-        assert_true(one(&p, "origin-missing", "-").holds);
+        assert_true(one(&p, "origin-present", "-").holds);
         koksma_points_fini(&p);
     }
     static const size_t sizes[] = {2, 3, 63, 100};
     for (size_t i = 0; i < 4; i++) {
         p = test_points("sobol", sizes[i] + 1, 4, 0);
         skipped = (koksma_points){sizes[i], 4, p.xs + 4};
-        assert_false(one(&skipped, "origin-missing", "-").holds);
+        assert_false(one(&skipped, "origin-present", "-").holds);
         koksma_points_fini(&p);
     }
 }
@@ -295,9 +295,9 @@ static void a_coordinate_that_rounds_to_one(void **state)
 {
     (void)state;
     koksma_points p = test_points("regular", 64, 2, 0);
-    assert_true(one(&p, "rounds-to-one", "-").holds);
+    assert_true(one(&p, "below-one-as-float", "-").holds);
     p.xs[101] = 1 - 0x1p-26;
-    assert_near(one(&p, "rounds-to-one", "-").value, 1, 0);
+    assert_near(one(&p, "below-one-as-float", "-").value, 1, 0);
     koksma_points_fini(&p);
 }
 
@@ -325,7 +325,7 @@ static void zero_and_minus_zero_are_one_place(void **state)
     (void)state;
     double xs[] = {0, 0.5, 0.25, 0.75, -0.0, 0.5, 1, 0.5};
     koksma_points p = {4, 2, xs};
-    const koksma_finding f = one(&p, "repeated", "-");
+    const koksma_finding f = one(&p, "distinct", "-");
     assert_false(f.holds);
     assert_true(f.value == 1);
 }

@@ -5,6 +5,7 @@
 
 #include "measures/parts/quadrature.h"
 #include "measures/parts/warp_disks.h"
+#include "measures/parts/warp_domains.h"
 #include "sets.h"
 
 static koksma_value warped(const char *warp, const char *measure, const koksma_points *points)
@@ -215,9 +216,47 @@ static void concentric_beats_polar(void **state)
     }
 }
 
+/* phi - sin phi cos phi without cancelling. */
+static double segment(double one_less_cosine)
+{
+    const double phi = 2 * asin(sqrt(one_less_cosine / 2)), x = 2 * phi;
+    double term = x * x * x / 6, sum = 0;
+    for (int k = 4; fabs(term) > 1e-20 * sum; k += 2) {
+        sum += term;
+        term *= -x * x / (k * (k + 1));
+    }
+    return sum / 2;
+}
+
+/* Disks of radius 1 and r a distance 1 + r - e apart share two segments. Small and large e, down to rounding. */
+static void disks_that_touch(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 200; i++) {
+        const double r = i % 4 == 0 ? 1 : 0.25 * (i % 4), distance = (1 + r) - 0.4 * r * pow(10, -0.08 * i);
+        const double e = (1 + r) - distance; /* exact */
+        const double one = segment(e * (2 * r - e) / (2 * distance)),
+                     other = segment(e * (2 - e) / (2 * distance * r));
+        assert_near(koksma__disks_share(r, distance), one + r * r * other, 3e-16);
+    }
+}
+
+/* Planes through the centre separate two points with the chance of their angle over pi: also of opposite ones. */
+static void points_that_are_opposite(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 160; i++) {
+        const double angle = M_PI - pow(10, -0.1 * i), p[3] = {1, 0, 0}, q[3] = {cos(angle), 0, sin(angle)};
+        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, p, q), angle / M_PI, 3e-16);
+        assert_near(koksma__domain_separates(KOKSMA__HEMISPHERE, q, p), angle / M_PI, 3e-16);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(disks_that_touch),
+        cmocka_unit_test(points_that_are_opposite),
         cmocka_unit_test(quadrature_and_elliptic_integrals),
         cmocka_unit_test(cap_potentials),
         cmocka_unit_test(warps_carry_the_measure),

@@ -177,8 +177,12 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
     return spread ? status : koksma__closest_pair(points, torus, run, distance);
 }
 
-koksma_status koksma__min_distance(const koksma_points *points, bool torus, const koksma_run *run, double *distance)
+koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
+                                   double *distance)
 {
+    if (points->n < 2) {
+        return koksma__fail(KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
+    }
     double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {

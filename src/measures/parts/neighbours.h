@@ -13,8 +13,9 @@ typedef bool (*koksma__near_pair_function)(void *context, double distance2);
 koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                  koksma__near_pair_function f, void *context);
 
-/* The smallest distance between two points; infinite for one point. n for spread points, else n log n.
-   Errors: MEMORY, INTERRUPTED. */
-koksma_status koksma__min_distance(const koksma_points *points, bool torus, const koksma_run *run, double *distance);
+/* The smallest distance between two points: n for spread points, else n log n. name: the measure's, for the error of
+   one point. Errors: N, MEMORY, INTERRUPTED. */
+koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
+                                   double *distance);
 
 #endif

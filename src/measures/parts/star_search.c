@@ -1,7 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Threshold accepting over corners (after Gnewuch, Wahlstrom and Winzen 2012). A step moves some coordinates by a
-   bounded number of ranks and then snaps: a closed box shrinks to its points, an open one grows until points stop it;
-   both only gain. The moves get smaller and the thresholds, first the spread of random corners, go to zero. */
+/*
+ * A lower bound of the star discrepancy by threshold accepting over corners (Gnewuch, Wahlstrom and Winzen 2012),
+ * with walks of their own for closed boxes (excess) and open ones (deficit).
+ *
+ * Where the paper snaps a corner to the nearest corner that is critical, a step here climbs to one that no single
+ * coordinate can better: with the other coordinates kept, a pass over the points in order of coordinate k, counting
+ * those inside along the others, gives the value of every end of the box along k, and the best is taken; until a
+ * round over all coordinates gains nothing. Every point has the number of coordinates along which it is outside, so
+ * that a pass is one look at each point, and moving an end looks at the points between the two places.
+ *
+ * A step moves some coordinates by a bounded number of ranks, climbs, and goes back unless the value is at least the
+ * last one's less a threshold. The moves get smaller and the threshold goes to zero.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,10 +23,19 @@
 #include "measures/parts/order.h"
 #include "measures/parts/star.h"
 
+enum { DIMS = KOKSMA__STAR_MAX_DIM, MANY = 1 << 14 };
+
 typedef struct walk {
     const koksma_points *points;
     size_t n, dim;
-    double *levels; /* dim rows of n + 1: coordinates in order, then 1 */
+    double *levels;   /* dim rows of n + 1: coordinates in order, then 1 */
+    uint32_t *orders; /* dim rows of n: the points in this order */
+    /* The box: corner[k] is a level, below it or, of closed boxes, up to it are cut[k] points; outside[i] counts the
+       coordinates along which point i is not among them. */
+    bool closed;
+    double corner[DIMS];
+    size_t cut[DIMS];
+    uint8_t *outside;
     uint64_t seed, index;
     uint32_t lane, n_walks; /* lane: which walk this is */
     const koksma_run *run;
@@ -31,12 +50,19 @@ static double draw(walk *w)
     return pair[0];
 }
 
+static size_t draw_below(walk *w, size_t n)
+{
+    return (size_t)(draw(w) * (double)n);
+}
+
+/* The first level of coordinate k that is not below x. */
 static size_t rank_of(const walk *w, size_t k, double x)
 {
+    const double *levels = w->levels + k * (w->n + 1);
     size_t low = 0, high = w->n;
     while (low < high) {
         const size_t middle = (low + high) / 2;
-        if (w->levels[k * (w->n + 1) + middle] < x) {
+        if (levels[middle] < x) {
             low = middle + 1;
         } else {
             high = middle;
@@ -45,86 +71,54 @@ static size_t rank_of(const walk *w, size_t k, double x)
     return low;
 }
 
-/* The value of the closed box that just holds the points in corner; corner becomes it. */
-static double shrink(const walk *w, double *corner)
+/* Ends the box along coordinate k at level `rank`. */
+static void set_end(walk *w, size_t k, size_t rank)
 {
-    double tight[KOKSMA__STAR_MAX_DIM] = {0}, volume = 1;
-    size_t count = 0;
-    for (size_t i = 0; i < w->n; i++) {
-        const double *x = w->points->xs + i * w->dim;
-        bool in = true;
-        for (size_t k = 0; k < w->dim && in; k++) {
-            in = x[k] <= corner[k];
+    const double *levels = w->levels + k * (w->n + 1);
+    const uint32_t *order = w->orders + k * w->n;
+    size_t cut = rank;
+    w->corner[k] = levels[rank];
+    while (!w->closed && cut > 0 && levels[cut - 1] == levels[rank]) {
+        cut--;
+    }
+    while (w->closed && cut < w->n && levels[cut] == levels[rank]) {
+        cut++;
+    }
+    for (size_t p = w->cut[k]; p < cut; p++) {
+        w->outside[order[p]]--;
+    }
+    for (size_t p = cut; p < w->cut[k]; p++) {
+        w->outside[order[p]]++;
+    }
+    w->cut[k] = cut;
+}
+
+/* Ends the box along coordinate k where its value is largest; n times this value. */
+static double best_end(walk *w, size_t k)
+{
+    const double *levels = w->levels + k * (w->n + 1);
+    const uint32_t *order = w->orders + k * w->n;
+    const size_t cut = w->cut[k];
+    double scale = (double)w->n, best = -INFINITY, count = 0;
+    size_t at = w->n;
+    for (size_t j = 0; j < w->dim; j++) {
+        scale *= j == k ? 1 : w->corner[j];
+    }
+    for (size_t p = 0; p < w->n; p++) {
+        if (w->outside[order[p]] == (p >= cut)) {
+            const double value = w->closed ? count + 1 - scale * levels[p] : scale * levels[p] - count;
+            count++;
+            at = value > best ? p : at;
+            best = value > best ? value : best;
         }
-        for (size_t k = 0; k < w->dim && in; k++) {
-            tight[k] = x[k] > tight[k] ? x[k] : tight[k];
-        }
-        count += in;
     }
-    for (size_t k = 0; k < w->dim; k++) {
-        corner[k] = tight[k];
-        volume *= tight[k];
+    const double last = w->closed ? count - scale : scale - count;
+    if (last > best) {
+        at = w->n;
+        best = last;
     }
-    return (double)count / (double)w->n - volume;
-}
-
-/* Grows the open box in coordinates first, first + 1, .. (around) as far as no point comes in. */
-static double grow(const walk *w, double *corner, size_t first)
-{
-    double volume = 1;
-    size_t count = 0;
-    for (size_t step = 0; step < w->dim; step++) {
-        const size_t free_k = (first + step) % w->dim;
-        double end = 1;
-        count = 0;
-        for (size_t i = 0; i < w->n; i++) {
-            const double *x = w->points->xs + i * w->dim;
-            bool in = true;
-            for (size_t k = 0; k < w->dim && in; k++) {
-                in = k == free_k || x[k] < corner[k];
-            }
-            if (in && x[free_k] < corner[free_k]) {
-                count++;
-            } else if (in && x[free_k] < end) {
-                end = x[free_k];
-            }
-        }
-        corner[free_k] = end;
-        volume *= end;
-    }
-    return volume - (double)count / (double)w->n;
-}
-
-static double snap(walk *w, double *corner, bool closed)
-{
-    return closed ? shrink(w, corner) : grow(w, corner, (size_t)(draw(w) * (double)w->dim));
-}
-
-static void random_corner(walk *w, double *corner)
-{
-    for (size_t k = 0; k < w->dim; k++) {
-        const double u = pow(draw(w), 1.0 / (double)w->dim);
-        corner[k] = w->levels[k * (w->n + 1) + rank_of(w, k, u)];
-    }
-}
-
-/* From corner: each of m coordinates goes to a level within `reach` ranks. */
-static void move(walk *w, const double *corner, size_t m, size_t reach, double *to)
-{
-    memcpy(to, corner, w->dim * sizeof *to);
-    for (size_t c = 0; c < m; c++) {
-        const size_t k = (size_t)(draw(w) * (double)w->dim);
-        const size_t rank = rank_of(w, k, corner[k]), low = rank > reach ? rank - reach : 0;
-        const size_t high = rank + reach < w->n ? rank + reach : w->n;
-        to[k] = w->levels[k * (w->n + 1) + low + (size_t)(draw(w) * (double)(high - low + 1))];
-    }
-}
-
-static void keep_best(const walk *w, double value, const double *corner, bool closed, koksma_value *out)
-{
-    if (!(value <= out->value)) {
-        koksma__star_keep(w->points, corner, closed, out);
-    }
+    set_end(w, k, at);
+    return best;
 }
 
 /* True when the walk is to end: out of time, or told to stop. */
@@ -135,32 +129,71 @@ static bool ends(walk *w, double fraction_done)
     return w->stopped || w->late;
 }
 
-/* One corner is looked at in any case. */
-static void run_walk(walk *w, size_t steps, bool closed, koksma_value *out)
+/* To a box that is best along each coordinate, or as far as time allows; its value. */
+static double climb(walk *w, double fraction_done)
 {
-    double corner[KOKSMA__STAR_MAX_DIM], other[KOKSMA__STAR_MAX_DIM], spread = 0;
-    random_corner(w, corner);
-    double value = snap(w, corner, closed);
-    for (int i = 0; i < 8 && !(i > 0 && ends(w, 0)); i++) {
-        random_corner(w, other);
-        const double gained = snap(w, other, closed);
-        keep_best(w, gained, other, closed, out);
-        spread += fabs(gained - value) / 8;
-        if (gained > value) {
-            value = gained;
-            memcpy(corner, other, sizeof corner);
+    const size_t first = draw_below(w, w->dim);
+    double value = -INFINITY;
+    for (size_t pass = 0, without_gain = 0; without_gain < w->dim; pass++) {
+        if (pass > 0 && w->n > MANY && ends(w, fraction_done)) {
+            break;
         }
+        const double next = best_end(w, (first + pass) % w->dim);
+        without_gain = next > value + 1e-12 * (double)w->n ? 1 : without_gain + 1;
+        value = next;
     }
+    return value / (double)w->n;
+}
+
+static double random_box(walk *w)
+{
+    for (size_t k = 0; k < w->dim; k++) {
+        set_end(w, k, rank_of(w, k, pow(draw(w), 1.0 / (double)w->dim)));
+    }
+    return climb(w, 0);
+}
+
+/* Each of m coordinates goes to a level within `reach` ranks. */
+static void move(walk *w, size_t m, size_t reach)
+{
+    for (size_t c = 0; c < m; c++) {
+        const size_t k = draw_below(w, w->dim);
+        const size_t rank = rank_of(w, k, w->corner[k]), low = rank > reach ? rank - reach : 0;
+        const size_t high = rank + reach < w->n ? rank + reach : w->n;
+        set_end(w, k, low + draw_below(w, high - low + 1));
+    }
+}
+
+static void keep_best(const walk *w, double value, koksma_value *out)
+{
+    if (!(value <= out->value)) {
+        koksma__star_keep(w->points, w->corner, w->closed, out);
+    }
+}
+
+/* One box is looked at in any case. */
+static void run_walk(walk *w, size_t steps, koksma_value *out)
+{
+    double kept[DIMS];
+    for (size_t k = 0; k < w->dim; k++) {
+        w->cut[k] = w->n;
+    }
+    memset(w->outside, 0, w->n);
+    double value = random_box(w);
+    keep_best(w, value, out);
+    const double threshold = value / 10;
     for (size_t step = 0; step < steps && !ends(w, (double)step / (double)steps); step++) {
-        const double left = 1 - (double)step / (double)steps;
-        const size_t reach = 1 + (size_t)((double)w->n / 8 * left);
-        const size_t m = 1 + (size_t)(draw(w) * (double)(w->dim < 2 ? 1 : w->dim));
-        move(w, corner, m, reach, other);
-        const double next = snap(w, other, closed);
-        if (next >= value - spread * left * left / 4) {
+        const double done = (double)step / (double)steps, left = 1 - done;
+        memcpy(kept, w->corner, sizeof kept);
+        move(w, 1 + draw_below(w, w->dim), 1 + (size_t)((double)w->n / 2 * left));
+        const double next = climb(w, done);
+        if (next >= value - threshold * left) {
             value = next;
-            memcpy(corner, other, sizeof corner);
-            keep_best(w, value, corner, closed, out);
+            keep_best(w, value, out);
+        } else {
+            for (size_t k = 0; k < w->dim; k++) {
+                set_end(w, k, rank_of(w, k, kept[k]));
+            }
         }
     }
 }
@@ -168,7 +201,8 @@ static void run_walk(walk *w, size_t steps, bool closed, koksma_value *out)
 koksma_status koksma__star_search(const koksma_points *points, const koksma_run *run, uint64_t seed, size_t steps,
                                   size_t restarts, double deadline_s, koksma_value *out)
 {
-    const size_t n = points->n, dim = (size_t)points->dim, bytes = dim * (n + 1) * sizeof(double) + n * 4;
+    const size_t n = points->n, dim = (size_t)points->dim;
+    const size_t bytes = dim * (n + 1) * sizeof(double) + dim * n * sizeof(uint32_t) + n;
     walk w = {.points = points,
               .n = n,
               .dim = dim,
@@ -180,9 +214,11 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
     if (!w.levels) {
         return koksma__fail_memory(bytes);
     }
-    uint32_t *order = (uint32_t *)(w.levels + dim * (n + 1));
+    w.orders = (uint32_t *)(w.levels + dim * (n + 1));
+    w.outside = (uint8_t *)(w.orders + dim * n);
     koksma_status status = KOKSMA_OK;
     for (size_t k = 0; k < dim && !status; k++) {
+        uint32_t *order = w.orders + k * n;
         status = koksma__order(run, n, points->xs + k, dim, order);
         for (size_t i = 0; i < n && !status; i++) {
             w.levels[k * (n + 1) + i] = points->xs[order[i] * dim + k];
@@ -190,7 +226,7 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
         w.levels[k * (n + 1) + n] = 1;
     }
     if (!status) { /* the whole cube, to have a box in any case */
-        double ones[KOKSMA__STAR_MAX_DIM];
+        double ones[DIMS];
         for (size_t k = 0; k < dim; k++) {
             ones[k] = 1;
         }
@@ -199,7 +235,8 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
     for (size_t r = 0; r < 2 * restarts && !status && !w.late; r++) {
         w.lane = (uint32_t)r;
         w.index = 0;
-        run_walk(&w, steps, r % 2, out);
+        w.closed = r % 2;
+        run_walk(&w, steps, out);
         status = w.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
     }
     free(w.levels);

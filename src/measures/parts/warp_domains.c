@@ -71,10 +71,12 @@ double koksma__disks_share(double r, double distance)
     if (distance <= fabs(1 - r)) {
         return M_PI * small * small;
     }
-    const double d2 = distance * distance, r2 = r * r;
-    const double a = fmin(1, fmax(-1, (d2 + 1 - r2) / (2 * distance)));
-    const double b = fmin(1, fmax(-1, (d2 + r2 - 1) / (2 * distance * r)));
-    return acos(a) - a * sqrt(1 - a * a) + r2 * (acos(b) - b * sqrt(1 - b * b));
+    /* Two circular segments. Heron's product, four times the square of the area of the triangle of the centres and a
+       point where the circles meet, does not cancel where these touch. */
+    const double square = distance * distance, rest = (1 - r) * (1 + r);
+    const double height =
+        sqrt(fmax((1 + r - distance) * (distance + r - 1) * (distance - r + 1) * (distance + r + 1), 0));
+    return atan2(height, square + rest) + r * r * atan2(height, square - rest) - height / 2;
 }
 
 /* ---- The triangle (0,0) (1,0) (0,1) ------------------------------------------------------------------- */
@@ -201,9 +203,13 @@ double koksma__domain_separates(koksma__domain_kind kind, const double *p, const
     if (kind != KOKSMA__HEMISPHERE) {
         return line_density(kind) * hypot(p[0] - q[0], p[1] - q[1]);
     }
-    const double apart =
-        sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
-    return 2 * asin(fmin(apart / 2, 1)) / M_PI;
+    double minus = 0, plus = 0;
+    for (int k = 0; k < 3; k++) {
+        minus += (p[k] - q[k]) * (p[k] - q[k]);
+        plus += (p[k] + q[k]) * (p[k] + q[k]);
+    }
+    return 2 * atan2(sqrt(minus), sqrt(plus)) /
+           M_PI; /* an arc sine of half the distance is coarse near opposite points */
 }
 
 double koksma__domain_potential(koksma__domain_kind kind, const double *p)

@@ -8,6 +8,7 @@
 #include "kernels/kernels.h"
 #include "measures/parts/quadrature.h"
 #include "measures/parts/warp_disks.h"
+#include "measures/parts/warp_domains.h"
 
 enum { BLOCK = 64 };
 
@@ -21,42 +22,25 @@ typedef struct rows {
     koksma__sum *pairs, *linear; /* by block */
 } rows;
 
-static double angle_of(double cosine)
-{
-    return acos(fmax(fmin(cosine, 1), -1));
-}
-
-/* The area that D shares with a disk of radius r <= 1 at distance p. */
-static double shared_area(double p, double r)
-{
-    if (p >= 1 + r) {
-        return 0;
-    }
-    if (p <= 1 - r) {
-        return M_PI * r * r;
-    }
-    const double product = (1 + r - p) * (p + r - 1) * (p - r + 1) * (p + r + 1);
-    return r * r * angle_of((p * p + r * r - 1) / (2 * p * r)) + angle_of((p * p + 1 - r * r) / (2 * p)) -
-           sqrt(fmax(product, 0)) / 2;
-}
-
 static double whole_circle(double p, const void *context)
 {
     const ring *g = context;
-    return 2 * M_PI * p * shared_area(p, g->r) / M_PI;
+    return 2 * M_PI * p * koksma__disks_share(g->r, p) / M_PI;
 }
 
 /* The arc of the circle of radius p about the origin that is within r of the point. */
 static double arc(double p, const void *context)
 {
     const ring *g = context;
-    return 2 * p * angle_of((p * p + g->s * g->s - g->r * g->r) / (2 * g->s * p)) * shared_area(p, g->r) / M_PI;
+    const double near = fmax((g->r - p + g->s) * (g->r + p - g->s), 0),
+                 far = fmax((p + g->s - g->r) * (p + g->s + g->r), 0); /* of the triangle's half angle, by Heron */
+    return 4 * p * atan2(sqrt(near), sqrt(far)) * koksma__disks_share(g->r, p) / M_PI;
 }
 
 static double square_of_share(double p, const void *context)
 {
     const ring *g = context;
-    const double share = shared_area(p, g->r) / M_PI;
+    const double share = koksma__disks_share(g->r, p) / M_PI;
     return 2 * M_PI * p * share * share;
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/net.h"
 #include "core/points_io.h"
 #include "core/room.h"
 #include "core/status.h"
@@ -44,6 +45,20 @@ void koksma_findings_fini(koksma_findings *findings)
     }
 }
 
+/* How many points each of the n cells holds that m[k] strata along each of the first dim coordinates of `use` make.
+ */
+static void count_cells(const koksma_points *points, const int *use, const size_t *m, int dim, uint32_t *counts)
+{
+    memset(counts, 0, points->n * sizeof *counts);
+    for (size_t i = 0; i < points->n; i++) {
+        size_t cell = 0;
+        for (int k = 0; k < dim; k++) {
+            cell = cell * m[k] + koksma__stratum(points->xs[i * (size_t)points->dim + (size_t)use[k]], m[k]);
+        }
+        counts[cell]++;
+    }
+}
+
 static koksma_status add_strata(const koksma_points *points, const int *use, const size_t *m, int dim,
                                 const char *subject, uint32_t *counts, koksma_findings *findings)
 {
@@ -51,7 +66,7 @@ static koksma_status add_strata(const koksma_points *points, const int *use, con
     if (!f) {
         return KOKSMA_MEMORY;
     }
-    koksma__wrong_cells(points, points->n, use, m, dim, 1, 1, counts);
+    count_cells(points, use, m, dim, counts);
     size_t empty = 0;
     for (size_t c = 0; c < points->n; c++) {
         empty += counts[c] == 0;
@@ -138,22 +153,23 @@ static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
 static koksma_status verify_origin(const koksma_points *points, uint32_t *counts, koksma_findings *findings)
 {
     const size_t count = at_origin(points);
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_REPEATED);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_UNIQUE);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count <= 1;
-    f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_MISSING);
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin", count);
+    f = koksma__finding(findings, KOKSMA__PROPERTY_ORIGIN_PRESENT);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count > 0 || !is_sequence_from_one(points, counts);
-    if (!f->holds) {
-        snprintf(f->detail, sizeof f->detail,
-                 "different multiples of 2^-m in each coordinate: an unscrambled sequence without its first");
-    }
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin%s", count,
+             count > 0  ? ""
+             : f->holds ? ", where only unscrambled sequences need one"
+                        : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
     return KOKSMA_OK;
 }
 
@@ -166,14 +182,16 @@ static koksma_status verify_floats(const koksma_points *points, koksma_findings 
             first = i / (size_t)points->dim;
         }
     }
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_ROUNDS_TO_ONE);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_BELOW_ONE_AS_FLOAT);
     if (!f) {
         return KOKSMA_MEMORY;
     }
     f->value = (double)count;
     f->holds = count == 0;
+    const size_t all = points->n * (size_t)points->dim;
+    int used = snprintf(f->detail, sizeof f->detail, "%zu of %zu coordinates become 1", count, all);
     if (count) {
-        snprintf(f->detail, sizeof f->detail, "first: point %zu", first);
+        snprintf(f->detail + used, sizeof f->detail - (size_t)used, ", first of point %zu", first);
     }
     return KOKSMA_OK;
 }
@@ -230,7 +248,7 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
     uint32_t *counts = malloc((points->n + 1) * sizeof *counts);
     status = counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *counts);
     if (!status) {
-        status = koksma__verify_nets(points, run, counts, findings);
+        status = koksma__verify_nets(points, run, findings);
     }
     if (!status) {
         status = koksma__verify_strata(points, counts, findings);

@@ -110,8 +110,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
         return status;
     }
     if (points->n == 1) {
-        *distance = INFINITY;
-        return KOKSMA_OK;
+        return koksma__fail(KOKSMA_N, "smallest distance: n = 1: one point has no distance; two points or more have");
     }
     if (points->dim == 2) {
         return koksma__closest_pair(points, torus, run, distance);
@@ -137,11 +136,12 @@ koksma_status koksma__verify_distances(const koksma_points *points, const koksma
         repeated += compare_places(&sorted[i], &sorted[i - 1]) == 0;
     }
     free(sorted);
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_REPEATED);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_DISTINCT);
     koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
     if (!status) {
         f->value = (double)repeated;
         f->holds = repeated == 0;
+        snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);
     }
     for (int torus = 0; torus < 2 && n > 1 && !status && (points->dim == 2 || n <= 20000); torus++) {
         double distance;

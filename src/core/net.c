@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The quality t of nets: n = b^m points are a (t,m,s)-net in base b if every elementary interval, a product of
+ * [a/b^k, (a+1)/b^k), of volume b^(t-m) holds b^t of them (Niederreiter 1992). Smaller is better; t = m always holds,
+ * and a (t,m,s)-net is a (t+1,m,s)-net, so that the first t that holds is the least.
+ *
+ * Most fractions a/b^k are no doubles unless b is a power of two: 1/5 times 5 rounds to 1, but 1/49 times 49 to less
+ * than 1. So a stratum is bounded by the doubles nearest to its fractions (a quotient of whole numbers is rounded
+ * once), and a coordinate that is the double nearest to a/b^k counts as this fraction. Equal fractions have one
+ * nearest double: the stratum of x among b^k is that among b^m over b^(m-k), and a point's strata are searched for
+ * once. The shapes with m - t digits are C(m - t + s - 1, s - 1), each a pass over the points.
+ */
+#include "core/net.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+
+size_t koksma__stratum(double x, size_t m)
+{
+    size_t j = (size_t)(x * (double)m);
+    j = j < m ? j : m - 1;
+    while (j > 0 && x < (double)j / (double)m) {
+        j--;
+    }
+    while (j + 1 < m && x >= (double)(j + 1) / (double)m) {
+        j++;
+    }
+    return j;
+}
+
+koksma_status koksma__net_init(const koksma_points *points, size_t base, koksma__net *net)
+{
+    const size_t n = points->n, row = (size_t)points->dim;
+    *net = (koksma__net){.base = base, .n = n, .row = row, .powers = {1}};
+    while (net->powers[net->digits] <= n / base) {
+        net->powers[net->digits + 1] = net->powers[net->digits] * (uint32_t)base;
+        net->digits++;
+    }
+    net->strata = malloc(n * (row + 1) * sizeof *net->strata);
+    if (!net->strata) {
+        return koksma__fail_memory(n * (row + 1) * sizeof *net->strata);
+    }
+    net->counts = net->strata + n * row;
+    for (size_t i = 0; i < n * row; i++) {
+        net->strata[i] = (uint32_t)koksma__stratum(points->xs[i], net->powers[net->digits]);
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__net_fini(koksma__net *net)
+{
+    free(net->strata);
+    *net = (koksma__net){0};
+}
+
+/* A search for intervals of one volume that hold another number of points than `each`. */
+typedef struct search {
+    const koksma__net *net;
+    const int *use;
+    int dim;
+    size_t n, cells;
+    uint32_t each;
+    uint32_t sides[KOKSMA_MAX_DIM]; /* strata along each coordinate */
+    const koksma_run *run;
+    bool stopped;
+} search;
+
+/* Whether all intervals of this shape hold the same number of points; false also when told to stop. */
+static bool is_even(search *s)
+{
+    const koksma__net *net = s->net;
+    const uint32_t finest = net->powers[net->digits];
+    s->stopped = !koksma__keep_going(s->run, 0);
+    if (s->stopped) {
+        return false;
+    }
+    memset(net->counts, 0, s->cells * sizeof *net->counts);
+    for (size_t i = 0; i < s->n; i++) {
+        size_t cell = 0;
+        for (int k = 0; k < s->dim; k++) {
+            if (s->sides[k] > 1) {
+                cell = cell * s->sides[k] + net->strata[i * net->row + (size_t)s->use[k]] / (finest / s->sides[k]);
+            }
+        }
+        if (++net->counts[cell] > s->each) {
+            return false;
+        }
+    }
+    return true; /* none has more, so none has less */
+}
+
+/* All ways to share `left` digits among coordinates k and later. */
+static bool all_even(search *s, int k, int left)
+{
+    if (k + 1 == s->dim) {
+        s->sides[k] = s->net->powers[left];
+        return is_even(s);
+    }
+    for (int digits = 0; digits <= left; digits++) {
+        s->sides[k] = s->net->powers[digits];
+        if (!all_even(s, k + 1, left - digits)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+koksma_status koksma__net_quality(const koksma__net *net, int m, const int *use, int dim, const koksma_run *run,
+                                  int *t)
+{
+    search s = {.net = net, .use = use, .dim = dim, .n = net->powers[m], .run = run};
+    for (*t = 0; *t < m && !s.stopped; ++*t) {
+        s.each = net->powers[*t];
+        s.cells = net->powers[m - *t];
+        if (all_even(&s, 0, m - *t)) {
+            break;
+        }
+    }
+    return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+}
