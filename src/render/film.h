@@ -34,8 +34,9 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
 void koksma__film_fini(koksma__film *film);
 
 /* Moves samples from the pixel to places that the filter chooses, and weighs them: film places of a group that was
-   drawn on the unit square of each pixel. */
-void koksma__film_place(const koksma__frame *frame, const koksma__group *group, koksma__values *values);
+   drawn on the unit square of each pixel. all: the group has all samples of its pixels, and weights become those in
+   the pixels' means (film.c); else they are those of the draws (filters.h). */
+void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values);
 
 /* The room for splats of a task. */
 koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *film, size_t task, int first_row,

@@ -95,7 +95,7 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     koksma_status status =
         koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
     if (!status) {
-        koksma__film_place(f, group, &r->pixels.values);
+        koksma__film_place(f, group, false, &r->pixels.values);
         status = j->pipeline->trace(f, r->pixels.own, group, &r->pixels.values);
     }
     for (size_t p = 0; !status && p < group->count; p++) {
