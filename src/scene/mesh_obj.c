@@ -25,6 +25,7 @@ typedef struct obj {
     size_t number;         /* of the line that was read last */
     size_t count[KINDS];   /* so far */
     size_t highest[KINDS]; /* that was named, counted from 1 */
+    size_t line_of[KINDS]; /* that names it first */
     koksma__obj_names names;
     koksma__unread *unread;
     koksma__bytes *out;
@@ -111,7 +112,10 @@ static bool take_index(obj *o, int kind, const char **text)
         value = 10 * value + (size_t)(*digits - '0');
     }
     *text = digits;
-    o->highest[kind] = !back && value > o->highest[kind] ? value : o->highest[kind];
+    if (!back && value > o->highest[kind]) {
+        o->highest[kind] = value;
+        o->line_of[kind] = o->number;
+    }
     return value && value < KOKSMA__MAX_VERTICES && (!back || value <= o->count[kind]);
 }
 
@@ -263,8 +267,8 @@ koksma_status koksma__obj_clean(const char *path, const unsigned char *file, siz
     }
     for (int kind = 0; !status && kind < KINDS; kind++) {
         if (o->highest[kind] > o->count[kind]) {
-            status = koksma__fail(KOKSMA_MALFORMED, "%s: a corner names %s %zu; there are %zu", path, names[kind],
-                                  o->highest[kind], o->count[kind]);
+            status = koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: a corner names %s %zu; there are %zu", path,
+                                  o->line_of[kind], names[kind], o->highest[kind], o->count[kind]);
         }
     }
     if (!status) {
