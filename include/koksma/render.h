@@ -172,6 +172,18 @@ typedef struct koksma_layers {
 
 KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
 
+/* Bytes that a picture by these options takes, beside the scene and a few MiB for each thread (with splatting, a few
+   rows of pixels more for each). */
+typedef struct koksma_render_size {
+    uint64_t film;    /* the image and its layers, and sums of splats */
+    uint64_t samples; /* of scope image, which are drawn beforehand: at their peak */
+    uint64_t file;    /* what is written, uncompressed: made in memory when the picture is done */
+} koksma_render_size;
+
+/* all_layers: as koksma_render_layers has it, and an EXR keeps it. */
+KOKSMA_API koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,
+                                                    bool all_layers);
+
 /* Renders; allocates out. Equal arguments give equal bits on any number of threads. run may be NULL.
    Errors: ARGUMENT, what the pattern says about spp (N, DIM, IMPOSSIBLE, …), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,

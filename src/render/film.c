@@ -16,7 +16,7 @@
  *
  * Splatted samples reach the pixels around: their sums are kept by task and added in the order of tasks, so that
  * threads change nothing; those of a task that is done wait only for the tasks before it. A pixel of an image-wide
- * pattern, or of splatted samples, that got none takes its value from the pixels around it (fill_gaps); its count
+ * pattern, or of splatted samples, that got none takes its value from the pixels around it (film_gaps.c); its count
  * says 0.
  *
  * The layer `variance` is that of a pixel's luminance m, from its samples y_i of weight w_i as if independent. Drawn
@@ -40,6 +40,21 @@
 /* What the variance of splatted samples takes beside W and the sum of w y, in this order. */
 enum { SUM_W2, SUM_W3, SUM_W2_Y, SUM_W2_Y2, N_MOMENTS };
 
+/* Numbers of a pixel in the layers beside the image. */
+enum { SAMPLES = 1, OTHER_LAYERS = 3 + 3 + 1 + 1 };
+
+size_t koksma__film_numbers(int channels, bool all_layers)
+{
+    return (size_t)channels + 1 + (all_layers ? N_MOMENTS : 0);
+}
+
+uint64_t koksma__film_size(uint64_t pixels, int channels, bool all_layers, bool splat)
+{
+    const size_t floats = (size_t)channels + SAMPLES + (all_layers ? OTHER_LAYERS : 0) + splat; /* weights */
+    return pixels *
+           (floats * sizeof(float) + (splat ? koksma__film_numbers(channels, all_layers) : 0) * sizeof(double));
+}
+
 koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, size_t n_tasks, koksma_layers *layers,
                                 koksma__film *out)
 {
@@ -56,7 +71,7 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
     }
     if (!status && frame->options->splat) {
         out->reach = (int)ceil(frame->options->filter->radius - 0.5) + 1;
-        out->numbers = (size_t)frame->channels + 1 + (all_layers ? N_MOMENTS : 0);
+        out->numbers = koksma__film_numbers(frame->channels, all_layers);
         const size_t numbers = (size_t)width * (size_t)height * out->numbers;
         out->splats = calloc(n_tasks + 1, sizeof *out->splats);
         out->sums = calloc(numbers, sizeof *out->sums);
@@ -304,71 +319,6 @@ static void finish_splats(const koksma__frame *frame, koksma__film *film, bool w
     }
 }
 
-/* Pixels by their distance from those that have something, in steps to any of the eight around; those are 0. */
-typedef struct gaps {
-    int *steps; /* -1: not reached yet */
-    size_t *queue, n;
-} gaps;
-
-typedef struct around {
-    int x0, x1, y0, y1; /* a pixel and its neighbours, the last ones too */
-} around;
-
-static around around_of(const koksma_image *image, size_t pixel)
-{
-    const int x = (int)(pixel % (size_t)image->width), y = (int)(pixel / (size_t)image->width);
-    return (around){x ? x - 1 : x, x + 1 < image->width ? x + 1 : x, y ? y - 1 : y,
-                    y + 1 < image->height ? y + 1 : y};
-}
-
-/* The mean of the neighbours that are one step nearer; and those that are reached from here queue up. */
-static void fill_pixel(koksma_image *image, gaps *g, size_t pixel)
-{
-    const around a = around_of(image, pixel);
-    const size_t channels = (size_t)image->channels;
-    double sum[3] = {0, 0, 0};
-    int n = 0;
-    for (int y = a.y0; y <= a.y1; y++) {
-        for (int x = a.x0; x <= a.x1; x++) {
-            const size_t i = (size_t)y * (size_t)image->width + (size_t)x;
-            if (g->steps[i] < 0) {
-                g->steps[i] = g->steps[pixel] + 1;
-                g->queue[g->n++] = i;
-            } else if (g->steps[i] < g->steps[pixel]) {
-                for (size_t k = 0; k < channels; k++) {
-                    sum[k] += (double)image->pixels[i * channels + k];
-                }
-                n++;
-            }
-        }
-    }
-    for (size_t k = 0; n && k < channels; k++) {
-        image->pixels[pixel * channels + k] = (float)(sum[k] / n);
-    }
-}
-
-/* has: the number of samples, or the sum of weights. Pixels that have none are filled from the nearest outwards, each
-   by the mean of its neighbours that are one step nearer: once round the image, however wide the gaps are. */
-static koksma_status fill_gaps(koksma_image *image, const float *has)
-{
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    gaps g = {malloc(pixels * sizeof *g.steps), malloc(pixels * sizeof *g.queue), 0};
-    const koksma_status status =
-        g.steps && g.queue ? KOKSMA_OK : koksma__fail_memory(pixels * (sizeof *g.steps + sizeof *g.queue));
-    for (size_t i = 0; !status && i < pixels; i++) {
-        g.steps[i] = has[i] > 0 ? 0 : -1;
-        if (has[i] > 0) {
-            g.queue[g.n++] = i;
-        }
-    }
-    for (size_t at = 0; !status && at < g.n; at++) {
-        fill_pixel(image, &g, g.queue[at]);
-    }
-    free(g.steps);
-    free(g.queue);
-    return status;
-}
-
 koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole)
 {
     koksma_image *image = &film->layers->image;
@@ -386,7 +336,7 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
         any = !(has[i] > 0);
     }
     const bool fills = whole && any && (film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE);
-    const koksma_status status = fills ? fill_gaps(image, has) : KOKSMA_OK;
+    const koksma_status status = fills ? koksma__film_fill_gaps(image, has) : KOKSMA_OK;
     free(weights);
     return status;
 }
