@@ -196,8 +196,10 @@ static koksma_status take_line(obj *o)
     cut_blanks(o->line);
     const char *word = skip_blanks(o->line), *rest = word + strcspn(word, " \t");
     const size_t length = (size_t)(rest - word);
-    static const char *const vertices[KINDS] = {"v", "vt", "vn"}, *const names[] = {"mtllib", "usemtl", "o", "g",
-                                                                                    "s"};
+    static const char *const vertices[KINDS] = {[PLACE] = "v", [TEXTURE] = "vt", [NORMAL] = "vn"}, *const names[] = {
+                                                                                                       "mtllib",
+                                                                                                       "usemtl", "o",
+                                                                                                       "g", "s"};
     for (int kind = 0; kind < KINDS; kind++) {
         if (length == strlen(vertices[kind]) && !memcmp(word, vertices[kind], length)) {
             int n = 0;
@@ -247,7 +249,7 @@ static void note_unmade(obj *o)
 koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
                                 koksma__bytes *out)
 {
-    static const char *const names[] = {"vertex", "texture vertex", "normal"};
+    static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
     koksma_status status = KOKSMA_OK;
     obj *o = calloc(1, sizeof *o);
     if (!o) {

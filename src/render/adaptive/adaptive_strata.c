@@ -15,7 +15,8 @@
 /* Strata of all pixels: 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
 
-const char *const koksma__reuse_names[] = {"kept", "renewed", "fresh", NULL};
+const char *const koksma__reuse_names[] = {
+    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
