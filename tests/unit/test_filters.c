@@ -94,7 +94,7 @@ static void filters_keep_a_ramp(void **state)
 static void few_draws_have_no_bias(void **state)
 {
     (void)state;
-    enum { SEEDS = 150, HEIGHT = 9 };
+    enum { SEEDS = 100, HEIGHT = 9 };
     koksma_scene *scene =
         scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90}, \"ambient\": 1,"
                  "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
@@ -152,7 +152,7 @@ static void drawing_is_near_splatting(void **state)
     assert_ok(koksma_scene_open("ball", &scene));
     const koksma_filter *f;
     for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
-        koksma_render_options options = options_of(scene, "sobol:scramble=owen", "distribution", 512, 64);
+        koksma_render_options options = options_of(scene, "sobol:scramble=owen", "distribution", 256, 64);
         koksma_image reference, image;
         options.filter = f;
         options.splat = true;
