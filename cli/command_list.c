@@ -146,7 +146,10 @@ static void list_adaptive(cli_rows *rows)
 
 static void list_warps(cli_rows *rows)
 {
-    static const char *const domains[] = {"disk", "triangle", "hemisphere", "hemisphere, density z/pi"};
+    static const char *const domains[] = {[KOKSMA_DOMAIN_DISK] = "disk",
+                                          [KOKSMA_DOMAIN_TRIANGLE] = "triangle",
+                                          [KOKSMA_DOMAIN_HEMISPHERE] = "hemisphere",
+                                          [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "hemisphere, density z/pi"};
     const koksma_warp *w;
     for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
         cli_row_text(rows, "warp", w->name);

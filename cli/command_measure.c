@@ -23,7 +23,10 @@ static void put_corner(char *text, size_t size, const double *xs, int dim)
 
 static void put_witness(cli_rows *rows, const koksma_witness *w)
 {
-    static const char *const kinds[] = {"none", "box", "half-plane", "disk"};
+    static const char *const kinds[] = {[KOKSMA_WITNESS_NONE] = "none",
+                                        [KOKSMA_WITNESS_BOX] = "box",
+                                        [KOKSMA_WITNESS_HALF_PLANE] = "half-plane",
+                                        [KOKSMA_WITNESS_DISK] = "disk"};
     if (w->kind == KOKSMA_WITNESS_NONE) {
         cli_row_json(rows, "witness", "null", "-");
         return;

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "adaptive_options.h"
 #include "cli.h"
@@ -82,6 +83,42 @@ static bool has_layers(const char *path)
     return length > 4 && !strcmp(path + length - 4, ".exr");
 }
 
+/* From here on the program says before it starts how much memory a picture takes. */
+#define LARGE (1ull << 30)
+
+static double in_gib(uint64_t bytes)
+{
+    return (double)bytes / (1024.0 * 1024 * 1024);
+}
+
+/* Says what a large picture takes; false: more than the machine has, whose swapping would take longer than the
+   picture. */
+static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
+                          const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+{
+    const bool layers = adaptive->method || has_layers(cli_text(arguments, "output", ""));
+    const koksma_render_size size = koksma_render_size_of(scene, options, layers);
+    const uint64_t first =
+        size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0);
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
+    if (first > machine) {
+        fprintf(stderr,
+                "koksma render: %d x %d pixels take %.1f GiB of memory, and this machine has %.1f; a smaller --size "
+                "would do%s%s\n",
+                options->width, options->height, in_gib(first), in_gib(machine),
+                layers && !adaptive->method ? ", or .pfm, which has no layers" : "",
+                options->splat ? ", or no --splat" : "");
+        return false;
+    }
+    if (first + size.file >= LARGE && !cli_flag(arguments, "quiet")) {
+        fprintf(stderr,
+                "koksma render: %d x %d pixels take %.1f GiB of memory, and up to %.1f more while %s is written\n",
+                options->width, options->height, in_gib(first), in_gib(size.file), cli_text(arguments, "output", ""));
+    }
+    return true;
+}
+
 static int render(const cli_arguments *arguments, const koksma_scene *scene, const koksma_render_options *options,
                   cli_adaptive *adaptive)
 {
@@ -143,7 +180,9 @@ static int run(const cli_arguments *arguments)
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
         }
-        code = render(arguments, scene, &options, &adaptive);
+        code = announce_size(arguments, scene, &options, &adaptive.options)
+                   ? render(arguments, scene, &options, &adaptive)
+                   : koksma_status_exit_code(KOKSMA_MEMORY);
     }
     koksma_scene_close(scene);
     return code;

@@ -73,6 +73,11 @@ KOKSMA_API koksma_status koksma_render_adaptive(const koksma_scene *scene, const
                                                 const koksma_adaptive_options *adaptive, const koksma_run *run,
                                                 koksma_layers *out, koksma_adaptive_report *report);
 
+/* Bytes that the method keeps of the pixels beside koksma_render_size_of with all layers: before the first round;
+   where strata are split they grow with them. */
+KOKSMA_API uint64_t koksma_adaptive_size_of(const koksma_render_options *options,
+                                            const koksma_adaptive_options *adaptive);
+
 #ifdef __cplusplus
 }
 #endif

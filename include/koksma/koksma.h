@@ -45,10 +45,13 @@ extern "C" {
 /* ---- Status ------------------------------------------------------------------------------------------- */
 
 typedef enum koksma_status {
-#define X(name, exit_code, text) KOKSMA_##name,
+#define KOKSMA_STATUS(name, number, exit_code, text) KOKSMA_##name = (number),
 #include <koksma/status.def>
-#undef X
-    KOKSMA_STATUS_COUNT
+#undef KOKSMA_STATUS
+#define KOKSMA_STATUS(name, number, exit_code, text) +1
+    KOKSMA_STATUS_COUNT = 0
+#include <koksma/status.def>
+#undef KOKSMA_STATUS
 } koksma_status;
 
 /* The general meaning of a status: a constant string. */

@@ -132,8 +132,10 @@ typedef struct koksma_render_options {
     int depth; /* bounces at most; -1: the integrator's */
     const koksma_filter *filter;
     bool splat; /* samples are spread over all pixels that the filter reaches, and divided by the sum of its values;
-                   else each pixel draws its samples from the filter (Ernst, Stamminger & Greiner 2006). No splatted
-                   sample lies beyond the frame: at its borders the filter is cut, and the exact picture another */
+                   else each pixel draws its samples from the filter (Ernst, Stamminger & Greiner 2006), which
+                   leaves two to three times the error. Both keep a constant picture, whatever signs the filter has;
+                   one drawn sample a pixel has the filter's positive part alone. No splatted sample lies beyond the
+                   frame: at its borders the filter is cut, and the exact picture another */
 } koksma_render_options;
 
 enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
@@ -169,6 +171,18 @@ typedef struct koksma_layers {
 } koksma_layers;
 
 KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
+
+/* Bytes that a picture by these options takes, beside the scene and a few MiB for each thread (with splatting, a few
+   rows of pixels more for each). */
+typedef struct koksma_render_size {
+    uint64_t film;    /* the image and its layers, and sums of splats */
+    uint64_t samples; /* of scope image, which are drawn beforehand: at their peak */
+    uint64_t file;    /* what is written, uncompressed: made in memory when the picture is done */
+} koksma_render_size;
+
+/* all_layers: as koksma_render_layers has it, and an EXR keeps it. */
+KOKSMA_API koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,
+                                                    bool all_layers);
 
 /* Renders; allocates out. Equal arguments give equal bits on any number of threads. run may be NULL.
    Errors: ARGUMENT, what the pattern says about spp (N, DIM, IMPOSSIBLE, …), MEMORY, INTERRUPTED. */

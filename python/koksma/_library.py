@@ -46,7 +46,7 @@ class UnsupportedError(Error, NotImplementedError):
     """Left out of this build, or not installed."""
 
 
-# The order of koksma/status.def, which only grows at its end.
+# By the numbers of koksma/status.def, which never change.
 _CLASSES = (None, ArgumentError, ArgumentError, ArgumentError, ArgumentError, ArgumentError, MissingError,
             MalformedError, OutOfMemoryError, SystemError, SystemError, UnsupportedError, KeyboardInterrupt)
 

@@ -14,10 +14,13 @@ static const struct {
     int exit_code;
     const char *text;
 } statuses[] = {
-#define X(name, exit_code, text) {exit_code, text},
+#define KOKSMA_STATUS(name, number, exit_code, text) [KOKSMA_##name] = {exit_code, text},
 #include <koksma/status.def>
-#undef X
+#undef KOKSMA_STATUS
 };
+
+_Static_assert(sizeof statuses / sizeof *statuses == KOKSMA_STATUS_COUNT,
+               "the numbers of status.def count up from 0");
 
 const char *koksma_status_text(koksma_status status)
 {

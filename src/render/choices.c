@@ -8,19 +8,24 @@
 
 const char *koksma_pairing_name(koksma_pairing pairing)
 {
-    static const char *const names[] = {"shuffled", "aligned", "native"};
+    static const char *const names[] = {[KOKSMA_PAIRING_SHUFFLED] = "shuffled",
+                                        [KOKSMA_PAIRING_ALIGNED] = "aligned",
+                                        [KOKSMA_PAIRING_NATIVE] = "native"};
     return NAME_AT(names, pairing);
 }
 
 const char *koksma_scope_name(koksma_scope scope)
 {
-    static const char *const names[] = {"pixel", "image"};
+    static const char *const names[] = {[KOKSMA_SCOPE_PIXEL] = "pixel", [KOKSMA_SCOPE_IMAGE] = "image"};
     return NAME_AT(names, scope);
 }
 
 const char *koksma_light_selection_name(koksma_light_selection selection)
 {
-    static const char *const names[] = {"all", "one", "power", "uniform"};
+    static const char *const names[] = {[KOKSMA_LIGHTS_ALL] = "all",
+                                        [KOKSMA_LIGHTS_ONE] = "one",
+                                        [KOKSMA_LIGHTS_POWER] = "power",
+                                        [KOKSMA_LIGHTS_UNIFORM] = "uniform"};
     return NAME_AT(names, selection);
 }
 

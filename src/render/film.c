@@ -1,19 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * A pixel is the mean of its samples; each sample weighs what the filter says (filters.h), and 1 with the box.
+ *
+ * Drawn from a filter f with negative lobes, samples have the density |f| / c, c = integral of |f|, and weights
+ * w = c sign(f) of mean 1. The mean of w y would turn a constant picture into noise, for the w of a few samples have
+ * another mean, and the ratio sum w y / sum w can have 0 below the line. But E[w y] = E[y] + Cov(w, y), and so
+ *
+ *     m = mean of y  +  sum (w_i - mean w) (y_i - mean y) / (n - 1)  =  mean of v_i y_i,
+ *     v_i = 1 + (w_i - mean w) n / (n - 1),      whose mean is 1
+ *
+ * keeps constants exactly, whatever signs were drawn, and divides by nothing that is drawn. For independent samples
+ * it has no bias; for stratified ones the mean of w errs less than n - 1 supposes, and the bias is at most
+ * Cov(w, y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. Deterministic
+ * patterns of few samples may have none in a lobe and leave it out. Where all w are 1 all v are.
+ *
  * Splatted samples reach the pixels around: their sums are kept by task and added in the order of tasks, so that
  * threads change nothing; those of a task that is done wait only for the tasks before it. A pixel of an image-wide
- * pattern, or of splatted samples, that got none takes its value from the pixels around it (fill_gaps); its count
+ * pattern, or of splatted samples, that got none takes its value from the pixels around it (film_gaps.c); its count
  * says 0.
  *
  * The layer `variance` is that of a pixel's luminance m, from its samples y_i of weight w_i as if independent. Drawn
- * from the filter, m is the mean of n products w y, so it is their variance over n. Splatted, m = sum w y / W with
+ * from a filter of one sign, m is a mean of n samples, so it is their variance over n. Splatted, m = sum w y / W with
  * W = sum w is a ratio, whose variance is, to first order (Cochran 1977, chapter 6),
  *
  *     sum w^2 (y - m)^2 / W^2   times   S2 / (S2 - 2 S3 / W + S2^2 / W^2),   Sk = sum w^k
  *
  * where the factor makes up for m coming from the same samples: exactly, whatever the weights, if all y have one
  * variance. For equal weights it is n / (n - 1); for a single sample 0 / 0, and the layer has 0 there as elsewhere.
+ * The same with w = v and W = n is that of samples drawn from a filter with negative lobes.
  */
 #include "render/film.h"
 
@@ -25,6 +39,21 @@
 
 /* What the variance of splatted samples takes beside W and the sum of w y, in this order. */
 enum { SUM_W2, SUM_W3, SUM_W2_Y, SUM_W2_Y2, N_MOMENTS };
+
+/* Numbers of a pixel in the layers beside the image. */
+enum { SAMPLES = 1, OTHER_LAYERS = 3 + 3 + 1 + 1 };
+
+size_t koksma__film_numbers(int channels, bool all_layers)
+{
+    return (size_t)channels + 1 + (all_layers ? N_MOMENTS : 0);
+}
+
+uint64_t koksma__film_size(uint64_t pixels, int channels, bool all_layers, bool splat)
+{
+    const size_t floats = (size_t)channels + SAMPLES + (all_layers ? OTHER_LAYERS : 0) + splat; /* weights */
+    return pixels *
+           (floats * sizeof(float) + (splat ? koksma__film_numbers(channels, all_layers) : 0) * sizeof(double));
+}
 
 koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, size_t n_tasks, koksma_layers *layers,
                                 koksma__film *out)
@@ -42,7 +71,7 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
     }
     if (!status && frame->options->splat) {
         out->reach = (int)ceil(frame->options->filter->radius - 0.5) + 1;
-        out->numbers = (size_t)frame->channels + 1 + (all_layers ? N_MOMENTS : 0);
+        out->numbers = koksma__film_numbers(frame->channels, all_layers);
         const size_t numbers = (size_t)width * (size_t)height * out->numbers;
         out->splats = calloc(n_tasks + 1, sizeof *out->splats);
         out->sums = calloc(numbers, sizeof *out->sums);
@@ -74,7 +103,7 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
     return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
 }
 
-void koksma__film_place(const koksma__frame *frame, const koksma__group *group, koksma__values *values)
+void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values)
 {
     if (!frame->filter || frame->options->splat) {
         return;
@@ -82,12 +111,24 @@ void koksma__film_place(const koksma__frame *frame, const koksma__group *group, 
     const size_t width = (size_t)frame->options->width;
     for (size_t p = 0; p < group->count; p++) {
         const float x = (float)((group->first + p) % width), y = (float)((group->first + p) / width);
+        const size_t n = group->start[p + 1] - group->start[p];
+        const bool single = all && n == 1;
         for (size_t i = group->start[p]; i < group->start[p + 1]; i++) {
             float *place = values->film + 2 * i, wx, wy;
-            const float ux = place[0] - x, uy = place[1] - y;
-            place[0] = x + 0.5f + koksma__filter_sample(frame->filter, ux < 1 ? ux : 1 - 0x1p-24f, &wx);
-            place[1] = y + 0.5f + koksma__filter_sample(frame->filter, uy < 1 ? uy : 1 - 0x1p-24f, &wy);
+            const float u = place[0] - x, v = place[1] - y, last = 1 - 0x1p-24f;
+            const float ux = u < 1 ? u : last, uy = v < 1 ? v : last;
+            if (single) {
+                place[0] = x + 0.5f + koksma__filter_sample_positive(frame->filter, ux);
+                place[1] = y + 0.5f + koksma__filter_sample_positive(frame->filter, uy);
+                values->weights[i] = 1;
+                continue;
+            }
+            place[0] = x + 0.5f + koksma__filter_sample(frame->filter, ux, &wx);
+            place[1] = y + 0.5f + koksma__filter_sample(frame->filter, uy, &wy);
             values->weights[i] = wx * wy;
+        }
+        if (all) {
+            koksma__filter_balance(values->weights + group->start[p], n);
         }
     }
 }
@@ -157,7 +198,20 @@ static double splat_variance(const double *moments, double weight, double mean)
     return off > 0 && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
-/* weights: NULL, or of the filter. Splatted pixels get their variance in the end. */
+/* That of the luminance of samples first .. end - 1, drawn from a filter with negative lobes. */
+static double signed_variance(const float *rgb, const float *weights, size_t channels, size_t first, size_t end)
+{
+    double moments[N_MOMENTS] = {0}, mean = 0;
+    const double n = (double)(end - first), origin = luminance_of(rgb + channels * first, channels);
+    for (size_t i = first; i < end; i++) { /* less the first one, so that equal values have variance 0 */
+        const double y = luminance_of(rgb + channels * i, channels) - origin;
+        mean += (double)weights[i] * y / n;
+        add_moments(moments, (double)weights[i], y);
+    }
+    return splat_variance(moments, n, mean);
+}
+
+/* weights: NULL where none is negative. Splatted pixels get their variance in the end. */
 static void add_layers(koksma_layers *layers, const koksma__values *v, const float *weights, size_t channels,
                        size_t pixel, size_t first, size_t end)
 {
@@ -168,17 +222,18 @@ static void add_layers(koksma_layers *layers, const koksma__values *v, const flo
         layers->normal.pixels[3 * pixel + k] = (float)mean_of(v->normal, NULL, first, end, 3, k);
     }
     for (size_t i = first; i < end; i++) {
-        sum += weight_of(weights, i) * luminance_of(v->rgb + channels * i, channels);
+        sum += luminance_of(v->rgb + channels * i, channels);
         depth += (double)v->depth[i];
         hits += v->depth[i] > 0;
     }
     const double n = (double)(end - first), mean = sum / n;
     for (size_t i = first; i < end; i++) {
-        const double off = weight_of(weights, i) * luminance_of(v->rgb + channels * i, channels) - mean;
+        const double off = luminance_of(v->rgb + channels * i, channels) - mean;
         squares += off * off;
     }
+    const double variance = weights ? signed_variance(v->rgb, weights, channels, first, end) : squares / (n - 1) / n;
     layers->depth.pixels[pixel] = hits ? (float)(depth / (double)hits) : 0;
-    layers->variance.pixels[pixel] = end - first > 1 ? (float)(squares / (n - 1) / n) : 0;
+    layers->variance.pixels[pixel] = end - first > 1 ? (float)variance : 0;
 }
 
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
@@ -186,6 +241,7 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
 {
     const size_t channels = (size_t)frame->channels;
     const float *weights = frame->filter && !film->reach ? values->weights : NULL;
+    const bool has_lobes = weights && koksma__filter_is_signed(frame->filter);
     for (size_t p = 0; p < group->count; p++) {
         const size_t pixel = group->first + p, first = group->start[p], end = group->start[p + 1];
         film->layers->samples.pixels[pixel] = (float)(end - first);
@@ -204,7 +260,7 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
             }
         }
         if (film->all_layers) {
-            add_layers(film->layers, values, weights, channels, pixel, first, end);
+            add_layers(film->layers, values, has_lobes ? weights : NULL, channels, pixel, first, end);
         }
     }
 }
@@ -263,71 +319,6 @@ static void finish_splats(const koksma__frame *frame, koksma__film *film, bool w
     }
 }
 
-/* Pixels by their distance from those that have something, in steps to any of the eight around; those are 0. */
-typedef struct gaps {
-    int *steps; /* -1: not reached yet */
-    size_t *queue, n;
-} gaps;
-
-typedef struct around {
-    int x0, x1, y0, y1; /* a pixel and its neighbours, the last ones too */
-} around;
-
-static around around_of(const koksma_image *image, size_t pixel)
-{
-    const int x = (int)(pixel % (size_t)image->width), y = (int)(pixel / (size_t)image->width);
-    return (around){x ? x - 1 : x, x + 1 < image->width ? x + 1 : x, y ? y - 1 : y,
-                    y + 1 < image->height ? y + 1 : y};
-}
-
-/* The mean of the neighbours that are one step nearer; and those that are reached from here queue up. */
-static void fill_pixel(koksma_image *image, gaps *g, size_t pixel)
-{
-    const around a = around_of(image, pixel);
-    const size_t channels = (size_t)image->channels;
-    double sum[3] = {0, 0, 0};
-    int n = 0;
-    for (int y = a.y0; y <= a.y1; y++) {
-        for (int x = a.x0; x <= a.x1; x++) {
-            const size_t i = (size_t)y * (size_t)image->width + (size_t)x;
-            if (g->steps[i] < 0) {
-                g->steps[i] = g->steps[pixel] + 1;
-                g->queue[g->n++] = i;
-            } else if (g->steps[i] < g->steps[pixel]) {
-                for (size_t k = 0; k < channels; k++) {
-                    sum[k] += (double)image->pixels[i * channels + k];
-                }
-                n++;
-            }
-        }
-    }
-    for (size_t k = 0; n && k < channels; k++) {
-        image->pixels[pixel * channels + k] = (float)(sum[k] / n);
-    }
-}
-
-/* has: the number of samples, or the sum of weights. Pixels that have none are filled from the nearest outwards, each
-   by the mean of its neighbours that are one step nearer: once round the image, however wide the gaps are. */
-static koksma_status fill_gaps(koksma_image *image, const float *has)
-{
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    gaps g = {malloc(pixels * sizeof *g.steps), malloc(pixels * sizeof *g.queue), 0};
-    const koksma_status status =
-        g.steps && g.queue ? KOKSMA_OK : koksma__fail_memory(pixels * (sizeof *g.steps + sizeof *g.queue));
-    for (size_t i = 0; !status && i < pixels; i++) {
-        g.steps[i] = has[i] > 0 ? 0 : -1;
-        if (has[i] > 0) {
-            g.queue[g.n++] = i;
-        }
-    }
-    for (size_t at = 0; !status && at < g.n; at++) {
-        fill_pixel(image, &g, g.queue[at]);
-    }
-    free(g.steps);
-    free(g.queue);
-    return status;
-}
-
 koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film, bool whole)
 {
     koksma_image *image = &film->layers->image;
@@ -345,7 +336,7 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
         any = !(has[i] > 0);
     }
     const bool fills = whole && any && (film->splats || frame->options->scope == KOKSMA_SCOPE_IMAGE);
-    const koksma_status status = fills ? fill_gaps(image, has) : KOKSMA_OK;
+    const koksma_status status = fills ? koksma__film_fill_gaps(image, has) : KOKSMA_OK;
     free(weights);
     return status;
 }

@@ -61,8 +61,7 @@ static int depth_of(const koksma_render_options *options)
     return options->depth < 0 ? options->integrator->depth : options->depth;
 }
 
-/* What samples will be spent on. */
-static koksma__use_list list_uses(const koksma_scene *scene, const koksma_render_options *options)
+koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
 {
     const koksma__rules *rules = options->integrator->rules;
     unsigned lobes = 0;
@@ -80,7 +79,7 @@ static koksma__use_list list_uses(const koksma_scene *scene, const koksma_render
 
 bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)
 {
-    const koksma__use_list uses = list_uses(scene, options);
+    const koksma__use_list uses = koksma__frame_uses(scene, options);
     return i < KOKSMA_N_USES && koksma__use_is_there(&uses, (int)i);
 }
 
@@ -125,7 +124,7 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
         return status;
     }
     f->camera = make_camera(&f->scene->camera, options->width, options->height);
-    f->uses = list_uses(f->scene, options);
+    f->uses = koksma__frame_uses(f->scene, options);
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);

@@ -71,6 +71,9 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
                                  const koksma_run *run, koksma__frame *out);
 void koksma__frame_close(koksma__frame *frame);
 
+/* What samples will be spent on. */
+koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
+
 extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
 
 /* Whether direct.c can draw this. */

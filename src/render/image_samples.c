@@ -197,6 +197,16 @@ static size_t list_uses(const koksma__use_list *uses, set *list)
     return n;
 }
 
+uint64_t koksma__image_samples_size(const koksma_render_options *options, const koksma__use_list *uses)
+{
+    const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height, n = pixels * (uint64_t)options->spp;
+    const uint64_t kept = (pixels + 2 + n) * sizeof(uint32_t) + 2 * n * list_uses(uses, NULL) * sizeof(float);
+    if (options->pairing == KOKSMA_PAIRING_NATIVE) {
+        return kept + n * (uint64_t)koksma__use_dimension(uses, UINT32_MAX) * sizeof(double);
+    }
+    return kept + 2 * n * sizeof(double) + (options->pairing == KOKSMA_PAIRING_SHUFFLED ? n * sizeof(uint32_t) : 0);
+}
+
 static koksma_status make_room(const koksma_render_options *options, const koksma__use_list *uses,
                                image_samples **out)
 {

@@ -36,7 +36,7 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
         status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
     }
     if (!status && !idle && group->start[group->count]) {
-        koksma__film_place(f, group, &r->values);
+        koksma__film_place(f, group, true, &r->values);
         status = j->pipeline->trace(f, r->own, group, &r->values);
     }
     if (!status) {

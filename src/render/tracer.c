@@ -217,10 +217,12 @@ static koksma_status scatter(const koksma__trace *trace, const koksma__path *pat
             beta[k] = path->beta[k] * ways[0].weight[k];
         }
         const float weight = koksma__max3(beta);
-        chance = weight < 0.95f ? weight : 0.95f;
-        status = koksma__tracer_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
-        if (status || !(ends[2 * path->sample] < chance)) {
-            return status;
+        if (weight < 1) { /* a path that has lost nothing goes on: ending it would only add variance */
+            chance = weight;
+            status = koksma__tracer_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
+            if (status || !(ends[2 * path->sample] < chance)) {
+                return status;
+            }
         }
     }
     return go_on(trace, path, s, &ways[0], 1 / chance);

@@ -5,19 +5,30 @@
 #include "core/status.h"
 #include "render/sampler.h"
 
+/* The position of a number in the list of uses; of all from LIGHT on the last. */
+#define POSITION(number) ((number) < KOKSMA__USE_LIGHT ? (number) : KOKSMA_N_USES - 1)
+
 static const koksma_use uses_table[] = {
-#define USE(id, number, name, dim, help) {name, help, dim},
+#define USE(id, number, name, dim, help) [POSITION(number)] = {name, help, dim},
 #include "render/uses.def"
 #undef USE
 };
 
 static const uint32_t numbers[] = {
-#define USE(id, number, name, dim, help) (number),
+#define USE(id, number, name, dim, help) [POSITION(number)] = (number),
 #include "render/uses.def"
 #undef USE
 };
 
-_Static_assert(sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES, "koksma/render.h counts the uses");
+enum {
+    LINES = 0
+#define USE(id, number, name, dim, help) +1
+#include "render/uses.def"
+#undef USE
+};
+
+_Static_assert((int)LINES == (int)KOKSMA_N_USES && sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES,
+               "koksma/render.h counts the uses, and their numbers count up from 0");
 
 const koksma_use *koksma_use_at(size_t i)
 {
@@ -26,12 +37,7 @@ const koksma_use *koksma_use_at(size_t i)
 
 int koksma__use_index(uint32_t use)
 {
-    const uint32_t number = use % KOKSMA__USES_A_BOUNCE;
-    int i = KOKSMA_N_USES - 1;
-    while (i > 0 && numbers[i] > number) {
-        i--;
-    }
-    return i;
+    return (int)POSITION(use % KOKSMA__USES_A_BOUNCE);
 }
 
 const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use)

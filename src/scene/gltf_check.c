@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * glTF 2 before assimp sees it: every number that names another thing is in range, every piece lies within what holds
- * it, and nodes are trees. assimp takes some of that on trust. The file's other errors are left to it.
+ * it, and nodes are trees. assimp takes some of that on trust. gltf_indices.c looks into the buffers; the file's
+ * other errors are left to assimp.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ typedef koksma__json_node field;
 
 typedef struct lists {
     field root;
-    size_t buffers, views, accessors, meshes, nodes, materials, cameras, images, textures;
+    size_t buffers, views, accessors, meshes, nodes, materials, cameras, images, textures, samplers, skins, scenes;
 } lists;
 
 /* Calls f for every item of the list. */
@@ -33,12 +34,13 @@ static koksma_status each(const lists *l, const field *object, const char *key,
 }
 
 /* The number of a thing of which there are n, where the object has one. */
-static koksma_status names(const field *object, const char *key, size_t n)
+static koksma_status names(const field *object, const char *key, const char *thing, size_t n)
 {
     long long number = 0;
     const koksma_status status = koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number);
     if (!status && koksma__json_has(object, key) && (size_t)number >= n) {
-        return koksma__json_fail(object, "%s is %lld of %zu", key, number, n);
+        return koksma__json_fail(object, "%s: there is no %s %lld; the file has %zu, from 0 on", key, thing, number,
+                                 n);
     }
     return status;
 }
@@ -71,7 +73,7 @@ static koksma_status check_view(const lists *l, const field *f)
 {
     long long number = 0, offset = 0, length = 0, room = 0, stride = 0;
     field buffer;
-    koksma_status status = names(f, "buffer", l->buffers);
+    koksma_status status = names(f, "buffer", "buffer", l->buffers);
     status = status ? status : koksma__json_get_whole(f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number);
     status = status ? status : bytes(f, "byteOffset", false, &offset);
     status = status ? status : bytes(f, "byteLength", true, &length);
@@ -109,7 +111,7 @@ static koksma_status check_accessor(const lists *l, const field *f)
     long long number = 0, offset = 0, count = 0, component = 0, room = 0, stride = 0;
     const char *type = "";
     field view;
-    koksma_status status = names(f, "bufferView", l->views);
+    koksma_status status = names(f, "bufferView", "buffer view", l->views);
     status = status ? status : bytes(f, "byteOffset", false, &offset);
     status = status ? status : koksma__json_get_whole(f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &count);
     status = status ? status : koksma__json_get_whole(f, "componentType", true, 5120, 5126, &component);
@@ -140,11 +142,11 @@ static koksma_status check_primitive(const lists *l, const field *f)
     static const char *const attributes[] = {"POSITION",   "NORMAL",  "TANGENT",  "TEXCOORD_0",
                                              "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
     field list;
-    koksma_status status = names(f, "indices", l->accessors);
-    status = status ? status : names(f, "material", l->materials);
+    koksma_status status = names(f, "indices", "accessor", l->accessors);
+    status = status ? status : names(f, "material", "material", l->materials);
     status = status ? status : koksma__json_member(f, "attributes", &list);
     for (size_t i = 0; !status && i < sizeof attributes / sizeof *attributes; i++) {
-        status = names(&list, attributes[i], l->accessors);
+        status = names(&list, attributes[i], "accessor", l->accessors);
     }
     if (!status && koksma__json_has(f, "targets")) {
         return koksma__json_fail(f, "morph targets are not read");
@@ -159,18 +161,45 @@ static koksma_status check_mesh(const lists *l, const field *f)
 
 static koksma_status check_texture(const lists *l, const field *f)
 {
-    return names(f, "source", l->images);
+    const koksma_status status = names(f, "source", "image", l->images);
+    return status ? status : names(f, "sampler", "sampler", l->samplers);
+}
+
+/* The texture of that member of a material, or of a part of it. */
+static koksma_status check_texture_of(const lists *l, const field *f, const char *key)
+{
+    field info;
+    if (!koksma__json_is_object_at(f, key)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__json_member(f, key, &info);
+    return status ? status : names(&info, "index", "texture", l->textures);
+}
+
+static koksma_status check_material(const lists *l, const field *f)
+{
+    field metal;
+    koksma_status status = check_texture_of(l, f, "normalTexture");
+    status = status ? status : check_texture_of(l, f, "occlusionTexture");
+    status = status ? status : check_texture_of(l, f, "emissiveTexture");
+    if (status || !koksma__json_is_object_at(f, "pbrMetallicRoughness")) {
+        return status;
+    }
+    status = koksma__json_member(f, "pbrMetallicRoughness", &metal);
+    status = status ? status : check_texture_of(l, &metal, "baseColorTexture");
+    return status ? status : check_texture_of(l, &metal, "metallicRoughnessTexture");
 }
 
 static koksma_status check_image(const lists *l, const field *f)
 {
-    return names(f, "bufferView", l->views);
+    return names(f, "bufferView", "buffer view", l->views);
 }
 
 static koksma_status check_node(const lists *l, const field *f)
 {
-    const koksma_status status = names(f, "mesh", l->meshes);
-    return status ? status : names(f, "camera", l->cameras);
+    koksma_status status = names(f, "mesh", "mesh", l->meshes);
+    status = status ? status : names(f, "camera", "camera", l->cameras);
+    return status ? status : names(f, "skin", "skin", l->skins);
 }
 
 /* Every node has one parent at most, and the roots of scenes have none: then no way leads round. */
@@ -209,8 +238,11 @@ static koksma_status check_root(const field *root)
     } all[] = {{"buffers", &l.buffers, check_buffer},
                {"bufferViews", &l.views, check_view},
                {"accessors", &l.accessors, check_accessor},
-               {"materials", &l.materials, NULL},
+               {"materials", &l.materials, check_material},
                {"cameras", &l.cameras, NULL},
+               {"samplers", &l.samplers, NULL},
+               {"skins", &l.skins, NULL},
+               {"scenes", &l.scenes, NULL},
                {"images", &l.images, check_image},
                {"textures", &l.textures, check_texture},
                {"meshes", &l.meshes, check_mesh},
@@ -225,6 +257,7 @@ static koksma_status check_root(const field *root)
     for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
         status = koksma__gltf_list(root, all[i].key, &list, all[i].n);
     }
+    status = status ? status : names(root, "scene", "scene", l.scenes);
     for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
         status = all[i].check ? each(&l, root, all[i].key, all[i].check) : KOKSMA_OK;
     }
@@ -249,7 +282,8 @@ koksma_status koksma__gltf_read(const char *path, const unsigned char *file, siz
 {
     koksma__json *document;
     const unsigned char *text = file;
-    size_t length = size;
+    const unsigned char *bin = NULL;
+    size_t length = size, bin_size = 0;
     if (size >= 4 && !memcmp(file, "glTF", 4)) { /* binary: a head, then pieces with their length and kind */
         if (size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
             number_at(file + 12) > size - 20) {
@@ -262,12 +296,21 @@ koksma_status koksma__gltf_read(const char *path, const unsigned char *file, siz
             (next < size && (size - next < 8 || number_at(file + next) > size - next - 8))) {
             return koksma__fail(KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
         }
+        if (next < size && length % 4) { /* assimp looks for the second one at a multiple of 4 */
+            return koksma__fail(KOKSMA_MALFORMED, "%s: its first piece has %zu bytes, no multiple of 4", path,
+                                length);
+        }
+        if (next < size && !memcmp(file + next + 4, "BIN", 4)) {
+            bin = file + next + 8;
+            bin_size = number_at(file + next);
+        }
     }
     koksma_status status = koksma__json_open("glTF", path, (const char *)text, length, &document);
     if (!status) {
         const field root = koksma__json_root(document);
         status = check_root(&root);
         status = status ? status : koksma__gltf_facts(&root, out);
+        status = status ? status : koksma__gltf_check_indices(path, &root, bin, bin_size);
     }
     koksma__json_close(document);
     return status;

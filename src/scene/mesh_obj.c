@@ -25,6 +25,7 @@ typedef struct obj {
     size_t number;         /* of the line that was read last */
     size_t count[KINDS];   /* so far */
     size_t highest[KINDS]; /* that was named, counted from 1 */
+    size_t line_of[KINDS]; /* that names it first */
     koksma__obj_names names;
     koksma__unread *unread;
     koksma__bytes *out;
@@ -111,7 +112,10 @@ static bool take_index(obj *o, int kind, const char **text)
         value = 10 * value + (size_t)(*digits - '0');
     }
     *text = digits;
-    o->highest[kind] = !back && value > o->highest[kind] ? value : o->highest[kind];
+    if (!back && value > o->highest[kind]) {
+        o->highest[kind] = value;
+        o->line_of[kind] = o->number;
+    }
     return value && value < KOKSMA__MAX_VERTICES && (!back || value <= o->count[kind]);
 }
 
@@ -192,8 +196,10 @@ static koksma_status take_line(obj *o)
     cut_blanks(o->line);
     const char *word = skip_blanks(o->line), *rest = word + strcspn(word, " \t");
     const size_t length = (size_t)(rest - word);
-    static const char *const vertices[KINDS] = {"v", "vt", "vn"}, *const names[] = {"mtllib", "usemtl", "o", "g",
-                                                                                    "s"};
+    static const char *const vertices[KINDS] = {[PLACE] = "v", [TEXTURE] = "vt", [NORMAL] = "vn"}, *const names[] = {
+                                                                                                       "mtllib",
+                                                                                                       "usemtl", "o",
+                                                                                                       "g", "s"};
     for (int kind = 0; kind < KINDS; kind++) {
         if (length == strlen(vertices[kind]) && !memcmp(word, vertices[kind], length)) {
             int n = 0;
@@ -243,7 +249,7 @@ static void note_unmade(obj *o)
 koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
                                 koksma__bytes *out)
 {
-    static const char *const names[] = {"vertex", "texture vertex", "normal"};
+    static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
     koksma_status status = KOKSMA_OK;
     obj *o = calloc(1, sizeof *o);
     if (!o) {
@@ -263,8 +269,8 @@ koksma_status koksma__obj_clean(const char *path, const unsigned char *file, siz
     }
     for (int kind = 0; !status && kind < KINDS; kind++) {
         if (o->highest[kind] > o->count[kind]) {
-            status = koksma__fail(KOKSMA_MALFORMED, "%s: a corner names %s %zu; there are %zu", path, names[kind],
-                                  o->highest[kind], o->count[kind]);
+            status = koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: a corner names %s %zu; there are %zu", path,
+                                  o->line_of[kind], names[kind], o->highest[kind], o->count[kind]);
         }
     }
     if (!status) {

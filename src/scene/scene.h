@@ -34,7 +34,8 @@ typedef enum koksma__material_kind {
     KOKSMA__MATERIAL_PHONG,      /* the cosine lobe of 1991: cos^exponent about the mirror's ray */
     KOKSMA__MATERIAL_GGX,        /* a rough metal of the given reflectance at normal incidence */
     KOKSMA__MATERIAL_DIELECTRIC, /* smooth glass */
-    KOKSMA__MATERIAL_UTAH        /* Lambert and a Phong lobe together */
+    KOKSMA__MATERIAL_UTAH,       /* Lambert and a Phong lobe together */
+    KOKSMA__N_MATERIAL_KINDS
 } koksma__material_kind;
 
 /* Colours are red, green and blue in linear light. A checker has two albedos, in squares of side `period` of a flat

@@ -3,6 +3,7 @@
 """The structs of python/koksma/_structs.py are those of the headers: sizes and places of all members, and limits."""
 import ctypes
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -35,7 +36,8 @@ class Structs(unittest.TestCase):
 
     def test_statuses(self):
         with open(os.path.join(INCLUDE, "koksma", "status.def"), encoding="utf-8") as file:
-            names = [line[2:line.index(",")] for line in file if line.startswith("X(") and "NAME" not in line]
+            numbers = dict(re.findall(r"^KOKSMA_STATUS\((\w+), (\d+),", file.read(), re.M))
+        names = sorted(numbers, key=lambda name: int(numbers[name]))
         self.assertEqual(len(names), len(_library._CLASSES))
         self.assertIs(_library._CLASSES[names.index("INTERRUPTED")], KeyboardInterrupt)
         self.assertIs(_library._CLASSES[names.index("MALFORMED")], _library.MalformedError)

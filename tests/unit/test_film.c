@@ -149,8 +149,9 @@ static void variance_is_told(void **state)
         const char *filter;
         int spp;
         bool splat;
-    } cases[] = {{"box", 4, false},     {"gaussian", 4, false}, {"box", 4, true},      {"tent", 2, true},
-                 {"gaussian", 1, true}, {"gaussian", 4, true},  {"mitchell", 4, true}, {"b-spline", 4, true}};
+    } cases[] = {{"box", 4, false},      {"gaussian", 4, false}, {"box", 4, true},       {"tent", 2, true},
+                 {"gaussian", 1, true},  {"gaussian", 4, true},  {"mitchell", 4, true},  {"b-spline", 4, true},
+                 {"mitchell", 2, false}, {"mitchell", 4, false}, {"mitchell", 16, false}};
     koksma_scene *scene =
         scene_of("{\"camera\": {\"eye\": [0, 0, 50], \"target\": [0, 0, 0], \"fov_deg\": 0.01}, \"ambient\": 1,"
                  "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["

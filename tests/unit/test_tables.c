@@ -1,122 +1,218 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How a printed mean goes with ours: every verdict, z with half of the last printed digit, slopes of printed ends. */
-#include "study/tables.h"
+/* Every line of every table (the .def files): what a name, a number or a kind stands for, and that functions find it.
+   tests/lint/tables.sh looks whether the order of lines matters. */
+#include <string.h>
 
-#include <math.h>
+#include "rendering.h"
 
-#include "test.h"
+#include <koksma/adaptive.h>
+#include <koksma/image.h>
+#include <koksma/warp.h>
 
-static koksma__cell cell_of(double mean, double sd, size_t n)
+#include "image/formats.h"
+#include "kernels/kernels.h"
+#include "measures/measures.h"
+#include "patterns/patterns.h"
+#include "render/adaptive/adaptive.h"
+#include "render/filters/filters.h"
+#include "render/integrators/integrators.h"
+#include "render/materials/materials.h"
+#include "render/sampler.h"
+#include "warps/warps.h"
+
+/* ---- Tables that are lists ---------------------------------------------------------------------------------- */
+
+/* The member is called as its file, with - for _; and found by that name. */
+static void expect_name(const char *file, const char *name, const void *member, const void *found)
 {
-    return (koksma__cell){.mean = {.n = n, .mean = mean, .sd = sd, .low = mean, .high = mean}, .sd = sd};
-}
-
-static char pattern[] = "random", measure[] = "star", scene[] = "checker";
-
-/* A table of a measure with one row and, for `explained` 0 or 1, a note on its mean. */
-typedef struct one_row {
-    koksma__table table;
-    koksma__table_row row;
-    koksma__note note;
-    long long n[3];
-} one_row;
-
-static void set_up(one_row *t, double value, double half_digit, int explained)
-{
-    *t = (one_row){.n = {16, 256, 1600}};
-    t->row = (koksma__table_row){.pattern = pattern, .label = pattern, .n_published = 1};
-    for (int i = 0; i < 3; i++) {
-        t->row.published[i] = (koksma__printed){.value = i ? (double)NAN : value, .half_digit = half_digit};
+    char text[64];
+    snprintf(text, sizeof text, "%s", file);
+    for (char *at = text; *at; at++) {
+        *at = *at == '_' ? '-' : *at;
     }
-    t->note = (koksma__note){.pattern = pattern, .explained = explained == 1};
-    t->table = (koksma__table){.measure = measure,
-                               .n = {1, t->n},
-                               .n_rows = 1,
-                               .rows = &t->row,
-                               .n_notes = explained >= 0,
-                               .notes = &t->note};
-}
-
-static koksma_study_verdict verdict(const one_row *t, double mean, double sd, size_t n)
-{
-    const koksma__cell cell = cell_of(mean, sd, n);
-    return koksma__table_judge(&t->table, &t->row, 0, &cell).kind;
-}
-
-/* Printed 0.282 of 100 sets; ours 0.29 of 400 sets with SD 0.05: the standard error of the difference is
-   0.05 sqrt(1/100 + 1/400) = 0.0055902, rounding adds 0.0005, and z = -0.008 / 0.0060902 = -1.3136. */
-static void z_has_both_errors_and_the_rounding(void **state)
-{
-    one_row t;
-    (void)state;
-    set_up(&t, 0.282, 0.0005, -1);
-    const koksma__cell cell = cell_of(0.29, 0.05, 400);
-    assert_near(koksma__table_judge(&t.table, &t.row, 0, &cell).z, -1.3136, 1e-4);
-}
-
-static void every_verdict_has_its_case(void **state)
-{
-    one_row t;
-    (void)state;
-    set_up(&t, 0.282, 0.0005, -1);
-    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
-    assert_int_equal(verdict(&t, 0.29, NAN, 1), KOKSMA_VERDICT_WAITING);
-    assert_int_equal(verdict(&t, NAN, NAN, 0), KOKSMA_VERDICT_WAITING);
-    set_up(&t, 0.282, 0.0005, 1);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_EXPLAINED);
-    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES); /* a note does not hide agreement */
-    set_up(&t, 0.282, 0.0005, 0);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
-    set_up(&t, NAN, 0, 1);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_NEW);
-    set_up(&t, 0.02, 0.0005, -1);
-    t.table.measure = NULL;
-    t.table.scene = scene;
-    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_AGREES);
-    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
-    t.table.fitted = true;
-    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_FITTED);
-    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
-    for (int v = KOKSMA_VERDICT_NEW; v <= KOKSMA_VERDICT_UNEXPLAINED; v++) {
-        assert_non_null(koksma_study_verdict_name((koksma_study_verdict)v));
+    if (strcmp(text, name) != 0 || member != found) {
+        fail_msg("the line %s is '%s', found as another: %d", file, name, member != found);
     }
-    assert_null(koksma_study_verdict_name((koksma_study_verdict)(KOKSMA_VERDICT_UNEXPLAINED + 1)));
 }
 
-/* Of a table over several n a note may be of one column. */
-static void notes_are_of_columns(void **state)
+static void names_are_those_of_files(void **state)
 {
-    one_row t;
     (void)state;
-    set_up(&t, 0.282, 0.0005, 1);
-    t.table.n.n = 3;
-    t.note.n = 256;
-    assert_int_equal(koksma__table_note(&t.table, "random", 16, 0), 0);
-    assert_int_equal(koksma__table_note(&t.table, "random", 256, 0), 1);
-    assert_int_equal(koksma__table_note(&t.table, "random", 256, 1), 0);
-    assert_int_equal(koksma__table_note(&t.table, "jittered", 256, 0), 0);
+    size_t n[7] = {0};
+#define PATTERN(line)                                                                                                \
+    expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
+                koksma_pattern_find(koksma__pattern_##line.name));                                                   \
+    n[0]++;
+#include "patterns/patterns.def"
+#define MEASURE(line)                                                                                                \
+    expect_name(#line, koksma__measure_##line.name, &koksma__measure_##line,                                         \
+                koksma_measure_find(koksma__measure_##line.name));                                                   \
+    n[1]++;
+#include "measures/measures.def"
+#define WARP(line)                                                                                                   \
+    expect_name(#line, koksma__warp_##line.name, &koksma__warp_##line, koksma_warp_find(koksma__warp_##line.name));  \
+    n[2]++;
+#include "warps/warps.def"
+#define FILTER(line)                                                                                                 \
+    expect_name(#line, koksma__filter_##line.name, &koksma__filter_##line,                                           \
+                koksma_filter_find(koksma__filter_##line.name));                                                     \
+    n[3]++;
+#include "render/filters/filters.def"
+#define INTEGRATOR(line)                                                                                             \
+    expect_name(#line, koksma__integrator_##line.name, &koksma__integrator_##line,                                   \
+                koksma_integrator_find(koksma__integrator_##line.name));                                             \
+    n[4]++;
+#include "render/integrators/integrators.def"
+#define ADAPTIVE(line)                                                                                               \
+    expect_name(#line, koksma__adaptive_##line.name, &koksma__adaptive_##line,                                       \
+                koksma_adaptive_find(koksma__adaptive_##line.name));                                                 \
+    n[5]++;
+#include "render/adaptive/adaptive.def"
+#define FORMAT(line)                                                                                                 \
+    expect_name(#line, koksma__format_##line.name, NULL, NULL);                                                      \
+    n[6]++;
+#include "image/formats.def"
+    assert_null(koksma_pattern_at(n[0]));
+    assert_null(koksma_measure_at(n[1]));
+    assert_null(koksma_warp_at(n[2]));
+    assert_null(koksma_filter_at(n[3]));
+    assert_null(koksma_integrator_at(n[4]));
+    assert_null(koksma_adaptive_at(n[5]));
+    assert_null(koksma__image_format_at(n[6]));
+    for (int i = 0; i < 7; i++) {
+        assert_true(n[i] > 1);
+    }
 }
 
-/* Mitchell 1992, table 1: log(0.00254 / 0.049) / log(100) = -0.6427 for dart throwing. */
-static void slopes_are_of_the_printed_ends(void **state)
+/* A file is of one format: whichever is asked first. */
+static void formats_know_their_files_only(void **state)
 {
-    one_row t;
     (void)state;
-    set_up(&t, 0.049, 0.0005, -1);
-    t.table.n.n = 3;
-    assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
-    t.row.published[2].value = 0.00254;
-    assert_near(koksma__table_printed_slope(&t.table, &t.row), -0.6427, 1e-4);
+    static const struct {
+        const char *format, *head;
+    } heads[] = {{"exr", "\x76\x2f\x31\x01\2\0\0\0"}, {"png", "\x89PNG\r\n\x1a\n"}, {"pfm", "Pf\n1 1\n-1\n...."}};
+    for (size_t i = 0; koksma__image_format_at(i); i++) {
+        const koksma__image_format *format = koksma__image_format_at(i);
+        for (size_t k = 0; k < 3 && !format->left_out; k++) {
+            assert_int_equal(format->recognises((const unsigned char *)heads[k].head, 8),
+                             !strcmp(format->name, heads[k].format));
+        }
+    }
+}
+
+/* ---- Tables with numbers ------------------------------------------------------------------------------------ */
+
+/* By koksma/koksma.h's ABI (docs/abi.md): numbers and exit codes that other programs have compiled in. */
+static void statuses_keep_their_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        koksma_status status;
+        int number, exit_code;
+        const char *word;
+    } all[] = {{KOKSMA_OK, 0, 0, "done"},
+               {KOKSMA_ARGUMENT, 1, 2, "argument"},
+               {KOKSMA_UNKNOWN, 2, 2, "no member"},
+               {KOKSMA_N, 3, 2, "number of points"},
+               {KOKSMA_DIM, 4, 2, "dimensions"},
+               {KOKSMA_IMPOSSIBLE, 5, 2, "no set"},
+               {KOKSMA_MISSING, 6, 3, "missing"},
+               {KOKSMA_MALFORMED, 7, 3, "malformed"},
+               {KOKSMA_MEMORY, 8, 4, "memory"},
+               {KOKSMA_IO, 9, 4, "writing"},
+               {KOKSMA_SYSTEM, 10, 4, "system"},
+               {KOKSMA_UNSUPPORTED, 11, 2, "build"},
+               {KOKSMA_INTERRUPTED, 12, 130, "interrupted"}};
+    assert_int_equal(sizeof all / sizeof *all, KOKSMA_STATUS_COUNT);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        assert_int_equal((int)all[i].status, all[i].number);
+        assert_int_equal(koksma_status_exit_code(all[i].status), all[i].exit_code);
+        assert_non_null(strstr(koksma_status_text(all[i].status), all[i].word));
+    }
+}
+
+/* In the order of koksma/render.h, with the numbers that keys have had from the first; at every vertex. */
+static void uses_keep_their_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t number;
+        int dim;
+    } all[] = {{"pixel", 0, 2}, {"lens", 1, 2},        {"time", 2, 1},     {"light-choice", 3, 1},
+               {"lobe", 4, 2},  {"lobe-choice", 5, 1}, {"roulette", 6, 1}, {"light", 1024, 2}};
+    assert_int_equal(sizeof all / sizeof *all, KOKSMA_N_USES);
+    for (size_t i = 0; i < KOKSMA_N_USES; i++) {
+        assert_string_equal(koksma_use_at(i)->name, all[i].name);
+        assert_int_equal(koksma_use_at(i)->dim, all[i].dim);
+        for (uint32_t bounce = 0; bounce < 3; bounce++) {
+            assert_int_equal(koksma__use_index(all[i].number + bounce * KOKSMA__USES_A_BOUNCE), i);
+        }
+    }
+    assert_int_equal(koksma__use_index(KOKSMA__USE_LIGHT + KOKSMA__MAX_LIGHTS - 1), KOKSMA_N_USES - 1);
+    assert_null(koksma_use_at(KOKSMA_N_USES));
+}
+
+/* What a scene calls a material has the rules of the file of that name. */
+static void materials_are_what_scenes_call_them(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *rest;
+        const koksma__material_rules *rules;
+    } all[] = {{"lambert", "\"albedo\": 0.5", &koksma__material_lambert},
+               {"mirror", "\"reflectance\": 0.5", &koksma__material_mirror},
+               {"phong", "\"reflectance\": 0.5, \"exponent\": 9", &koksma__material_phong},
+               {"ggx", "\"reflectance\": 0.5, \"roughness\": 0.5", &koksma__material_ggx},
+               {"dielectric", "\"ior\": 1.5", &koksma__material_dielectric},
+               {"utah", "\"albedo\": 0.5, \"reflectance\": 0.5, \"exponent\": 9", &koksma__material_utah}};
+    size_t lines = 0;
+#define MATERIAL(name, kind) lines++;
+#include "render/materials/materials.def"
+    assert_int_equal(sizeof all / sizeof *all, lines);
+    for (size_t i = 0; i < lines; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 9}, \"shapes\": [],"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"%s\", %s}]}",
+                 all[i].name, all[i].rest);
+        koksma_scene *scene = scene_of(text);
+        assert_ptr_equal(koksma__material_rules_of(scene->materials[0].kind), all[i].rules);
+        assert_int_equal(koksma__substance_of(&scene->materials[0]).lobes, all[i].rules->lobes);
+        koksma_scene_close(scene);
+    }
+}
+
+/* ---- Tables of functions ------------------------------------------------------------------------------------ */
+
+static void every_kernel_is_there(void **state)
+{
+    (void)state;
+    static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
+    for (size_t i = 0; i < sizeof isas / sizeof *isas; i++) {
+        const koksma__kernel_table *table = koksma__kernels_find(isas[i]);
+        if (table) {
+            assert_string_equal(table->isa, isas[i]);
+#define KERNEL(result, name, arguments) assert_true(table->name != NULL);
+#include "kernels/kernels.def"
+#undef KERNEL
+        }
+    }
+    const koksma__batch_table *batch = koksma__batch();
+#define KERNEL(result, name, arguments) assert_true(batch->name != NULL);
+#include "render/batch.def"
+#undef KERNEL
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(z_has_both_errors_and_the_rounding),
-        cmocka_unit_test(every_verdict_has_its_case),
-        cmocka_unit_test(notes_are_of_columns),
-        cmocka_unit_test(slopes_are_of_the_printed_ends),
+        cmocka_unit_test(names_are_those_of_files),
+        cmocka_unit_test(formats_know_their_files_only),
+        cmocka_unit_test(statuses_keep_their_numbers),
+        cmocka_unit_test(uses_keep_their_numbers),
+        cmocka_unit_test(materials_are_what_scenes_call_them),
+        cmocka_unit_test(every_kernel_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

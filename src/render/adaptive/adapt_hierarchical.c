@@ -11,7 +11,8 @@
 enum { PAIRING = KOKSMA__STRATA_REUSE + 1, PHASE };
 
 static const char *const pairings[] = {"aligned", "shuffled", NULL};
-static const char *const phases[] = {"fixed", "shifted", "folded", NULL};
+static const char *const phases[] = {
+    [KOKSMA__PHASE_FIXED] = "fixed", [KOKSMA__PHASE_SHIFTED] = "shifted", [KOKSMA__PHASE_FOLDED] = "folded", NULL};
 
 static const koksma_param params[] = {
     KOKSMA__STRATA_PARAMS,

@@ -32,8 +32,8 @@ typedef struct koksma__adaptive_rules {
     /* The pairs of this round's samples of a pixel. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_room *room, float *pairs);
-    /* Their values, as many as it asked for, and their weights in the pixel (NULL: all 1). Methods decide by the
-       values as they are; weights are the filter's. */
+    /* Their values, as many as it asked for, and their weights as drawn from the filter (filters.h; NULL: all 1).
+       Methods decide by the values as they are; in the result weights count as film.c says. */
     void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
     /* What it wants next; ask is zero. scratch has run->scratch bytes. */
     void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
@@ -76,9 +76,10 @@ typedef struct koksma__pixel_sets {
     double sum[3];  /* weighed */
     double half[3]; /* of sets 0, 2, 4, …, not weighed; as `all` */
     double all[3];
-    double sum_y, sum_yy;       /* of the samples' luminances */
-    double sum_mean_square;     /* of the sets' mean luminances, squared */
-    double shown, shown_square; /* as sum_y and sum_yy, of weighed luminances */
+    double sum_y, sum_yy;   /* of the samples' luminances */
+    double sum_mean_square; /* of the sets' mean luminances, squared */
+    double sum_w3;          /* of the cubes of weights */
+    double moments[3][3];   /* [j][k]: sums of weight^j luminance^k, sample by sample */
 } koksma__pixel_sets;
 
 /* Every such method's parameters begin with these two. */

@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/adaptive/adaptive.h"
+#include "render/adaptive/adaptive_strata.h"
 #include "render/film.h"
 
 enum { PIXELS_A_TASK = 128 };
@@ -95,7 +95,7 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
     koksma_status status =
         koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
     if (!status) {
-        koksma__film_place(f, group, &r->pixels.values);
+        koksma__film_place(f, group, false, &r->pixels.values);
         status = j->pipeline->trace(f, r->pixels.own, group, &r->pixels.values);
     }
     for (size_t p = 0; !status && p < group->count; p++) {
@@ -270,6 +270,14 @@ static koksma_status open_run(koksma__adaptive *run)
                             (double)run->spent / (double)run->pixels);
     }
     return status;
+}
+
+uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+{
+    const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
+    const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
+    const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
+    return pixels * (sizeof(koksma__ask) + sizeof(uint32_t) + state);
 }
 
 static koksma_status open_layers(const koksma__frame *frame, koksma_layers *out)

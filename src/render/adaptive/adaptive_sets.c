@@ -173,7 +173,7 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
     }
     for (size_t i = 0; i < n; i++, rgb += channels) {
         const double l = (double)luminance(channels, rgb), y = l - (double)p->origin;
-        const double weight = weights ? (double)weights[i] : 1, shown = weight * l - (double)p->origin;
+        const double weight = weights ? (double)weights[i] : 1;
         for (size_t k = 0; k < channels; k++) {
             const bool none = !p->sets && !i;
             p->lo[k] = none || rgb[k] < p->lo[k] ? rgb[k] : p->lo[k];
@@ -184,8 +184,13 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
         }
         sum_y += y;
         p->sum_yy += y * y;
-        p->shown += shown;
-        p->shown_square += shown * shown;
+        p->sum_w3 += weight * weight * weight;
+        for (int j = 0; j < 3; j++) {
+            const double power = j == 2 ? weight * weight : j ? weight : 1;
+            p->moments[j][0] += power;
+            p->moments[j][1] += power * y;
+            p->moments[j][2] += power * y * y;
+        }
     }
     p->sum_y += sum_y;
     p->sum_mean_square += sum_y * sum_y / ((double)n * (double)n);
@@ -236,11 +241,33 @@ double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pi
     return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
 }
 
+/* The value and the variance of film.c for a filter with negative lobes: sample i has the weight v_i = a w_i + b in
+   the pixel, and the sums of v^j y^k follow from those of w^j y^k. */
+static double signed_result(const koksma__pixel_sets *p, double n, double rgb[3])
+{
+    const double(*m)[3] = p->moments, mean_w = m[1][0] / n, a = n > 1 ? 1 / (n - 1) : 0, b = 1 / n - a * mean_w;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = a * p->sum[k] + b * p->all[k];
+    }
+    double of[3]; /* sums of v^2 y^k */
+    for (int k = 0; k < 3; k++) {
+        of[k] = a * a * m[2][k] + 2 * a * b * m[1][k] + b * b * m[0][k];
+    }
+    const double v3 = a * a * a * p->sum_w3 + 3 * a * a * b * m[2][0] + 3 * a * b * b * m[1][0] + b * b * b * n;
+    const double mean = a * m[1][1] + b * m[0][1];
+    const double off = of[2] - mean * (2 * of[1] - mean * of[0]), left = of[0] - 2 * v3 + of[0] * of[0];
+    return off > 0 && left > 1e-12 * of[0] ? off * of[0] / left : 0;
+}
+
 double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
-    for (int k = 0; p->sets && k < 3; k++) {
-        rgb[k] = p->sum[k] / samples_of(run, p);
+    const double n = samples_of(run, p);
+    if (p->sets && run->frame->filter && koksma__filter_is_signed(run->frame->filter)) {
+        return signed_result(p, n, rgb);
     }
-    return p->sets ? variance(p->shown, p->shown_square, samples_of(run, p)) / samples_of(run, p) : 0;
+    for (int k = 0; p->sets && k < 3; k++) {
+        rgb[k] = p->sum[k] / n;
+    }
+    return p->sets ? variance(p->moments[0][1], p->moments[0][2], n) / n : 0;
 }

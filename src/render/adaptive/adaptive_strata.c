@@ -15,7 +15,8 @@
 /* Strata of all pixels: 3.5 GiB. */
 #define MAX_STRATA ((size_t)1 << 27)
 
-const char *const koksma__reuse_names[] = {"kept", "renewed", "fresh", NULL};
+const char *const koksma__reuse_names[] = {
+    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
@@ -303,16 +304,30 @@ void koksma__strata_last(koksma__adaptive *run)
     }
 }
 
+static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
+{
+    return ldexp(1, -2 * stratum->level) / ((double)s->m * s->m);
+}
+
+/* The pixel's value as film.c has it, with volumes in the place of 1 / n, and in that of n - 1 what is to the same
+   end: 1 / (sum of volumes^2) - 1. */
 double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];
     const bool grey = run->frame->channels == 1;
-    double mean = 0, squares = 0;
+    const bool has_lobes = run->frame->filter && koksma__filter_is_signed(run->frame->filter);
+    double mean = 0, squares = 0, mean_weight = 0, volumes = 0;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const double volume = volume_of(s, &tree->strata[i]);
+        mean_weight += volume * (double)tree->strata[i].weight;
+        volumes += volume * volume;
+    }
+    const double scale = has_lobes && volumes < 1 ? 1 / (1 - volumes) : 0;
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
-        const double volume =
-            (double)tree->strata[i].weight * ldexp(1, -2 * tree->strata[i].level) / ((double)s->m * s->m);
+        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double volume = weight * volume_of(s, &tree->strata[i]);
         for (int k = 0; k < 3; k++) {
             rgb[k] += volume * (double)v[k];
         }
@@ -320,8 +335,9 @@ double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double r
     }
     for (uint32_t i = 0; i < tree->n; i++) {
         const float *v = tree->strata[i].value;
-        const double volume = ldexp(1, -2 * tree->strata[i].level) / ((double)s->m * s->m);
-        const double off = (double)tree->strata[i].weight * (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
+        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double volume = weight * volume_of(s, &tree->strata[i]);
+        const double off = (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
         squares += volume * volume * off * off;
     }
     return squares;

@@ -20,10 +20,21 @@ KOKSMA__LOOKUP(koksma_filter, table)
 
 struct koksma__filter_table {
     const koksma_filter *filter;
-    double scale;          /* 1 / integral of f */
-    double cdf[CELLS + 1]; /* of |f| */
-    float weights[CELLS];  /* of a place in each cell */
+    bool is_signed;
+    double scale;               /* 1 / integral of f */
+    double cdf[CELLS + 1];      /* of |f| */
+    double positive[CELLS + 1]; /* the same of max(f, 0) */
+    float weights[CELLS];       /* of a place in each cell, drawn from |f| */
 };
+
+/* Sums before each cell to shares of the last one. */
+static void normalise(double *cdf, double sum)
+{
+    for (int i = 0; i < CELLS; i++) {
+        cdf[i] /= sum;
+    }
+    cdf[CELLS] = 1;
+}
 
 koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_table **out)
 {
@@ -33,25 +44,29 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
         return koksma__fail_memory(sizeof *t);
     }
     const double width = 2 * filter->radius / CELLS;
-    double sum = 0, integral = 0;
+    double sum = 0, integral = 0, positive = 0;
     t->filter = filter;
     for (int i = 0; i < CELLS; i++) {
-        double part = 0, signed_part = 0;
+        double part = 0, signed_part = 0, positive_part = 0;
         for (int k = 0; k < PARTS; k++) { /* by midpoints */
             const double f = filter->value(-filter->radius + width * (i + (k + 0.5) / PARTS));
             part += fabs(f);
             signed_part += f;
+            positive_part += fmax(f, 0);
         }
         t->cdf[i] = sum;
+        t->positive[i] = positive;
         t->weights[i] = (float)(part > 0 ? signed_part / part : 0);
         sum += part;
         integral += signed_part;
+        positive += positive_part;
     }
     for (int i = 0; i < CELLS; i++) {
-        t->cdf[i] /= sum;
         t->weights[i] *= (float)(sum / integral); /* 1 everywhere when f has one sign */
     }
-    t->cdf[CELLS] = 1;
+    t->is_signed = integral < sum;
+    normalise(t->cdf, sum);
+    normalise(t->positive, positive);
     t->scale = PARTS / (integral * width);
     return KOKSMA_OK;
 }
@@ -61,21 +76,52 @@ void koksma__filter_close(koksma__filter_table *t)
     free(t);
 }
 
-float koksma__filter_sample(const koksma__filter_table *t, float u, float *weight)
+bool koksma__filter_is_signed(const koksma__filter_table *t)
+{
+    return t->is_signed;
+}
+
+/* The place that has u of the density below it, and its cell. */
+static float invert(const koksma__filter_table *t, const double *cdf, float u, int *cell)
 {
     int low = 0, high = CELLS;
     while (high - low > 1) {
         const int middle = (low + high) / 2;
-        if (t->cdf[middle] <= (double)u) {
+        if (cdf[middle] <= (double)u) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    const double width = 2 * t->filter->radius / CELLS, share = t->cdf[low + 1] - t->cdf[low];
-    const double x = -t->filter->radius + width * (low + (share > 0 ? ((double)u - t->cdf[low]) / share : 0.5));
-    *weight = t->weights[low];
-    return (float)x;
+    const double width = 2 * t->filter->radius / CELLS, share = cdf[low + 1] - cdf[low];
+    *cell = low;
+    return (float)(-t->filter->radius + width * (low + (share > 0 ? ((double)u - cdf[low]) / share : 0.5)));
+}
+
+float koksma__filter_sample(const koksma__filter_table *t, float u, float *weight)
+{
+    int cell;
+    const float x = invert(t, t->cdf, u, &cell);
+    *weight = t->weights[cell];
+    return x;
+}
+
+float koksma__filter_sample_positive(const koksma__filter_table *t, float u)
+{
+    int cell;
+    return invert(t, t->positive, u, &cell);
+}
+
+void koksma__filter_balance(float *w, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += (double)w[i];
+    }
+    const double mean = sum / (double)n, scale = n > 1 ? (double)n / (double)(n - 1) : 0;
+    for (size_t i = 0; i < n; i++) {
+        w[i] = (float)(1 + ((double)w[i] - mean) * scale);
+    }
 }
 
 float koksma__filter_value(const koksma__filter_table *t, float x)

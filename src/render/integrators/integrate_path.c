@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * path: all light paths (Kajiya 1986), one way on from each vertex. Luminaires are sampled at each vertex and met by
- * chance, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a path goes on
- * with the probability of its weight, at most 0.95, which keeps the mean. Without bias but for the end of paths at
+ * chance, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a path whose
+ * weight is below 1 goes on with that probability, which keeps the mean. Without bias but for the end of paths at
  * the depth limit, and for light that a mirror or glass throws on another surface from luminaires that rays don't
  * meet (points, directional ones, those that aren't `visible`): no path finds it.
  */

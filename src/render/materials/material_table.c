@@ -1,14 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The table of materials, by kind; the order of the lines of materials.def means nothing. */
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
 static const koksma__material_rules *const table[] = {
-#define MATERIAL(name) &koksma__material_##name,
+#define MATERIAL(name, kind) [KOKSMA__MATERIAL_##kind] = &koksma__material_##name,
 #include "render/materials/materials.def"
 #undef MATERIAL
 };
 
-_Static_assert(sizeof table / sizeof *table == KOKSMA__MATERIAL_UTAH + 1, "materials.def has one line a kind");
+enum {
+    LINES = 0
+#define MATERIAL(name, kind) +1
+#include "render/materials/materials.def"
+#undef MATERIAL
+};
+
+_Static_assert((int)LINES == (int)KOKSMA__N_MATERIAL_KINDS &&
+                   sizeof table / sizeof *table == KOKSMA__N_MATERIAL_KINDS,
+               "materials.def has one line a kind");
 
 const koksma__material_rules *koksma__material_rules_of(koksma__material_kind kind)
 {

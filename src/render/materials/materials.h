@@ -58,7 +58,7 @@ koksma__substance koksma__substance_of(const koksma__material *from);
    the material has one way only. */
 bool koksma__dielectric_split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
 
-#define MATERIAL(name) extern const koksma__material_rules koksma__material_##name;
+#define MATERIAL(name, kind) extern const koksma__material_rules koksma__material_##name;
 #include "render/materials/materials.def"
 #undef MATERIAL
 

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every pixel filter, with samples drawn from it or splatted, against what a filter does to a ramp and to an edge,
+   and against each other. (That it keeps a constant is in test_camera.c.) */
+#include <koksma/adaptive.h>
+
+#include "rendering.h"
+
+#include "render/film.h"
+
+enum { SIDE = 16, EDGE = 3 /* beyond which splatted pixels have all their samples */ };
+
+/* ---- Ramps -------------------------------------------------------------------------------------------------- */
+
+/* The picture of samples whose value is their x on the film; no scene has such a surface. */
+static void film_of_ramp(const koksma_scene *scene, const koksma_render_options *options, float *pixels)
+{
+    koksma__frame frame;
+    koksma__film film;
+    koksma_layers layers = {0};
+    koksma__workroom room;
+    koksma__group group;
+    assert_ok(koksma__frame_open(scene, options, NULL, &frame));
+    assert_ok(koksma__film_init(&frame, false, 1, &layers, &film));
+    assert_ok(koksma__workroom_init(&frame, &koksma__tracer_pipeline,
+                                    koksma__whole_lanes((size_t)options->spp + KOKSMA__BLOCK), false, &room));
+    assert_ok(koksma__film_open_task(&frame, &film, 0, 0, SIDE));
+    for (size_t pixel = 0; pixel < SIDE * SIDE; pixel += group.count) {
+        koksma__group_fill(&frame, pixel, pixel / SIDE * SIDE + SIDE, &group);
+        assert_ok(koksma__group_draw(&frame, &group, KOKSMA__USE_PIXEL, true, &room.draw, room.values.film));
+        koksma__film_place(&frame, &group, true, &room.values);
+        for (size_t i = 0; i < group.start[group.count]; i++) {
+            room.values.rgb[i] = room.values.film[2 * i];
+        }
+        koksma__film_add(&frame, &film, 0, &group, &room.values);
+    }
+    koksma__film_close_task(&frame, &film, 0);
+    assert_ok(koksma__film_finish(&frame, &film, true));
+    memcpy(pixels, layers.image.pixels, SIDE * SIDE * sizeof *pixels);
+    koksma__workroom_fini(&room);
+    koksma__film_fini(&film);
+    koksma__frame_close(&frame);
+    koksma_layers_fini(&layers);
+}
+
+/* Filters are even, and so a ramp keeps its value at the pixel's middle: where the samples are even about it, too,
+   with 4 of them already; in the mean over seeds with any samples. */
+static void filters_keep_a_ramp(void **state)
+{
+    (void)state;
+    enum { SEEDS = 8 };
+    static const char *const patterns[] = {"regular", "random", "n-rooks", "sobol:scramble=owen"};
+    static const int spps[] = {4, 16, 64};
+    koksma_scene *scene = scene_of("{\"camera\": {\"eye\": [0, 0, 0], \"target\": [0, 0, -1], \"fov_deg\": 40},"
+                                   "\"background\": 1, \"materials\": [], \"shapes\": []}");
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        for (size_t c = 0; c < 24; c++) {
+            const char *pattern = patterns[c % 4];
+            koksma_render_options options = options_of(scene, pattern, "distribution", spps[c / 4 % 3], SIDE);
+            double sum = 0, squares = 0;
+            float pixels[SIDE * SIDE];
+            options.filter = f;
+            options.splat = c >= 12;
+            for (options.seed = 0; options.seed < (c % 4 ? SEEDS : 1); options.seed++) {
+                double off = 0;
+                film_of_ramp(scene, &options, pixels);
+                for (int y = EDGE; y < SIDE - EDGE; y++) {
+                    for (int x = EDGE; x < SIDE - EDGE; x++) {
+                        const double wrong = (double)pixels[y * SIDE + x] - (x + 0.5);
+                        if (c % 4 == 0 && fabs(wrong) > 1e-4) {
+                            fail_msg("%s, %d samples%s: a ramp is off by %.2g pixels", f->name, options.spp,
+                                     options.splat ? ", splatted" : "", wrong);
+                        }
+                        off += wrong / ((SIDE - 2 * EDGE) * (SIDE - 2 * EDGE));
+                    }
+                }
+                sum += off;
+                squares += off * off;
+            }
+            const double mean = sum / SEEDS, error = sqrt(fmax(squares / SEEDS - mean * mean, 0) / (SEEDS - 1));
+            if (c % 4 && fabs(mean) > 7 * error + 1e-6) {
+                fail_msg("%s, %s, %d samples%s: a ramp is off by %.2g +- %.1g pixels", f->name, pattern, options.spp,
+                         options.splat ? ", splatted" : "", mean, error);
+            }
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* ---- Edges -------------------------------------------------------------------------------------------------- */
+
+/* Few independent samples drawn from a filter leave no bias: the mean of many pictures of an edge is the filter's
+   integral up to it, also in the lobes, where most pictures have no sample. */
+static void few_draws_have_no_bias(void **state)
+{
+    (void)state;
+    enum { SEEDS = 100, HEIGHT = 9 };
+    koksma_scene *scene =
+        scene_of("{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 90}, \"ambient\": 1,"
+                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"shapes\": ["
+                 "{\"kind\": \"rectangle\", \"centre\": [-5, 0, 0], \"normal\": [0, 0, 1], \"half\": [5, 90], "
+                 "\"material\": \"m\"}]}");
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        for (int spp = 2; spp <= 8; spp *= 2) { /* the edge is in the middle of column 4 */
+            koksma_render_options options = options_of(scene, "random", "distribution", spp, HEIGHT);
+            double sum[9] = {0}, squares[9] = {0};
+            options.filter = f;
+            for (options.seed = 0; options.seed < SEEDS; options.seed++) {
+                koksma_image image;
+                assert_ok(koksma_render(scene, &options, NULL, &image));
+                for (int p = 0; p < 9 * HEIGHT; p++) {
+                    sum[p % 9] += (double)image.pixels[p];
+                    squares[p % 9] += (double)image.pixels[p] * (double)image.pixels[p];
+                }
+                koksma_image_fini(&image);
+            }
+            for (int x = 0; x < 9; x++) {
+                const double n = SEEDS * HEIGHT, mean = sum[x] / n;
+                const double error = sqrt(fmax(squares[x] / n - mean * mean, 0) / n);
+                double part = 0, whole = 0;
+                for (double at = -2 + 5e-4; at < 2; at += 1e-3) {
+                    part += x + at < 4 ? f->value(at) : 0;
+                    whole += f->value(at);
+                }
+                if (fabs(mean - part / whole) > 4.5 * error + 2e-3) {
+                    fail_msg("%s, %d samples, column %d: %.5f +- %.5f, expected %.5f", f->name, spp, x, mean, error,
+                             part / whole);
+                }
+            }
+        }
+    }
+    koksma_scene_close(scene);
+}
+
+/* ---- Errors ------------------------------------------------------------------------------------------------- */
+
+static double rms(const koksma_image *a, const koksma_image *b)
+{
+    koksma_image_error d;
+    assert_ok(koksma_image_compare(a, b, &d));
+    return d.rmse;
+}
+
+/* Drawn samples are a pixel's own, splatted ones those of all pixels around: they leave less error, and the more the
+   wider the filter. Of a real picture it is up to three times less by filters without negative lobes (2.9 b-spline),
+   and no more by those with them (2.8 mitchell, where it was 8 when weights were not balanced). */
+static void drawing_is_near_splatting(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("ball", &scene));
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        koksma_render_options options = options_of(scene, "sobol:scramble=owen", "distribution", 256, 64);
+        koksma_image reference, image;
+        options.filter = f;
+        options.splat = true;
+        options.height = 48;
+        assert_ok(koksma_render(scene, &options, NULL, &reference));
+        for (options.spp = 4; options.spp <= 64; options.spp *= 4) {
+            double error[2];
+            for (int splat = 0; splat < 2; splat++) {
+                options.splat = splat;
+                assert_ok(koksma_render(scene, &options, NULL, &image));
+                error[splat] = rms(&image, &reference);
+                koksma_image_fini(&image);
+            }
+            if (!(error[0] < 3.5 * error[1])) {
+                fail_msg("%s, %d samples: %.4f drawn, %.4f splatted", f->name, options.spp, error[0], error[1]);
+            }
+        }
+        koksma_image_fini(&reference);
+    }
+    koksma_scene_close(scene);
+}
+
+/* ---- Adaptive sampling -------------------------------------------------------------------------------------- */
+
+/* A method that asks for nothing more has the picture and the variance of as many samples without it: weights are
+   balanced over all samples that a pixel has. */
+static void rounds_weigh_as_one_picture(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    assert_ok(koksma_scene_open("balls", &scene));
+    const koksma_filter *f;
+    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
+        koksma_render_options options = options_of(scene, "jittered", "distribution", 9, 24);
+        koksma_adaptive_options adaptive;
+        koksma_layers layers, rounds;
+        options.filter = f;
+        assert_ok(koksma_adaptive_parse("contrast:threshold=1e6", &adaptive));
+        assert_ok(koksma_render_layers(scene, &options, NULL, &layers));
+        assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &rounds, NULL));
+        for (size_t p = 0; p < 24 * 24; p++) {
+            const double variance = (double)layers.variance.pixels[p];
+            for (size_t k = 0; k < 3; k++) {
+                assert_near((double)rounds.image.pixels[3 * p + k], (double)layers.image.pixels[3 * p + k], 2e-6);
+            }
+            assert_near((double)rounds.variance.pixels[p], variance, 1e-5 * variance + 1e-9);
+        }
+        koksma_layers_fini(&layers);
+        koksma_layers_fini(&rounds);
+    }
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(filters_keep_a_ramp),
+        cmocka_unit_test(few_draws_have_no_bias),
+        cmocka_unit_test(drawing_is_near_splatting),
+        cmocka_unit_test(rounds_weigh_as_one_picture),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

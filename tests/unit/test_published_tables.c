@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How a printed mean goes with ours: every verdict, z with half of the last printed digit, slopes of printed ends. */
+#include "study/tables.h"
+
+#include <math.h>
+
+#include "test.h"
+
+static koksma__cell cell_of(double mean, double sd, size_t n)
+{
+    return (koksma__cell){.mean = {.n = n, .mean = mean, .sd = sd, .low = mean, .high = mean}, .sd = sd};
+}
+
+static char pattern[] = "random", measure[] = "star", scene[] = "checker";
+
+/* A table of a measure with one row and, for `explained` 0 or 1, a note on its mean. */
+typedef struct one_row {
+    koksma__table table;
+    koksma__table_row row;
+    koksma__note note;
+    long long n[3];
+} one_row;
+
+static void set_up(one_row *t, double value, double half_digit, int explained)
+{
+    *t = (one_row){.n = {16, 256, 1600}};
+    t->row = (koksma__table_row){.pattern = pattern, .label = pattern, .n_published = 1};
+    for (int i = 0; i < 3; i++) {
+        t->row.published[i] = (koksma__printed){.value = i ? (double)NAN : value, .half_digit = half_digit};
+    }
+    t->note = (koksma__note){.pattern = pattern, .explained = explained == 1};
+    t->table = (koksma__table){.measure = measure,
+                               .n = {1, t->n},
+                               .n_rows = 1,
+                               .rows = &t->row,
+                               .n_notes = explained >= 0,
+                               .notes = &t->note};
+}
+
+static koksma_study_verdict verdict(const one_row *t, double mean, double sd, size_t n)
+{
+    const koksma__cell cell = cell_of(mean, sd, n);
+    return koksma__table_judge(&t->table, &t->row, 0, &cell).kind;
+}
+
+/* Printed 0.282 of 100 sets; ours 0.29 of 400 sets with SD 0.05: the standard error of the difference is
+   0.05 sqrt(1/100 + 1/400) = 0.0055902, rounding adds 0.0005, and z = -0.008 / 0.0060902 = -1.3136. */
+static void z_has_both_errors_and_the_rounding(void **state)
+{
+    one_row t;
+    (void)state;
+    set_up(&t, 0.282, 0.0005, -1);
+    const koksma__cell cell = cell_of(0.29, 0.05, 400);
+    assert_near(koksma__table_judge(&t.table, &t.row, 0, &cell).z, -1.3136, 1e-4);
+}
+
+static void every_verdict_has_its_case(void **state)
+{
+    one_row t;
+    (void)state;
+    set_up(&t, 0.282, 0.0005, -1);
+    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES);
+    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
+    assert_int_equal(verdict(&t, 0.29, NAN, 1), KOKSMA_VERDICT_WAITING);
+    assert_int_equal(verdict(&t, NAN, NAN, 0), KOKSMA_VERDICT_WAITING);
+    set_up(&t, 0.282, 0.0005, 1);
+    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_EXPLAINED);
+    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES); /* a note does not hide agreement */
+    set_up(&t, 0.282, 0.0005, 0);
+    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
+    set_up(&t, NAN, 0, 1);
+    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_NEW);
+    set_up(&t, 0.02, 0.0005, -1);
+    t.table.measure = NULL;
+    t.table.scene = scene;
+    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_AGREES);
+    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
+    t.table.fitted = true;
+    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_FITTED);
+    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
+    for (int v = KOKSMA_VERDICT_NEW; v <= KOKSMA_VERDICT_UNEXPLAINED; v++) {
+        assert_non_null(koksma_study_verdict_name((koksma_study_verdict)v));
+    }
+    assert_null(koksma_study_verdict_name((koksma_study_verdict)(KOKSMA_VERDICT_UNEXPLAINED + 1)));
+}
+
+/* Of a table over several n a note may be of one column. */
+static void notes_are_of_columns(void **state)
+{
+    one_row t;
+    (void)state;
+    set_up(&t, 0.282, 0.0005, 1);
+    t.table.n.n = 3;
+    t.note.n = 256;
+    assert_int_equal(koksma__table_note(&t.table, "random", 16, 0), 0);
+    assert_int_equal(koksma__table_note(&t.table, "random", 256, 0), 1);
+    assert_int_equal(koksma__table_note(&t.table, "random", 256, 1), 0);
+    assert_int_equal(koksma__table_note(&t.table, "jittered", 256, 0), 0);
+}
+
+/* Mitchell 1992, table 1: log(0.00254 / 0.049) / log(100) = -0.6427 for dart throwing. */
+static void slopes_are_of_the_printed_ends(void **state)
+{
+    one_row t;
+    (void)state;
+    set_up(&t, 0.049, 0.0005, -1);
+    t.table.n.n = 3;
+    assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
+    t.row.published[2].value = 0.00254;
+    assert_near(koksma__table_printed_slope(&t.table, &t.row), -0.6427, 1e-4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(z_has_both_errors_and_the_rounding),
+        cmocka_unit_test(every_verdict_has_its_case),
+        cmocka_unit_test(notes_are_of_columns),
+        cmocka_unit_test(slopes_are_of_the_printed_ends),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
