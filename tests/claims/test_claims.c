@@ -21,7 +21,7 @@ static size_t largest_count(const char *name, int dim)
         "pmj02bn",        "poisson-disk",        "void-and-cluster"};
     for (size_t i = 0; i < sizeof slow / sizeof *slow; i++) {
         if (!strcmp(slow[i], name)) {
-            return 128;
+            return dim <= 4 ? 128 : 64;
         }
     }
     return dim <= 4 ? 1024 : 256;
