@@ -73,7 +73,7 @@ static const bar bars[] = {
     {"pmj02", 2, 1024, 323, 1, "Helmer, stochastic PMJ02"},
     {"pmj02", 2, 65536, 325, 1, "Helmer, stochastic PMJ02"},
     {"pmj02", 2, 1048576, 171, 1, "Helmer, stochastic PMJ02"},
-    {"pmj02bn:candidates=100", 2, 4096, 0.32, 1, "Helmer, stochastic PMJ02BN, 100 candidates"},
+    {"pmj02bn", 2, 4096, 0.32, 1, "Helmer, stochastic PMJ02BN, 100 candidates"},
     {"dart-throwing", 2, 1024, 0.033, 2, "UTK Dart throwing, relaxed (f = 0.675)"},
     {"dart-throwing", 2, 4096, 0.0088, 2, "UTK Dart throwing, relaxed"},
     {"dart-throwing", 2, 16384, 0.0030, 2, "UTK Dart throwing, relaxed"},

@@ -15,7 +15,7 @@ enum { MAX_PATTERNS = 64 };
 static const char thesis[] = "n-rooks,jittered,half-jittered,poisson-disk:d=0.2,poisson-disk:d=0.1,regular,random";
 static const char later[] =
     "n-rooks,jittered,half-jittered,regular,random,multi-jittered,correlated-multi-jittered,"
-    "sobol:scramble=owen,halton:scramble=owen,pmj02,pmj02bn,orthogonal-array,r-sequence:shift=1,"
+    "sobol:scramble=owen,halton:scramble=owen,pmj02,pmj02bn:levels=4,orthogonal-array,r-sequence:shift=1,"
     "hammersley:shift=1,fibonacci:shift=1,best-candidate,"
     "gaussian-blue-noise";
 

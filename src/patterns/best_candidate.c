@@ -11,10 +11,11 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "core/status.h"
 #include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
-enum { MAX_DIM = 8 };
+enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 
 /* The square of the distance to the nearest of the points, or any value at most `enough`. */
 static double nearest(const koksma_points *out, size_t placed, const double *x, double enough)
@@ -31,8 +32,9 @@ static double nearest(const koksma_points *out, size_t placed, const double *x, 
     return best;
 }
 
-static void choose(uint64_t seed, size_t placed, size_t candidates, const koksma__torus_grid *grid,
-                   koksma_points *out)
+/* Places a point. `looks` counts the points that candidates are compared with; run is asked from time to time. */
+static koksma_status choose(uint64_t seed, size_t placed, size_t candidates, const koksma__torus_grid *grid,
+                            const koksma_run *run, size_t *looks, koksma_points *out)
 {
     double best = -1, dart[MAX_DIM];
     double *point = out->xs + placed * (size_t)out->dim;
@@ -48,22 +50,29 @@ static void choose(uint64_t seed, size_t placed, size_t candidates, const koksma
                 point[k] = dart[k];
             }
         }
+        *looks += grid ? 64 : placed + 1;
+        if (*looks >= LOOKS) {
+            *looks = 0;
+            if (!koksma__keep_going(run, (double)placed / (double)out->n)) {
+                return koksma__fail_interrupted();
+            }
+        }
     }
+    return KOKSMA_OK;
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const bool gridded = out->dim == 2 && out->n > 64;
     koksma__torus_grid grid = {0};
+    size_t looks = 0;
     koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;
     for (size_t i = 0; i < out->n && !status; i++) {
         const double wanted = args->params[0] * (double)i + 1;
-        choose(seed, i, (size_t)fmin(wanted, args->params[1]), gridded && i > 16 ? &grid : NULL, out);
+        status = choose(seed, i, (size_t)fmin(wanted, args->params[1]), gridded && i > 16 ? &grid : NULL, args->run,
+                        &looks, out);
         if (gridded) {
             koksma__torus_grid_add(&grid, (uint32_t)i);
-        }
-        if (i % 256 == 255 && !koksma__keep_going(args->run, (double)i / (double)out->n)) {
-            status = koksma__fail_interrupted();
         }
     }
     koksma__torus_grid_fini(&grid);

@@ -9,7 +9,9 @@
  * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
  * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points
  * can keep. Dart throwing itself jams at about 0.77 of that on the torus. In the plane, a grid of cells finds the
- * points near a dart once there are more than a few; the points are the same.
+ * points near a dart once there are more than a few; the points are the same. Elsewhere a dart is compared with all
+ * points. The search ends after 2^34 + 4096 n coordinates compared, some 20 s, over all beginnings: enough for 65,536
+ * points in 5 dimensions where few darts are rejected. The error then says how many points there were.
  */
 #include <math.h>
 
@@ -20,7 +22,13 @@
 #include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
 
-enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256 };
+enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256, LOOKS = 1 << 24 };
+
+/* A search: where it is, and what it has cost. */
+typedef struct search {
+    bool torus, stopped;
+    uint64_t work, asked, most; /* coordinates compared; when run was last asked; the bound */
+} search;
 
 /* What share of the bound on the distance dart throwing always came to, for 3 to 300 points: where points are few and
    dimensions many, the bound is far above what any points can keep, most of all in the cube. */
@@ -31,25 +39,38 @@ static double reached(int dim, bool torus)
     return torus ? tiles[dim - 1] : cube[dim - 1];
 }
 
-static bool fits(const koksma_points *out, size_t placed, const double *dart, double d2, bool torus)
+static bool fits(const koksma_points *out, size_t placed, const double *dart, double d2, search *s)
 {
-    for (size_t i = 0; i < placed; i++) {
+    size_t i = 0;
+    bool room = true;
+    for (; i < placed && room; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {
             double t = fabs(dart[k] - out->xs[i * (size_t)out->dim + (size_t)k]);
-            t = torus && t > 0.5 ? 1 - t : t;
+            t = s->torus && t > 0.5 ? 1 - t : t;
             sum += t * t;
         }
-        if (sum < d2) {
-            return false;
-        }
+        room = sum >= d2;
     }
-    return true;
+    s->work += i * (uint64_t)out->dim;
+    return room;
 }
 
-/* The number of points placed before the darts ran out, or run said stop. The grid, if any, is empty at first. */
-static size_t throw_darts(uint64_t seed, double d, bool torus, koksma__torus_grid *grid, const koksma_run *run,
-                          bool *stopped, koksma_points *out)
+/* Whether the search may go on; asks run from time to time. */
+static bool may_go_on(search *s, double done, const koksma_run *run)
+{
+    s->work += 64; /* the dart itself, and its neighbours in a grid */
+    if (s->work - s->asked >= LOOKS) {
+        s->asked = s->work;
+        s->stopped = !koksma__keep_going(run, done);
+    }
+    return !s->stopped && s->work < s->most;
+}
+
+/* The number of points placed before the darts or the work ran out, or run said stop. The grid, if any, is empty at
+   first. */
+static size_t throw_darts(uint64_t seed, double d, koksma__torus_grid *grid, const koksma_run *run, search *s,
+                          koksma_points *out)
 {
     size_t placed = 0, dart_number = 0;
     for (int rejections = 0; placed < out->n && rejections < REJECTIONS; dart_number++) {
@@ -57,13 +78,11 @@ static size_t throw_darts(uint64_t seed, double d, bool torus, koksma__torus_gri
         for (int k = 0; k < out->dim; k += 2) {
             koksma__random_pair(seed, KOKSMA__PURPOSE_DART, dart_number, (uint32_t)k / 2, dart + k);
         }
-        if (dart_number % (placed > 1024 ? 256 : 65536) == 255 &&
-            !koksma__keep_going(run, (double)placed / (double)out->n)) {
-            *stopped = true;
+        if (!may_go_on(s, (double)placed / (double)out->n, run)) {
             return placed;
         }
-        if (grid ? koksma__torus_grid_near(grid, dart[0], dart[1], d, torus)
-                 : !fits(out, placed, dart, d * d, torus)) {
+        if (grid ? koksma__torus_grid_near(grid, dart[0], dart[1], d, s->torus)
+                 : !fits(out, placed, dart, d * d, s)) {
             rejections++;
             continue;
         }
@@ -85,21 +104,27 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
     const double d = args->params[0];
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
+    search s = {.torus = torus, .most = ((uint64_t)1 << 34) + 4096 * (uint64_t)out->n};
     size_t most = 0;
     for (uint32_t restart = 0; restart < RESTARTS; restart++) {
         const uint64_t own = restart ? koksma__random_seed(seed, restart, KOKSMA__PURPOSE_DART) : seed;
         if (grid) {
             koksma__torus_grid_clear(grid);
         }
-        bool stopped = false;
-        const size_t placed = throw_darts(own, d, torus, grid, args->run, &stopped, out);
+        const size_t placed = throw_darts(own, d, grid, args->run, &s, out);
         if (placed == out->n) {
             return KOKSMA_OK;
         }
-        if (stopped || !koksma__keep_going(args->run, 0)) {
+        if (s.stopped || !koksma__keep_going(args->run, 0)) {
             return koksma__fail_interrupted();
         }
         most = placed > most ? placed : most;
+        if (s.work >= s.most) {
+            return koksma__fail(KOKSMA_IMPOSSIBLE,
+                                "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its "
+                                "bound of work; n = %zu or less, or a smaller d, would do",
+                                most, out->n, d, out->dim, most);
+        }
         if (restart >= 5 && most < out->n * 9 / 10) {
             break; /* hopeless */
         }

@@ -66,7 +66,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (!status) {
         status = koksma__fill_jittered_time("scan-time", seed, args, out);
     }
-    const size_t candidates = (size_t)args->params[1];
+    const size_t candidates = (size_t)args->params[1], often = 1 + 16384 / candidates;
     for (size_t i = 0; i < out->n && !status; i++) {
         double best = -1, best_t = 0;
         for (size_t c = 0; c < candidates; c += 2) {
@@ -81,7 +81,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
             }
         }
         out->xs[3 * i + 2] = best_t;
-        if (i % 4096 == 4095 && !koksma__keep_going(args->run, (double)i / (double)out->n)) {
+        if (i % often == often - 1 && !koksma__keep_going(args->run, (double)i / (double)out->n)) {
             status = koksma__fail_interrupted();
         }
     }

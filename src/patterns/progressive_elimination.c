@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * progressive-elimination: the sequence of `length` points that sample elimination makes of `factor` times as many
+ * uniform ones, in Yuksel's progressive order: half of the points is taken out again, then half of those left, and
+ * so on; the point taken out last comes first.
+ *
+ * Source: Yuksel 2015, section on progressive sampling; parts/elimination.c has the formulas. The first n points of
+ * a sequence do not depend on n, but they do on `length`: another length is another sequence. Generating takes the
+ * time of the whole sequence: choose the length that you will use.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "patterns/parts/elimination.h"
+#include "patterns/patterns.h"
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    const size_t length = (size_t)args->params[0], factor = (size_t)args->params[1], dim = (size_t)out->dim;
+    if (out->n > length) {
+        return koksma__fail(KOKSMA_N,
+                            "progressive-elimination: length=%zu has %zu points, not %zu; n = %zu or less, or "
+                            "length=%zu, would do",
+                            length, length, out->n, length, out->n);
+    }
+    if (length > KOKSMA_MAX_COORDINATES / dim / factor) {
+        return koksma__fail(KOKSMA_N, "progressive-elimination: length=%zu is too large; length=%zu or less would do",
+                            length, KOKSMA_MAX_COORDINATES / dim / factor);
+    }
+    double *xs = malloc(length * dim * sizeof *xs);
+    if (!xs) {
+        return koksma__fail_memory(length * dim * sizeof *xs);
+    }
+    const koksma_status status =
+        koksma__eliminated_set("progressive-elimination", seed, length, out->dim, factor, true, args->run, xs);
+    if (!status) {
+        memcpy(out->xs, xs, out->n * dim * sizeof *xs);
+    }
+    free(xs);
+    return status;
+}
+
+static const koksma_param params[] = {
+    {"length", "points of the sequence", 1024, 1, 1 << 27, NULL, true},
+    {"factor", "points to begin with, for each of the sequence", 5, 2, 20, NULL, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_progressive_elimination = {
+    .name = "progressive-elimination",
+    .title = "sample elimination in an order whose prefixes are blue noise",
+    .cite = "yuksel2015",
+    .min_dim = 1,
+    .max_dim = KOKSMA_MAX_DIM,
+    .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_BLUE | KOKSMA_CLAIM_UNBIASED,
+    .params = params,
+    .generate = generate,
+};

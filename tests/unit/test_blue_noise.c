@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Blue-noise patterns against their papers: docs/findings/blue-noise.md has the numbers that are held here. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "patterns/parts/elimination.h"
+#include "patterns/parts/packing.h"
+#include "test.h"
+
+static double torus_distance2(const double *a, const double *b, int dim)
+{
+    double sum = 0;
+    for (int k = 0; k < dim; k++) {
+        const double t = fabs(a[k] - b[k]), way = t > 0.5 ? 1 - t : t;
+        sum += way * way;
+    }
+    return sum;
+}
+
+/* The smallest, and the mean, distance to the nearest other point, in units of the densest packing's. 2D. */
+static void nearest(const double *xs, size_t n, double *least, double *mean)
+{
+    const double densest = koksma__packing_distance(n, 2, true);
+    const long side = n < 64 ? 1 : (long)sqrt((double)n / 4);
+    long *first = malloc(((size_t)(side * side) + n) * sizeof *first), *next = first + side * side;
+    for (long c = 0; c < side * side; c++) {
+        first[c] = -1;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const long c = (long)(xs[2 * i + 1] * (double)side) * side + (long)(xs[2 * i] * (double)side);
+        next[i] = first[c];
+        first[c] = (long)i;
+    }
+    *least = INFINITY;
+    *mean = 0;
+    for (size_t i = 0; i < n; i++) {
+        const long cx = (long)(xs[2 * i] * (double)side), cy = (long)(xs[2 * i + 1] * (double)side);
+        double best = INFINITY;
+        for (long v = -1; v <= 1; v++) {
+            for (long u = -1; u <= 1; u++) {
+                for (long j = first[(cy + v + side) % side * side + (cx + u + side) % side]; j >= 0; j = next[j]) {
+                    if (j != (long)i) {
+                        best = fmin(best, torus_distance2(xs + 2 * i, xs + 2 * j, 2));
+                    }
+                }
+            }
+        }
+        *least = fmin(*least, sqrt(best) / densest);
+        *mean += sqrt(best) / densest / (double)n;
+    }
+    free(first);
+}
+
+/* Mean relative radius of SETS sets of 1,024 points in its band; each blue-noise pattern is in the table. */
+static void relative_radii_are_those_of_the_table(void **state)
+{
+    (void)state;
+    enum { SETS = 2 };
+    static const struct {
+        const char *spec;
+        double low, high;
+    } rows[] = {
+        {"sample-elimination", 0.683, 0.709},
+        {"sample-elimination:factor=20", 0.76, 0.78},
+        {"progressive-elimination", 0.683, 0.709},
+        {"gaussian-blue-noise", 0.69, 0.76},
+        {"dart-throwing", 0.75, 0.755},
+        {"poisson-disk:d=0.0251,torus=1", 0.7474, 0.753},
+        {"poisson-disk-maximal", 0.765, 0.79},
+        {"best-candidate", 0.65, 0.73},
+        {"void-and-cluster", 0.465, 0.466},
+    };
+    enum { ROWS = sizeof rows / sizeof *rows };
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        bool found = !(p->claims & KOKSMA_CLAIM_BLUE) || p->alias_of;
+        for (size_t r = 0; r < ROWS && !found; r++) {
+            found = !strncmp(rows[r].spec, p->name, strcspn(rows[r].spec, ":")) &&
+                    strlen(p->name) == strcspn(rows[r].spec, ":");
+        }
+        if (!found) {
+            fail_msg("%s claims a blue-noise distance and is not in this table", p->name);
+        }
+    }
+    for (size_t r = 0; r < ROWS; r++) {
+        double sum = 0, mean;
+        for (uint64_t seed = 0; seed < SETS; seed++) {
+            double rho;
+            koksma_points points = test_points(rows[r].spec, 1024, 2, seed);
+            nearest(points.xs, 1024, &rho, &mean);
+            sum += rho / SETS;
+            koksma_points_fini(&points);
+        }
+        if (!(sum >= rows[r].low && sum <= rows[r].high)) {
+            fail_msg("%s: relative radius %.4f, not %g to %g", rows[r].spec, sum, rows[r].low, rows[r].high);
+        }
+    }
+}
+
+/* Yuksel 2015: the radii of the weight function and its limit. */
+static void elimination_has_the_papers_formulas(void **state)
+{
+    (void)state;
+    assert_near(koksma__elimination_radius(1000, 1), 1e-3, 1e-15);
+    assert_near(koksma__elimination_radius(1000, 2), sqrt(2 / (sqrt(3) * 1000)), 1e-15);
+    assert_near(koksma__elimination_radius(1000, 3), 2 * pow(1 / (4 * sqrt(2) * 1000), 1.0 / 3), 1e-15);
+    assert_near(koksma__elimination_radius(1000, 4), 2 * pow(2 / (M_PI * M_PI * 1000), 0.25), 1e-14);
+    assert_near(koksma__elimination_radius(1000, 5), 2 * pow(15 / (8 * M_PI * M_PI * 1000), 0.2), 1e-14);
+    assert_near(koksma__elimination_radius(1000, 6), 2 * pow(6 / (M_PI * M_PI * M_PI * 1000), 1.0 / 6), 1e-14);
+    assert_near(koksma__elimination_limit(100, 100), 0, 0);
+    assert_near(koksma__elimination_limit(100, 500), 0.65 * (1 - pow(0.2, 1.5)), 1e-15);
+}
+
+/* By the definition: the weight of point i while those with `gone` are out. */
+static double weight_of(const koksma_points *points, size_t i, const unsigned char *gone, double d_max, double d_min)
+{
+    double weight = 0;
+    const size_t dim = (size_t)points->dim;
+    for (size_t j = 0; j < points->n; j++) {
+        const double d = sqrt(torus_distance2(points->xs + i * dim, points->xs + j * dim, points->dim));
+        weight += j != i && !gone[j] && d < d_max ? pow(1 - fmax(d, d_min) / d_max, 8) : 0;
+    }
+    return weight;
+}
+
+/* Each point is the heaviest when it goes, but for roundings: two that have only each other weigh the same. */
+static void elimination_takes_the_heaviest(void **state)
+{
+    (void)state;
+    enum { COUNT = 150, KEEP = 30 };
+    static const int dims[] = {1, 2, 3, 5};
+    for (int c = 0; c < 4; c++) {
+        unsigned char gone[COUNT] = {0}, seen[COUNT] = {0};
+        uint32_t order[COUNT];
+        koksma_points points = test_points("random", COUNT, dims[c], 7);
+        const double d_max = koksma__elimination_radius(KEEP, dims[c]);
+        const double d_min = d_max * koksma__elimination_limit(KEEP, COUNT);
+        assert_ok(koksma__eliminate(COUNT, dims[c], points.xs, KEEP, d_max, d_min, NULL, order));
+        for (size_t at = COUNT; at-- > 0;) {
+            assert_int_equal(seen[order[at]]++, 0);
+            assert_true(at + 1 >= KEEP || order[at] < order[at + 1]);
+            if (at >= KEEP) {
+                const double weight = weight_of(&points, order[at], gone, d_max, d_min);
+                for (size_t i = 0; i < COUNT; i++) {
+                    assert_true(gone[i] || weight_of(&points, i, gone, d_max, d_min) <= weight + 1e-12);
+                }
+                gone[order[at]] = 1;
+            }
+        }
+        koksma_points_fini(&points);
+    }
+}
+
+/* The mean relative radius of 1,024 of 5,120 uniform points, with a limit and without. */
+static void limited_weights_keep_points_apart(void **state)
+{
+    (void)state;
+    enum { N = 1024, ALL = 5 * N };
+    static uint32_t order[ALL];
+    static double kept[2 * N];
+    const double d_max = koksma__elimination_radius(N, 2), limit = koksma__elimination_limit(N, ALL);
+    koksma_points points = test_points("random", ALL, 2, 3);
+    double rho[2], mean;
+    for (int limited = 0; limited < 2; limited++) {
+        assert_ok(koksma__eliminate(ALL, 2, points.xs, N, d_max, limited ? d_max * limit : 0, NULL, order));
+        for (size_t i = 0; i < N; i++) {
+            memcpy(kept + 2 * i, points.xs + 2 * (size_t)order[i], 2 * sizeof *kept);
+        }
+        nearest(kept, N, &rho[limited], &mean);
+    }
+    koksma_points_fini(&points);
+    assert_near(rho[0], 0.634, 0.012); /* 0.633 by an independent program without the limit, 0.698 with it */
+    assert_near(rho[1], 0.698, 0.014);
+}
+
+/* The first half, quarter, .. are blue noise, which those of the set in the order of drawing are not; another n is
+   the same sequence, and more than `length` points are refused. */
+static void prefixes_of_progressive_elimination(void **state)
+{
+    (void)state;
+    const koksma_points ordered = test_points("progressive-elimination", 1024, 2, 1);
+    const koksma_points drawn = test_points("sample-elimination", 1024, 2, 1);
+    for (size_t n = 64; n < 1024; n = n * 3 / 2) {
+        double rho, mean, rho_drawn;
+        nearest(ordered.xs, n, &rho, &mean);
+        nearest(drawn.xs, n, &rho_drawn, &mean);
+        if (!(rho > 0.57 && rho > rho_drawn + 0.05)) {
+            fail_msg("%zu of 1024 points: relative radius %.3f ordered, %.3f as drawn", n, rho, rho_drawn);
+        }
+    }
+    koksma_spec spec;
+    koksma_points more;
+    assert_ok(koksma_pattern_spec("progressive-elimination:length=100", &spec));
+    assert_ok(koksma_points_init(&more, 101, 2));
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &more), KOKSMA_N);
+    koksma_points_fini(&more);
+    koksma_points a = ordered, b = drawn;
+    koksma_points_fini(&a);
+    koksma_points_fini(&b);
+}
+
+/* The gain over pmj02 holds at every power of 4, places within strata of 1/n are uniform, and it is pmj02's net. */
+static void pmj02bn_keeps_apart_at_all_sizes(void **state)
+{
+    (void)state;
+    enum { N = 16384, BINS = 10 };
+    koksma_points plain = test_points("pmj02", N, 2, 2), blue = test_points("pmj02bn", N, 2, 2);
+    for (size_t n = 256; n <= N; n *= 4) {
+        double rho, before, after;
+        size_t bins[BINS] = {0};
+        nearest(plain.xs, n, &rho, &before);
+        nearest(blue.xs, n, &rho, &after);
+        if (!(after > 0.66 && after > before + 0.05)) {
+            fail_msg("%zu points: mean nearest distance %.3f, pmj02's %.3f", n, after, before);
+        }
+        for (size_t i = 0; i < 2 * n; i++) {
+            const double place = blue.xs[i] * (double)n;
+            bins[(size_t)((place - floor(place)) * BINS)]++;
+        }
+        for (size_t b = 0; b < BINS; b++) { /* 6 standard deviations of a binomial */
+            assert_near((double)bins[b], 0.2 * (double)n, 6 * sqrt(0.18 * (double)n));
+        }
+        static unsigned char seen[N];
+        for (size_t across = 1; across <= n; across *= 2) {
+            memset(seen, 0, n);
+            for (size_t i = 0; i < n; i++) {
+                const size_t x = (size_t)(blue.xs[2 * i] * (double)across);
+                const size_t y = (size_t)(blue.xs[2 * i + 1] * (double)(n / across));
+                assert_int_equal(seen[x * (n / across) + y]++, 0);
+            }
+        }
+    }
+    koksma_points_fini(&plain);
+    koksma_points_fini(&blue);
+    koksma_points same = test_points("pmj02bn:levels=0", 100, 2, 5), as = test_points("pmj02", 100, 2, 5);
+    assert_memory_equal(same.xs, as.xs, 200 * sizeof *as.xs);
+    koksma_points_fini(&same);
+    koksma_points_fini(&as);
+}
+
+/* Mean power over frequencies 0 < |k| < 0.75 sqrt n. */
+static double low_power(const koksma_points *points)
+{
+    const double limit = 0.75 * 0.75 * (double)points->n;
+    const int most = (int)sqrt(limit);
+    double sum = 0;
+    int count = 0;
+    for (int u = 0; u <= most; u++) {
+        for (int v = u ? -most : 1; v <= most; v++) {
+            double c = 0, s = 0;
+            if (u * u + v * v >= limit) {
+                continue;
+            }
+            for (size_t i = 0; i < points->n; i++) {
+                const double angle = 2 * M_PI * (u * points->xs[2 * i] + v * points->xs[2 * i + 1]);
+                c += cos(angle);
+                s += sin(angle);
+            }
+            sum += (c * c + s * s) / (double)points->n;
+            count++;
+        }
+    }
+    return sum / count;
+}
+
+/* By its criterion the descent leaves what 2,000 steps without it used to leave: a sixth of what 400 did. */
+static void gaussian_blue_noise_has_converged(void **state)
+{
+    (void)state;
+    koksma_points done = test_points("gaussian-blue-noise", 1024, 2, 0);
+    koksma_points early = test_points("gaussian-blue-noise:steps=128", 1024, 2, 0);
+    const double converged = low_power(&done), before = low_power(&early);
+    if (!(converged < 0.0025 && converged > 1e-5 && before > 10 * converged)) {
+        fail_msg("power below 0.75 sqrt n: %.5f, after 128 steps %.5f", converged, before);
+    }
+    koksma_points_fini(&done);
+    koksma_points_fini(&early);
+}
+
+static bool stop_at_once(void *context, double fraction)
+{
+    assert_true(fraction >= 0 && fraction <= 1);
+    ++*(int *)context;
+    return false;
+}
+
+/* What would take minutes or longer asks whether to go on. */
+static void long_searches_ask(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec;
+        size_t n;
+        int dim;
+    } rows[] = {
+        {"poisson-disk:d=0.1", 65536, 5},
+        {"poisson-disk:d=0.0007,torus=1", 1 << 20, 2},
+        {"dart-throwing:f=0.39", 1 << 19, 2},
+        {"best-candidate:candidates=100,most=1048576", 2048, 2},
+        {"best-candidate:candidates=100,most=1048576", 4096, 5},
+        {"scan-time:candidates=1000", 4096, 3},
+        {"sample-elimination:factor=20", 8192, 2},
+        {"sample-elimination", 2048, 8},
+        {"progressive-elimination:length=65536", 10, 2},
+        {"gaussian-blue-noise", 64, 2},
+        {"pmj02bn:levels=10", 10, 2},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        koksma_spec spec;
+        koksma_points points;
+        int asked = 0;
+        const koksma_run run = {.threads = 1, .keep_going = stop_at_once, .context = &asked};
+        assert_ok(koksma_pattern_spec(rows[r].spec, &spec));
+        assert_ok(koksma_points_init(&points, rows[r].n, rows[r].dim));
+        const koksma_status status = koksma_generate(&spec, 1, &run, &points);
+        if (status != KOKSMA_INTERRUPTED || asked != 1) {
+            fail_msg("%s, n = %zu, dim = %d: status %d, asked %d times", rows[r].spec, rows[r].n, rows[r].dim,
+                     (int)status, asked);
+        }
+        koksma_points_fini(&points);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(relative_radii_are_those_of_the_table),
+        cmocka_unit_test(elimination_has_the_papers_formulas),
+        cmocka_unit_test(elimination_takes_the_heaviest),
+        cmocka_unit_test(limited_weights_keep_points_apart),
+        cmocka_unit_test(prefixes_of_progressive_elimination),
+        cmocka_unit_test(pmj02bn_keeps_apart_at_all_sizes),
+        cmocka_unit_test(gaussian_blue_noise_has_converged),
+        cmocka_unit_test(long_searches_ask),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
