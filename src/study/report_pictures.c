@@ -19,8 +19,8 @@
 /* What the floats of one file may take before their base64, and how much brighter an error is shown. */
 enum { MOST_BYTES = 24 << 20, GAIN = 8, MAX_SHOWN = 24 };
 
-/* Trials whose errors' spectra are averaged, and pixels up to which: the transform takes W H (W + H) steps. */
-enum { SPECTRUM_TRIALS = 4, SPECTRUM_PIXELS = 1 << 16 };
+/* Trials whose errors' spectra are averaged. */
+enum { SPECTRUM_TRIALS = 4 };
 
 typedef struct budget {
     size_t used, left_out; /* left_out: scenes that would take too much */
@@ -101,11 +101,6 @@ static koksma_status add_spectra(koksma__html *h, const koksma__task *first, con
 {
     const koksma__texts *patterns = &first->image->patterns;
     const size_t n = patterns->n < MAX_SHOWN ? patterns->n : MAX_SHOWN;
-    if ((size_t)first->width * (size_t)first->height > SPECTRUM_PIXELS) {
-        koksma__html_add(h, "<p>No spectrum of the errors: the pictures have more than %d pixels.</p>\n",
-                         SPECTRUM_PIXELS);
-        return KOKSMA_OK;
-    }
     koksma__chart_series *series = calloc(KOKSMA__CHART_SERIES, sizeof *series);
     koksma_status status = series ? KOKSMA_OK : koksma__fail_memory(KOKSMA__CHART_SERIES * sizeof *series);
     for (size_t p = 0; !status && p < n; p++) {
