@@ -125,8 +125,8 @@ const cli_command cli_command_compare = {
         "of\n"
         "several images (one pattern with several seeds) their means.\n"
         "coherence: the peak of the error's power spectrum over its mean, averaged over the images. 95 % of errors\n"
-        "that are white noise have one from noise_low to noise_high; coherent: it is above what 99.5 % of them have.\n"
-        "Then the error has bands or another pattern, of frequency_x and frequency_y cycles a pixel (--json).\n"
+        "that are white noise have one from noise_low to noise_high; coherent: it is above what 99.5 % of them\n"
+        "have. Then the error has bands or another pattern, of frequency_x and frequency_y cycles a pixel (--json).\n"
         "An image with a pixel that is no finite number is malformed.",
     .options = options,
     .run = run,
