@@ -8,8 +8,6 @@
 #include <koksma/image.h>
 
 #include "core/random.h"
-#include "image/coherence_law.h"
-#include "image/fourier.h"
 #include "test.h"
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
@@ -83,103 +81,6 @@ static koksma_coherence_values find(const koksma_coherence *c)
     koksma_coherence_values values;
     koksma_coherence_find(c, &values);
     return values;
-}
-
-/* ---- The transform ------------------------------------------------------------------------------------- */
-
-/* Against the definition: powers of two, primes, odd and even, one row, one column, one pixel. */
-static void powers_are_the_definition(void **state)
-{
-    (void)state;
-    static const int sizes[][2] = {{1, 1},  {2, 1},  {1, 2},  {3, 1},   {1, 7},  {16, 8}, {13, 11},
-                                   {31, 2}, {12, 9}, {2, 37}, {17, 16}, {64, 1}, {1, 53}, {30, 45}};
-    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        const int width = sizes[s][0], height = sizes[s][1], columns = width / 2 + 1;
-        double *values = calloc((size_t)(width * height), sizeof *values);
-        double *power = calloc((size_t)(columns * height), sizeof *power);
-        double squares = 0;
-        for (int i = 0; i < width * height; i++) {
-            values[i] = draw(0, 5 + s, (uint64_t)i);
-            squares += values[i] * values[i];
-        }
-        assert_ok(koksma__fourier_power(width, height, values, power));
-        for (int v = 0; v < height; v++) {
-            for (int u = 0; u < columns; u++) {
-                double re = 0, im = 0;
-                for (int i = 0; i < width * height; i++) {
-                    const double turn =
-                        (double)(u * (i % width) % width) / width + (double)(v * (i / width) % height) / height;
-                    re += values[i] * cos(2 * M_PI * turn);
-                    im -= values[i] * sin(2 * M_PI * turn);
-                }
-                assert_near(power[v * columns + u], re * re + im * im, 1e-12 * squares * width * height);
-            }
-        }
-        free(values);
-        free(power);
-    }
-}
-
-/* Parseval's theorem where the definition would take too long: large primes beside powers of two. */
-static void powers_add_up(void **state)
-{
-    (void)state;
-    static const int sizes[][2] = {{509, 512}, {4, 20011}, {65536, 3}};
-    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
-        const size_t width = (size_t)sizes[s][0], height = (size_t)sizes[s][1], columns = width / 2 + 1;
-        double *values = calloc(width * height, sizeof *values), *power = calloc(columns * height, sizeof *power);
-        double squares = 0, sum = 0;
-        for (size_t i = 0; i < width * height; i++) {
-            values[i] = draw(3, 50 + s, i);
-            squares += values[i] * values[i];
-        }
-        assert_ok(koksma__fourier_power((int)width, (int)height, values, power));
-        for (size_t i = 0; i < columns * height; i++) {
-            const size_t u = i % columns;
-            sum += power[i] * (u == 0 || 2 * u == width ? 1 : 2);
-        }
-        assert_near(sum / (double)(width * height) / squares, 1, 1e-12);
-        free(values);
-        free(power);
-    }
-}
-
-/* ---- The law ------------------------------------------------------------------------------------------- */
-
-static void tails_are_the_known_ones(void **state)
-{
-    (void)state;
-    /* One image: Fisher 1929, whose table has g = 0.68377 for n = 5 and 0.13135 for n = 50 waves at 5 %. (His sum
-       knows that waves share one power; taking them for independent makes g smaller by less than 1 %.) */
-    const koksma__coherence_law five = {1, 5, 0, 0}, fifty = {1, 50, 0, 0};
-    assert_near(koksma__coherence_quantile(&five, 0.05) / 5, 0.68377, 0.003);
-    assert_near(koksma__coherence_quantile(&fifty, 0.05) / 50, 0.13135, 0.0005);
-    /* One wave of T images without anything in common: chi-squared of 2 T degrees over 2 T; 18.307 = chi2_10 at 5 %.
-     */
-    const koksma__coherence_law one = {5, 1, 0, 0}, same = {5, 1, 0, 1};
-    assert_near(koksma__coherence_quantile(&one, 0.05), 18.307038 / 10, 1e-6);
-    /* All in common: exponential. */
-    assert_near(koksma__coherence_tail(&same, 3), exp(-3), 1e-12);
-    /* A frequency that is its own mirror image: chi-squared of 1 degree, 3.841459 at 5 %; of T images of T degrees.
-     */
-    const koksma__coherence_law own = {5, 0, 1, 1}, own_free = {10, 0, 1, 0};
-    assert_near(koksma__coherence_quantile(&own, 0.05), 3.8414588, 1e-6);
-    assert_near(koksma__coherence_quantile(&own_free, 0.05), 18.307038 / 10, 1e-6);
-    /* Between: two images with r in common are 1 + r and 1 - r times an exponential each (their difference's law). */
-    const double r = 0.3, a = (1 + r) / 2, b = (1 - r) / 2, x = 4;
-    const koksma__coherence_law two = {2, 1, 0, r};
-    assert_near(koksma__coherence_tail(&two, x), (a * exp(-x / a) - b * exp(-x / b)) / (a - b), 1e-12);
-    /* Continuous in what is common, also for thousands of images, and falling in x. */
-    for (size_t images = 2; images <= 5000; images = 7 * images + 3) {
-        double before = 0;
-        for (double common = 0; common <= 1; common = common == 0 ? 1e-12 : common < 0.5 ? 4 * common : 2 * common) {
-            const koksma__coherence_law law = {images, 6000, 3, fmin(common, 1)};
-            const double level = koksma__coherence_quantile(&law, 0.05);
-            assert_true(isfinite(level) && level > before - 1e-9);
-            assert_near(koksma__coherence_tail(&law, level), 0.05, 1e-7);
-            before = level;
-        }
-    }
 }
 
 /* ---- Noise --------------------------------------------------------------------------------------------- */
@@ -468,17 +369,10 @@ static void errors_without_structure_have_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(powers_are_the_definition),
-        cmocka_unit_test(powers_add_up),
-        cmocka_unit_test(tails_are_the_known_ones),
-        cmocka_unit_test(noise_is_within_its_interval),
-        cmocka_unit_test(uneven_noise_is_not_coherent),
-        cmocka_unit_test(repeated_noise_is_not_coherent),
-        cmocka_unit_test(a_wave_has_its_power),
-        cmocka_unit_test(a_wave_alone_has_all_power),
-        cmocka_unit_test(a_wave_between_frequencies_is_seen),
-        cmocka_unit_test(blue_noise_is_not_coherent),
-        cmocka_unit_test(scale_does_not_matter),
+        cmocka_unit_test(noise_is_within_its_interval),       cmocka_unit_test(uneven_noise_is_not_coherent),
+        cmocka_unit_test(repeated_noise_is_not_coherent),     cmocka_unit_test(a_wave_has_its_power),
+        cmocka_unit_test(a_wave_alone_has_all_power),         cmocka_unit_test(a_wave_between_frequencies_is_seen),
+        cmocka_unit_test(blue_noise_is_not_coherent),         cmocka_unit_test(scale_does_not_matter),
         cmocka_unit_test(errors_without_structure_have_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
