@@ -1,17 +1,47 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Compares images with a reference: the size of the error, as means over the images, and its coherence over all. */
 #include <math.h>
 
 #include <koksma/image.h>
 
 #include "cli.h"
 
-static int put_row(const cli_arguments *arguments, const koksma_image_error *error)
+/* What is known of the images so far. */
+typedef struct comparison {
+    koksma_image reference;
+    koksma_coherence coherence;
+    size_t images;
+    koksma_image_error error; /* sums over the images */
+} comparison;
+
+static int put_row(const cli_arguments *arguments, const comparison *c)
 {
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    cli_row_number(rows, "mean", error->mean);
-    cli_row_number(rows, "sd", error->sd);
-    cli_row_number(rows, "max", error->max);
-    cli_row_number(rows, "rmse", error->rmse);
+    const bool json = cli_flag(arguments, "json");
+    const double images = (double)c->images;
+    koksma_coherence_values values;
+    koksma_coherence_find(&c->coherence, &values);
+    cli_rows *rows = cli_rows_open(json);
+    cli_row_number(rows, "mean", c->error.mean / images);
+    cli_row_number(rows, "sd", c->error.sd / images);
+    cli_row_number(rows, "max", c->error.max / images);
+    cli_row_number(rows, "rmse", c->error.rmse / images);
+    cli_row_rounded(rows, "coherence", values.coherence, 4);
+    if (json) {
+        cli_row_number(rows, "coherence_low", values.low);
+        cli_row_number(rows, "coherence_high", values.high);
+        cli_row_number(rows, "noise_low", values.noise_low);
+    }
+    cli_row_rounded(rows, "noise_high", values.noise_high, 4);
+    if (json) {
+        cli_row_number(rows, "p", values.p);
+        cli_row_number(rows, "frequency_x", values.frequency_x);
+        cli_row_number(rows, "frequency_y", values.frequency_y);
+        cli_row_number(rows, "common", values.common);
+    }
+    cli_row_flag(rows, "coherent", values.coherent);
+    if (json || c->images > 1) {
+        cli_row_whole(rows, "images", c->images);
+    }
     cli_row_end(rows);
     return cli_rows_close(rows);
 }
@@ -33,35 +63,54 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
     return status;
 }
 
+/* Adds the image of a file; difference: NULL, or where its errors are written. */
+static koksma_status add_image(comparison *c, const char *path, const char *difference)
+{
+    koksma_image image = {0};
+    koksma_image_error error;
+    koksma_status status = read_numbers(path, &image);
+    status = status ? status : koksma_image_compare(&image, &c->reference, &error);
+    status = status ? status : koksma_coherence_add(&c->coherence, &image, &c->reference);
+    if (!status) {
+        c->images++;
+        c->error.mean += error.mean;
+        c->error.sd += error.sd;
+        c->error.max += error.max;
+        c->error.rmse += error.rmse;
+        status = difference ? write_difference(difference, &image, &c->reference) : KOKSMA_OK;
+    }
+    koksma_image_fini(&image);
+    return status;
+}
+
 static int run(const cli_arguments *arguments)
 {
-    koksma_image image = {0}, reference = {0};
-    koksma_image_error error;
+    comparison c = {.images = 0};
     double most;
-    if (arguments->n_operands != 2) {
-        return cli_usage_error(arguments, "it takes two images, the second of them the reference");
+    const char *output = cli_text(arguments, "output", NULL);
+    const int last = (int)arguments->n_operands - 1;
+    if (last < 1) {
+        return cli_usage_error(arguments, "it takes one image or more, and then the reference");
+    }
+    if (output && last > 1) {
+        return cli_usage_error(arguments, "--output: a picture of the errors of one image, not of %d", last);
     }
     if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most)) {
         return CLI_USAGE;
     }
-    const char *output = cli_text(arguments, "output", NULL);
-    koksma_status status = read_numbers(arguments->operands[0], &image);
-    status = status ? status : read_numbers(arguments->operands[1], &reference);
-    status = status ? status : koksma_image_compare(&image, &reference, &error);
-    if (!status && output) {
-        status = write_difference(output, &image, &reference);
+    koksma_status status = read_numbers(arguments->operands[last], &c.reference);
+    status = status ? status : koksma_coherence_init(&c.coherence, c.reference.width, c.reference.height);
+    for (int i = 0; !status && i < last; i++) {
+        status = add_image(&c, arguments->operands[i], output);
     }
-    koksma_image_fini(&image);
-    koksma_image_fini(&reference);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    const int code = put_row(arguments, &error);
-    return code ? code : error.mean <= most ? CLI_YES : CLI_NO;
+    const int code = status ? cli_fail(arguments, status) : put_row(arguments, &c);
+    koksma_coherence_fini(&c.coherence);
+    koksma_image_fini(&c.reference);
+    return code ? code : c.error.mean <= most * (double)c.images ? CLI_YES : CLI_NO;
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE", "the picture of the absolute errors"},
+    {'o', "output", "FILE", "the picture of the absolute errors (of one image)"},
     {0, "max-mean", "E", "exit code 1 when the mean absolute error is above E"},
     CLI_ROW_OPTIONS,
     {0},
@@ -69,10 +118,15 @@ static const cli_option options[] = {
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "the error of an image against a reference",
-    .synopsis = "IMAGE REFERENCE [-o DIFFERENCE] [--max-mean E]",
+    .summary = "the error of an image against a reference, and whether it is noise or bands",
+    .synopsis = "IMAGE... REFERENCE [-o DIFFERENCE] [--max-mean E]",
     .details =
-        "Mean, standard deviation and maximum of the absolute error in luminance, and the root mean square error.\n"
+        "Mean, standard deviation and maximum of the absolute error in luminance, and the root mean square error; "
+        "of\n"
+        "several images (one pattern with several seeds) their means.\n"
+        "coherence: the peak of the error's power spectrum over its mean, averaged over the images. 95 % of errors\n"
+        "that are white noise have one from noise_low to noise_high; coherent: it is above what 99.5 % of them\n"
+        "have. Then the error has bands or another pattern, of frequency_x and frequency_y cycles a pixel (--json).\n"
         "An image with a pixel that is no finite number is malformed.",
     .options = options,
     .run = run,

@@ -250,6 +250,9 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_rounded(out, "slope", rows[i].slope, 3);
         cli_row_rounded(out, "slope_low", rows[i].slope_low, 3);
         cli_row_rounded(out, "slope_high", rows[i].slope_high, 3);
+        cli_row_rounded(out, "coherence", rows[i].coherence.coherence, 4);
+        cli_row_rounded(out, "noise_high", rows[i].coherence.noise_high, 4);
+        cli_row_flag(out, "coherent", rows[i].coherence.coherent);
         cli_row_end(out);
     }
 }
@@ -346,7 +349,7 @@ const cli_command cli_command_study = {
         "'export' writes all rows sorted by their keys: the same bytes for any number of threads and interruptions.\n"
         "It and 'report' are refused while a run is at work on DIR, and where DIR can't be written. 'images' makes\n"
         "such tables for pictures that another renderer made: PLACES is a path with {spp}, {trial} and other names\n"
-        "in braces.",
+        "in braces; 'koksma compare --help' says what coherence is.",
     .options = options,
     .run = run,
 };

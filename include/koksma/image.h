@@ -87,6 +87,59 @@ KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const k
 KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,
                                                  koksma_image *out);
 
+/* ---- Coherence: whether the error is noise, or bands and patterns -------------------------------------------- */
+
+/* How far the error of images stands out of noise at one frequency. With e = luminance - reference luminance on
+   W x H pixels, its mean taken off,
+
+       P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / mean of the same over all (u, v) but (0, 0);
+
+   the coherence is the largest P, averaged over the images that were added. Errors that are independent from pixel
+   to pixel have an expected P of 1 everywhere, whatever their distribution and however their size varies over the
+   image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 / (4 s^2). Where rings of
+   finer detail have more power than the mean (blue noise), P is divided by theirs: docs/findings/coherence.md. The
+   values of equal images in equal order have equal bits; the struct is used by one thread at a time. */
+typedef struct koksma_coherence {
+    int width, height;
+    size_t images;   /* added, but those whose error is the same in every pixel */
+    double *error;   /* [y * width + x]: the sum of the errors, each divided by its standard deviation */
+    double *power;   /* [v * (width / 2 + 1) + u]: the mean of P */
+    double *squares; /* likewise of P^2 */
+} koksma_coherence;
+
+typedef struct koksma_coherence_values {
+    size_t images;      /* of which this is said; 0: there is no coherence, all that follows is NaN */
+    double coherence;   /* the peak of P */
+    double low, high;   /* 95 % interval of the mean of P over images at the peak's frequency, by Student's t;
+                           NaN of one image */
+    double frequency_x; /* where the peak is, in cycles a pixel: 0 .. 1/2 */
+    double frequency_y; /* -1/2 .. 1/2; up in the image where it is as positive as frequency_x */
+    double common;      /* the share of the squared error that all images have in common, 0 .. 1: that of a
+                           pattern without random numbers is 1; NaN of one image */
+    double noise_low, noise_high; /* 95 % of white-noise errors, with as much in common, have a coherence in here */
+    double p;                     /* the probability that those have at least this coherence */
+    bool coherent;                /* p < KOKSMA_COHERENT_P, and the coherence is at least KOKSMA_COHERENT_LEAST */
+} koksma_coherence_values;
+
+/* When an error is called coherent. So many images find peaks that nobody sees: hence the second condition. */
+#define KOKSMA_COHERENT_P 0.005
+#define KOKSMA_COHERENT_LEAST 2.0
+
+/* For images of that size. Takes 16 bytes a pixel. Errors: ARGUMENT (no such size), MEMORY. */
+KOKSMA_API koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int height);
+
+/* Frees what init allocated; takes a zeroed struct and NULL. */
+KOKSMA_API void koksma_coherence_fini(koksma_coherence *coherence);
+
+/* Adds an image and its reference, which may be another for each: O(n log n) for n pixels, of any width and height.
+   An image whose error is the same in every pixel has no P and is not counted. Errors: ARGUMENT (another size),
+   MALFORMED (a pixel is not a finite number), MEMORY. */
+KOKSMA_API koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
+                                              const koksma_image *reference);
+
+/* The coherence of the images so far. Images of fewer than 2 frequencies (1 x 3 pixels and less) have none. */
+KOKSMA_API void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -135,12 +135,13 @@ typedef struct koksma_images_row {
     double mean, low, high; /* mean over the trials of the mean absolute error, with its 95 % interval (NaN of one) */
     double sd, max, rmse;   /* means over the trials */
     double slope, slope_low, slope_high; /* of the group's mean in log-log over {spp}; NaN below 2 numbers */
+    koksma_coherence_values coherence;   /* of the errors of all trials, in their order */
 } koksma_images_row;
 
 /* Compares all images whose paths fit `places`, such as "out_{spp}_{trial}.exr", with a reference: rows sorted by
-   group and spp, which the caller frees. {spp} and {trial} take digits, other names any text without '/'. Errors:
-   ARGUMENT (a place that is not closed), MISSING (no such file), MALFORMED (a pixel that is not a finite number),
-   what reading an image says, MEMORY. */
+   group and spp, which the caller frees. {spp} and {trial} take digits, other names any text without '/'. Every image
+   is read twice, for its error and for the coherence of its row. Errors: ARGUMENT (a place that is not closed),
+   MISSING (no such file), MALFORMED (a pixel that is not a finite number), what reading an image says, MEMORY. */
 KOKSMA_API koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
                                              koksma_images_row **rows, size_t *n);
 

@@ -9,6 +9,7 @@
 Points are NumPy arrays of shape (n, dim) over the memory that the library itself fills. Equal arguments give equal
 bits, the same as the program's. What fails raises koksma.Error with the library's own line.
 """
+from ._compare import Comparison, compare
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
@@ -19,7 +20,7 @@ from ._spectrum import Spectrum, spectrum
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError", "OutOfMemoryError",
-    "Spectrum", "UnsupportedError", "Value", "Witness", "canonical", "generate", "measure", "measures", "patterns",
-    "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
+    "ArgumentError", "Comparison", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError",
+    "OutOfMemoryError", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical", "compare", "generate", "measure",
+    "measures", "patterns", "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
 ]

@@ -131,6 +131,12 @@ def lab() -> ctypes.CDLL:
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)
+    _declare(library, c_int, "koksma_image_compare", image, image, POINTER(s.ImageError))
+    coherence = POINTER(s.Coherence)
+    _declare(library, c_int, "koksma_coherence_init", coherence, c_int, c_int)
+    _declare(library, None, "koksma_coherence_fini", coherence)
+    _declare(library, c_int, "koksma_coherence_add", coherence, image, image)
+    _declare(library, None, "koksma_coherence_find", coherence, POINTER(s.CoherenceValues))
     return library
 
 

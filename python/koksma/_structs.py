@@ -78,6 +78,21 @@ class Image(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("channels", c_int), ("pixels", POINTER(c_float))]
 
 
+class ImageError(Structure):
+    _fields_ = [("mean", c_double), ("sd", c_double), ("max", c_double), ("rmse", c_double)]
+
+
+class Coherence(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("images", c_size_t), ("error", POINTER(c_double)),
+                ("power", POINTER(c_double)), ("squares", POINTER(c_double))]
+
+
+class CoherenceValues(Structure):
+    _fields_ = [("images", c_size_t), ("coherence", c_double), ("low", c_double), ("high", c_double),
+                ("frequency_x", c_double), ("frequency_y", c_double), ("common", c_double), ("noise_low", c_double),
+                ("noise_high", c_double), ("p", c_double), ("coherent", c_bool)]
+
+
 class RenderOptions(Structure):
     _fields_ = [("pattern", Spec), ("patterns", Spec * N_USES), ("spp", c_int), ("width", c_int), ("height", c_int),
                 ("seed", c_uint64), ("pairing", c_int), ("scope", c_int), ("lights", c_int), ("integrator", c_void_p),
@@ -102,5 +117,7 @@ LAYOUTS = [
     ("spectrum.h", "koksma_spectrum", Spectrum),
     ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
     ("spectrum.h", "koksma_ring", Ring),
-    ("image.h", "koksma_image", Image), ("render.h", "koksma_render_options", RenderOptions),
+    ("image.h", "koksma_image", Image), ("image.h", "koksma_image_error", ImageError),
+    ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
+    ("render.h", "koksma_render_options", RenderOptions),
 ]

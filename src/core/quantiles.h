@@ -12,6 +12,6 @@ KOKSMA__LAB double koksma__student_quantile(double p, double degrees);
 KOKSMA__LAB double koksma__chi_squared_quantile(double p, double degrees);
 
 /* log gamma(x), x > 0; by several threads at once, as lgamma is not to be called. */
-double koksma__log_gamma(double x);
+KOKSMA__LAB double koksma__log_gamma(double x);
 
 #endif

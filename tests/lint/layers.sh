@@ -13,7 +13,7 @@ allowed() {
     patterns) echo "core kernels patterns" ;;
     warps) echo "core warps" ;;
     measures) echo "core kernels warps measures" ;;
-    image) echo "core image" ;;
+    image) echo "core kernels image" ;;
     scene) echo "core kernels patterns warps measures image scene" ;;
     plot) echo "core kernels patterns warps measures image scene plot" ;;
     render) echo "core kernels patterns warps measures image scene render" ;;

@@ -297,6 +297,45 @@ class OddArrays(unittest.TestCase):
             self.assertTrue(array.flags.c_contiguous and array.flags.writeable)
 
 
+class Compare(unittest.TestCase):
+    def test_numbers_are_the_programs(self):
+        images = [koksma.render("checker-45", "regular", 4, size=(31, 24), seed=k) for k in range(3)]
+        reference = koksma.render("checker-45", "jittered", 256, size=(31, 24))
+        with tempfile.TemporaryDirectory() as folder:
+            names = [f"{folder}/{k}.pfm" for k in range(3)] + [f"{folder}/reference.pfm"]
+            for k, name in enumerate(names[:3]):
+                subprocess.run([PROGRAM, "render", "checker-45", "-q", "-p", "regular", "-n", "4", "-s", str(k), "--size",
+                                "31x24", "-o", name], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([PROGRAM, "render", "checker-45", "-q", "-p", "jittered", "-n", "256", "--size", "31x24", "-o",
+                            names[3]], check=True, stdout=subprocess.DEVNULL)
+            for count in (1, 3):
+                row = json.loads(subprocess.run([PROGRAM, "compare", *names[:count], names[3], "--json"], check=True,
+                                                capture_output=True).stdout)
+                ours = koksma.compare(iter(images[:count]), reference)
+                self.assertEqual({key: getattr(ours, key) for key in row if row[key] is not None},
+                                 {key: row[key] for key in row if row[key] is not None})
+                self.assertEqual(ours.images, count)
+        one = koksma.compare(images[0][:, :, 0], reference[:, :, 0].tolist())
+        self.assertEqual(repr(one), repr(koksma.compare([images[0][:, :, 0]], reference[:, :, :1])))
+
+    def test_bands_and_noise(self):
+        random = np.random.default_rng(7)
+        noise = random.standard_normal((50, 37))
+        bands = 0.5 * np.cos(2 * np.pi * 5 * np.arange(37) / 37)
+        self.assertFalse(koksma.compare(noise, 0 * noise).coherent)
+        seen = koksma.compare(noise + bands, 0 * noise)
+        self.assertTrue(seen.coherent and abs(seen.frequency_x - 5 / 37) < 1e-12 and seen.frequency_y == 0)
+        none = koksma.compare(noise, noise)
+        self.assertTrue(none.mean == 0 and np.isnan(none.coherence) and not none.coherent)
+
+    def test_what_is_no_image(self):
+        image = np.zeros((4, 5))
+        for images, reference in (([], image), (image, np.zeros((4, 6))), (np.zeros((4, 5, 2)), image), (image, [0.5]),
+                                  (image + 1j, image), (np.full((4, 5), np.nan), image), (3, image)):
+            with self.subTest(images=images), self.assertRaises((ValueError, TypeError)):
+                koksma.compare(images, reference)
+
+
 class Speed(unittest.TestCase):
     def test_bulk_rate_is_that_of_c(self):
         n, run = 1 << 20, _structs.Run(1, 0.0, _structs.KeepGoing(0), None)

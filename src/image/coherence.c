@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The coherence of an error: the peak of its spectrum over the mean. Shirley 1991 (5.5.6): "it is the regularity of
+ * the error, rather than its magnitude, that is objectionable"; Mitchell 1992 warns of the Moire patterns of the
+ * Zaremba points. Noise has a flat or, dithered well, a rising spectrum (Ulichney 1987; Georgiev & Fajardo 2016;
+ * Heitz & Belcour 2019 look at the spectra of rendering errors for that reason); bands and Moire have peaks. Whether
+ * a peak of a periodogram is one is Fisher's test of 1929 (coherence_law.c), here for all frequencies of an image and
+ * the mean of several images.
+ *
+ * Choices.
+ * - Single frequencies, no window and no smoothing. Errors sit on edges: they are noise times a size that varies over
+ * the image. At each frequency its power is exponentially distributed all the same, but neighbours are correlated, so
+ *   that sums over neighbours, and windows, have a distribution that depends on the scene. The price: a wave half-way
+ *   between two frequencies in both directions keeps (2/pi)^4 = 0.16 of its peak, in the mean over all waves 0.6.
+ * - Each image's power is divided by its own mean before the images are averaged, so that all count alike.
+ * - Blue noise is not coherent: P is divided by the power of its ring where that is above 1. The rings have equal
+ * areas (16, or fewer so that each has 64 frequencies). The power of a ring is the mean of P in it, where a peak
+ * counts no more than noise of the ring's power would have (in ROUNDS rounds), made nondecreasing in frequency
+ * (isotonic regression: Ayer et al. 1955, pool adjacent violators). So a ring's power is excused only as far as all
+ * finer rings have it, too: coarse errors, those that the eye sees best, never are.
+ * - What images have in common: with z the errors over their standard deviations, |sum z|^2 / n = T + T (T - 1) r.
+ *
+ * Sums are in index order. Errors below 1e-12 of the largest, beside their mean, are rounding: no error.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/series.h>
+
+#include "core/status.h"
+#include "core/sum.h"
+#include "image/coherence_law.h"
+#include "image/formats.h"
+#include "image/fourier.h"
+
+enum { MAX_RINGS = 16, RING_FREQUENCIES = 64, ROUNDS = 4 };
+
+static size_t pixels_of(const koksma_coherence *c)
+{
+    return (size_t)c->width * (size_t)c->height;
+}
+
+static size_t powers_of(const koksma_coherence *c)
+{
+    return koksma__fourier_columns(c->width) * (size_t)c->height;
+}
+
+koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int height)
+{
+    *coherence = (koksma_coherence){0};
+    const koksma_status status = koksma__image_check_shape(width, height, 1);
+    if (status) {
+        return status;
+    }
+    coherence->width = width;
+    coherence->height = height;
+    const size_t doubles = pixels_of(coherence) + 2 * powers_of(coherence);
+    coherence->error = calloc(doubles, sizeof *coherence->error);
+    if (!coherence->error) {
+        *coherence = (koksma_coherence){0};
+        return koksma__fail_memory(doubles * sizeof *coherence->error);
+    }
+    coherence->power = coherence->error + pixels_of(coherence);
+    coherence->squares = coherence->power + powers_of(coherence);
+    return KOKSMA_OK;
+}
+
+void koksma_coherence_fini(koksma_coherence *coherence)
+{
+    if (coherence) {
+        free(coherence->error);
+        *coherence = (koksma_coherence){0};
+    }
+}
+
+/* ---- Frequencies --------------------------------------------------------------------------------------- */
+
+/* 0: the frequency is the mean, or has its mirror image among those before; 1: it is its own mirror image; 2: it has
+   one, which counts with it. */
+static int weight_of(const koksma_coherence *c, size_t u, size_t v)
+{
+    const size_t width = (size_t)c->width, height = (size_t)c->height;
+    if (u > 0 && 2 * u < width) {
+        return 2;
+    }
+    if (2 * v > height || (u == 0 && v == 0)) {
+        return 0;
+    }
+    return v == 0 || 2 * v == height ? 1 : 2;
+}
+
+static double signed_frequency(size_t v, int height)
+{
+    return (2 * v > (size_t)height ? (double)v - height : (double)v) / height;
+}
+
+/* The share of the square of frequencies, -1/2 .. 1/2 in both directions, with at most this distance. */
+static double share_within(double f)
+{
+    const double square = f * f;
+    if (f <= 0.5) {
+        return M_PI * square;
+    }
+    return fmin(M_PI * square - 4 * (square * acos(0.5 / f) - 0.5 * sqrt(square - 0.25)), 1);
+}
+
+static size_t ring_of(const koksma_coherence *c, size_t u, size_t v, size_t rings)
+{
+    const double f = hypot((double)u / c->width, signed_frequency(v, c->height));
+    const size_t ring = (size_t)((double)rings * share_within(fmin(f, 0.70710678118654752)));
+    return ring < rings ? ring : rings - 1;
+}
+
+/* ---- Adding -------------------------------------------------------------------------------------------- */
+
+/* The errors over their standard deviation, their mean taken off; *even: they are all the same. */
+static koksma_status standardise(const koksma_coherence *c, const koksma_image *image, const koksma_image *reference,
+                                 double *errors, bool *even)
+{
+    const size_t n = pixels_of(c);
+    koksma__sum sum = {0}, squares = {0};
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
+        if (!isfinite(errors[i])) {
+            return koksma__fail(KOKSMA_MALFORMED, "pixel %zu,%zu of an image or its reference is no finite number",
+                                i % (size_t)c->width, i / (size_t)c->width);
+        }
+        largest = fmax(largest, fabs(errors[i]));
+    }
+    const double scale = largest > 0 ? 1 / largest : 1; /* squares neither overflow nor vanish */
+    for (size_t i = 0; i < n; i++) {
+        errors[i] *= scale;
+        koksma__sum_add(&sum, errors[i]);
+    }
+    const double mean = koksma__sum_value(&sum) / (double)n;
+    for (size_t i = 0; i < n; i++) {
+        errors[i] -= mean;
+        koksma__sum_add(&squares, errors[i] * errors[i]);
+    }
+    const double sd = sqrt(koksma__sum_value(&squares) / (double)n);
+    *even = !(sd > 1e-12);
+    for (size_t i = 0; !*even && i < n; i++) {
+        errors[i] /= sd;
+    }
+    return KOKSMA_OK;
+}
+
+/* The mean of the power over all frequencies but (0, 0) is that of the squared errors, by Parseval, times n / (n -
+   1): what stands at (0, 0) is rounding. */
+static void add_power(koksma_coherence *c, const double *errors, const double *power)
+{
+    const size_t n = pixels_of(c), n_powers = powers_of(c);
+    const double scale = ((double)n - 1) / ((double)n * (double)n), before = (double)c->images++;
+    for (size_t i = 0; i < n; i++) {
+        c->error[i] += errors[i];
+    }
+    for (size_t i = 0; i < n_powers; i++) {
+        const double p = power[i] * scale;
+        c->power[i] = (c->power[i] * before + p) / (before + 1);
+        c->squares[i] = (c->squares[i] * before + p * p) / (before + 1);
+    }
+}
+
+koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
+                                   const koksma_image *reference)
+{
+    if (!coherence->error) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a coherence without koksma_coherence_init takes no image");
+    }
+    const koksma_image *const both[] = {image, reference};
+    for (int i = 0; i < 2; i++) {
+        if (both[i]->width != coherence->width || both[i]->height != coherence->height) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s of %d x %d pixels does not fit a coherence of %d x %d",
+                                i ? "a reference" : "an image", both[i]->width, both[i]->height, coherence->width,
+                                coherence->height);
+        }
+    }
+    const size_t doubles = pixels_of(coherence) + powers_of(coherence);
+    double *errors = malloc(doubles * sizeof *errors);
+    if (!errors) {
+        return koksma__fail_memory(doubles * sizeof *errors);
+    }
+    double *power = errors + pixels_of(coherence);
+    bool even = false;
+    koksma_status status = standardise(coherence, image, reference, errors, &even);
+    if (!status && !even) {
+        status = koksma__fourier_power(coherence->width, coherence->height, errors, power);
+        if (!status) {
+            add_power(coherence, errors, power);
+        }
+    }
+    free(errors);
+    return status;
+}
+
+/* ---- The peak ------------------------------------------------------------------------------------------ */
+
+/* The frequencies by kind, and the power of each ring, nondecreasing and at least 1. */
+typedef struct rings {
+    size_t n, waves, real;
+    double power[MAX_RINGS];
+} rings;
+
+/* Neighbours that decrease are pooled, from the left, until none do. */
+static void make_nondecreasing(size_t n, const double *sums, const double *counts, double *out)
+{
+    double sum[MAX_RINGS], count[MAX_RINGS];
+    size_t members[MAX_RINGS], pools = 0;
+    for (size_t r = 0; r < n; r++) {
+        sum[pools] = sums[r];
+        count[pools] = counts[r];
+        members[pools++] = 1;
+        while (pools > 1 && sum[pools - 2] * count[pools - 1] >= sum[pools - 1] * count[pools - 2]) {
+            pools--;
+            sum[pools - 1] += sum[pools];
+            count[pools - 1] += count[pools];
+            members[pools - 1] += members[pools];
+        }
+    }
+    for (size_t p = 0, r = 0; p < pools; p++) {
+        for (const size_t end = r + members[p]; r < end; r++) {
+            out[r] = count[p] > 0 ? sum[p] / count[p] : 0;
+        }
+    }
+}
+
+static void count_frequencies(const koksma_coherence *c, rings *out)
+{
+    *out = (rings){0};
+    for (size_t v = 0; v < (size_t)c->height; v++) {
+        for (size_t u = 0; u < koksma__fourier_columns(c->width); u++) {
+            const int weight = weight_of(c, u, v);
+            out->waves += weight == 2;
+            out->real += weight == 1;
+        }
+    }
+    const size_t n = out->waves / RING_FREQUENCIES;
+    out->n = n < 1 ? 1 : n < MAX_RINGS ? n : MAX_RINGS;
+}
+
+/* The mean power of each ring, where powers above `most` times that of a round before count as that. */
+static void find_rings(const koksma_coherence *c, double most, rings *out)
+{
+    const size_t columns = koksma__fourier_columns(c->width);
+    double sums[MAX_RINGS], counts[MAX_RINGS], cap[MAX_RINGS];
+    for (int round = 0; round < ROUNDS; round++) {
+        for (size_t r = 0; r < out->n; r++) {
+            cap[r] = round && counts[r] > 0 ? most * sums[r] / counts[r] : (double)INFINITY;
+        }
+        memset(sums, 0, sizeof sums);
+        memset(counts, 0, sizeof counts);
+        for (size_t v = 0; v < (size_t)c->height; v++) {
+            for (size_t u = 0; u < columns; u++) {
+                const int weight = weight_of(c, u, v);
+                if (weight) {
+                    const size_t ring = ring_of(c, u, v, out->n);
+                    sums[ring] += weight * fmin(c->power[v * columns + u], cap[ring]);
+                    counts[ring] += weight;
+                }
+            }
+        }
+    }
+    make_nondecreasing(out->n, sums, counts, out->power);
+    for (size_t r = 0; r < out->n; r++) {
+        out->power[r] = fmax(out->power[r], 1);
+    }
+}
+
+/* The share of the squared errors that all images have in common. */
+static double find_common(const koksma_coherence *c)
+{
+    const double images = (double)c->images;
+    koksma__sum sum = {0};
+    for (size_t i = 0; i < pixels_of(c); i++) {
+        koksma__sum_add(&sum, c->error[i] * c->error[i]);
+    }
+    const double share = (koksma__sum_value(&sum) / (double)pixels_of(c) - images) / (images * (images - 1));
+    return fmin(fmax(share, 0), 1);
+}
+
+static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherence_values *out)
+{
+    const size_t columns = koksma__fourier_columns(c->width);
+    size_t peak = 0;
+    double excused = 1;
+    out->coherence = 0;
+    for (size_t v = 0; v < (size_t)c->height; v++) {
+        for (size_t u = 0; u < columns; u++) {
+            const size_t i = v * columns + u;
+            if (weight_of(c, u, v) && c->power[i] > out->coherence) { /* a ring's power is 1 or more */
+                const double ring = r->power[ring_of(c, u, v, r->n)];
+                if (c->power[i] / ring > out->coherence) {
+                    out->coherence = c->power[i] / ring;
+                    excused = ring;
+                    peak = i;
+                }
+            }
+        }
+    }
+    const double y = signed_frequency(peak / columns, c->height);
+    out->frequency_x = (double)(peak % columns) / c->width;
+    out->frequency_y = peak % columns == 0 ? fabs(y) : y == 0 ? 0 : -y; /* rows count downwards */
+    if (c->images > 1) {
+        const double images = (double)c->images, mean = c->power[peak];
+        const double variance = fmax(c->squares[peak] - mean * mean, 0) * images / (images - 1);
+        const double half = koksma_student_975(c->images - 1) * sqrt(variance / images);
+        out->low = fmax(mean - half, 0) / excused;
+        out->high = (mean + half) / excused;
+    }
+}
+
+void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out)
+{
+    *out = (koksma_coherence_values){.coherence = NAN,
+                                     .low = NAN,
+                                     .high = NAN,
+                                     .frequency_x = NAN,
+                                     .frequency_y = NAN,
+                                     .common = NAN,
+                                     .noise_low = NAN,
+                                     .noise_high = NAN,
+                                     .p = NAN};
+    rings r;
+    if (coherence->images == 0) {
+        return;
+    }
+    count_frequencies(coherence, &r);
+    if (r.waves + r.real < 2) {
+        return;
+    }
+    out->images = coherence->images;
+    out->common = coherence->images > 1 ? find_common(coherence) : (double)NAN;
+    const koksma__coherence_law law = {.images = coherence->images,
+                                       .waves = r.waves,
+                                       .real = r.real,
+                                       .common = coherence->images > 1 ? out->common : 1};
+    out->noise_low = koksma__coherence_quantile(&law, 0.975);
+    out->noise_high = koksma__coherence_quantile(&law, 0.025);
+    find_rings(coherence, out->noise_high, &r);
+    find_peak(coherence, &r, out);
+    out->p = koksma__coherence_tail(&law, out->coherence);
+    out->coherent = out->p < KOKSMA_COHERENT_P && out->coherence >= KOKSMA_COHERENT_LEAST;
+}

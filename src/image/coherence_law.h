@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The distribution of the coherence of errors that are white noise (koksma/image.h). */
+#ifndef KOKSMA_IMAGE_COHERENCE_LAW_H
+#define KOKSMA_IMAGE_COHERENCE_LAW_H
+
+#include <stddef.h>
+
+/* Of what the power is the mean: `images` images, of whose squared errors the share `common` is the same in all. Each
+   has `waves` frequencies with a mirror image and `real` ones without (the mean, which is left out, is none). */
+typedef struct koksma__coherence_law {
+    size_t images, waves, real;
+    double common;
+} koksma__coherence_law;
+
+/* The probability that the largest power over the mean power is above x. */
+double koksma__coherence_tail(const koksma__coherence_law *law, double x);
+
+/* x with that probability, 0 < tail < 1. */
+double koksma__coherence_quantile(const koksma__coherence_law *law, double tail);
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The discrete Fourier transform of a picture of any size. */
+#ifndef KOKSMA_IMAGE_FOURIER_H
+#define KOKSMA_IMAGE_FOURIER_H
+
+#include <koksma/image.h>
+
+/* How many columns of frequencies a picture of that width has; the others mirror them. */
+static inline size_t koksma__fourier_columns(int width)
+{
+    return (size_t)width / 2 + 1;
+}
+
+/* power[v * columns + u] = |sum_xy values[y * width + x] exp(-2 pi i (u x / width + v y / height))|^2 for
+   u = 0 .. width / 2 and v = 0 .. height - 1. To some 1e-15 of sum values^2, whatever the size; O(n log n). Equal
+   bits on every instruction set and for any number of threads. Errors: MEMORY. */
+koksma_status koksma__fourier_power(int width, int height, const double *values, double *power);
+
+#endif
