@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sixteen replicates of 16 times as many samples as the patterns have, 64 at least: together 256 times as many. Where
- * errors fall as slowly as 1/sqrt N, the reference's is 1/16 of that of jittered samples; with the power -3/4 of
- * jittered edges 1/32. The mean without replicate r is mean - (r-th - mean) / (k - 1), so that equal replicates leave
- * no difference at all.
+ * Sixteen replicates of 16 times as many samples as the patterns have, 64 at least: together 256 times as many, as
+ * far as KOKSMA_MAX_SPP allows. Where errors fall as slowly as 1/sqrt N, the reference's is 1/16 of that of jittered
+ * samples; with the power -3/4 of jittered edges 1/32. The mean without replicate r is mean - (r-th - mean) / (k -
+ * 1), so that equal replicates leave no difference at all.
  */
 #include "study/ranking_reference.h"
 
@@ -18,7 +18,7 @@ enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 64, TIMES = 16 };
 long long koksma__rank_reference_spp(int spp)
 {
     long long side = 1;
-    while (side * side < LEAST_SPP || side * side < (long long)TIMES * spp) {
+    while (side * side < LEAST_SPP || (side * side < (long long)TIMES * spp && side * side < KOKSMA_MAX_SPP)) {
         side++;
     }
     return side * side;
