@@ -96,6 +96,7 @@ typedef struct cli_work {
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 void cli_work_end(cli_work *work); /* clears the progress line */
 bool cli_interrupted(void);
+double cli_seconds(void); /* on the clock of started_s */
 
 /* Says that a study in this folder can go on; NULL: one of several ranks, of which another says it. The exit code. */
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder);

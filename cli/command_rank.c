@@ -51,13 +51,45 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
     return CLI_YES;
 }
 
+static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
+static const char *const states[] = {"ranked", "too-slow", "refused"};
+static const char *const check_names[KOKSMA_RANK_CHECKS][4] = {
+    {"half_width", "half_height", "half_size", "half_size_best"},
+    {"twice_width", "twice_height", "twice_size", "twice_size_best"}};
+static const char *const check_states[] = {"unchecked", "confirmed", "overturned", "unsettled"};
+
+static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking)
+{
+    cli_row_text(rows, "integrator", options->integrator->name);
+    cli_row_text(rows, "filter", options->filter->name);
+    cli_row_rounded(rows, "reference_error", ranking->reference_error, 2);
+    cli_row_flag(rows, "settled", ranking->settled);
+    cli_row_flag(rows, "complete", ranking->complete);
+    cli_row_flag(rows, "cut_short", ranking->cut_short);
+    cli_row_whole(rows, "needed_trials", (uint64_t)ranking->needed_trials);
+    cli_row_number(rows, "needed_s", ranking->needed_s);
+    for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
+        const koksma_rank_check *check = &ranking->checks[i];
+        cli_row_whole(rows, check_names[i][0], (uint64_t)check->width);
+        cli_row_whole(rows, check_names[i][1], (uint64_t)check->height);
+        cli_row_text(rows, check_names[i][2], check_states[check->state]);
+        if (check->state == KOKSMA_RANK_OVERTURNED) {
+            cli_row_text(rows, check_names[i][3], options->patterns[check->pattern]);
+        }
+    }
+}
+
 /* What holds for all rows of a ranking is for machines: a reader has it in the advice. */
 static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *row,
                     const koksma_ranking *ranking, bool json)
 {
     cli_row_text(rows, "scene", options->scene);
     cli_row_whole(rows, "spp", (uint64_t)options->spp);
-    cli_row_whole(rows, "place", row->place);
+    if (row->position) {
+        cli_row_whole(rows, "position", row->position);
+    } else {
+        cli_row_number(rows, "position", (double)NAN);
+    }
     cli_row_text(rows, "pattern", options->patterns[row->pattern]);
     cli_row_rounded(rows, "error", row->mean, 4);
     cli_row_rounded(rows, "low", row->low, 4);
@@ -65,66 +97,197 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_rounded(rows, "behind", row->behind, 3);
     cli_row_rounded(rows, "behind_low", row->behind_low, 3);
     cli_row_rounded(rows, "behind_high", row->behind_high, 3);
-    cli_row_whole(rows, "trials", (uint64_t)ranking->trials);
+    cli_row_whole(rows, "trials", (uint64_t)row->trials);
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
     if (json) {
-        cli_row_text(rows, "integrator", options->integrator->name);
-        cli_row_text(rows, "filter", options->filter->name);
-        cli_row_rounded(rows, "reference_error", ranking->reference_error, 2);
-        cli_row_flag(rows, "settled", ranking->clear);
+        cli_row_text(rows, "state", states[row->state]);
+        cli_row_text(rows, "decision", decisions[row->decision]);
+        cli_row_text(rows, "reason", row->reason);
+        put_ranking(rows, options, ranking);
     }
     cli_row_end(rows);
 }
 
-/* The advice: the best, those that tie with it, what the next and the worst cost. */
-static void advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
+/* ---- The advice ------------------------------------------------------------------------------------------ */
+
+/* "a", "a and b", "a, b and c": those with the decision, at the position, if it is not 0. */
+static void print_patterns(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n,
+                           koksma_rank_decision decision, size_t position)
 {
-    const koksma_rank_row *last = &rows[ranking->n - 1];
-    size_t ties = 1;
-    while (ties < ranking->n && rows[ties].place == 1) {
-        ties++;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        count += position ? rows[i].position == position : rows[i].decision == decision;
     }
-    fprintf(stderr, "%s at %d samples a pixel: use ", options->scene, options->spp);
-    for (size_t i = 0; i < ties; i++) {
-        fprintf(stderr, "%s%s", i == 0 ? "" : i + 1 < ties ? ", " : " or ", options->patterns[rows[i].pattern]);
-    }
-    fprintf(stderr, "%s", ties > 1 ? ", which can't be told apart" : "");
-    if (ties < ranking->n) {
-        fprintf(stderr, "; %s leaves %.0f %% more error (%.0f to %.0f)", options->patterns[rows[ties].pattern],
-                100 * rows[ties].behind, 100 * rows[ties].behind_low, 100 * rows[ties].behind_high);
-        if (ties + 1 < ranking->n) {
-            fprintf(stderr, ", %s %.0f %% more", options->patterns[last->pattern], 100 * last->behind);
+    for (size_t i = 0, done = 0; i < n; i++) {
+        if (position ? rows[i].position == position : rows[i].decision == decision) {
+            fprintf(stderr, "%s%s",
+                    !done              ? ""
+                    : done + 1 < count ? ", "
+                                       : " and ",
+                    options->patterns[rows[i].pattern]);
+            done++;
         }
     }
-    fprintf(stderr,
-            ". %lld trials of %d x %d pixels (%s, %s filter) in %.1f s; the reference's own error is %.1g%s.\n",
-            ranking->trials, ranking->width, ranking->height, options->integrator->name, options->filter->name,
-            ranking->seconds, ranking->reference_error,
-            ranking->clear       ? ""
-            : ranking->cut_short ? "; not every place is settled, more time would tell"
-                                 : "; not every place is settled, and a ranking takes no more trials");
 }
 
+/* A number to two digits, without an exponent where it is large. */
+static void print_two_digits(double x)
+{
+    fprintf(stderr, fabs(x) < 99.5 ? "%.2g" : "%.0f", x);
+}
+
+static void print_seconds(double seconds)
+{
+    print_two_digits(fmax(seconds, 0.1));
+    fprintf(stderr, " s");
+}
+
+static void print_percent(double behind, double low, double high)
+{
+    print_two_digits(100 * behind);
+    fprintf(stderr, " %% more error");
+    if (isfinite(low) && isfinite(high)) {
+        fprintf(stderr, " (");
+        print_two_digits(100 * low);
+        fprintf(stderr, " to ");
+        print_two_digits(100 * high);
+        fprintf(stderr, ")");
+    }
+}
+
+static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
+                        const koksma_ranking *ranking)
+{
+    size_t next = 1;
+    const koksma_rank_row *last = &rows[ranking->n - 1];
+    fprintf(stderr, "use %s", options->patterns[rows[0].pattern]);
+    for (size_t i = 1; i < ranking->n; i++) {
+        if (rows[i].decision == KOKSMA_RANK_EQUAL) {
+            fprintf(stderr, "; equal to it within 2 %%: ");
+            print_patterns(options, rows, ranking->n, KOKSMA_RANK_EQUAL, 0);
+            break;
+        }
+    }
+    while (next < ranking->n && rows[next].decision != KOKSMA_RANK_WORSE) {
+        next++;
+    }
+    if (next < ranking->n) {
+        fprintf(stderr, "; %s leaves ", options->patterns[rows[next].pattern]);
+        print_percent(rows[next].behind, rows[next].behind_low, rows[next].behind_high);
+        if (next + 1 < ranking->n) {
+            fprintf(stderr, ", %s ", options->patterns[last->pattern]);
+            print_two_digits(100 * last->behind);
+            fprintf(stderr, " %% more");
+        }
+    }
+}
+
+/* What is known, and what it would take. */
+static void advise_undecided(const koksma_rank_options *options, const koksma_rank_row *rows,
+                             const koksma_ranking *ranking)
+{
+    size_t first = 0;
+    for (size_t i = 0; i < ranking->n; i++) {
+        first += rows[i].position == 1;
+    }
+    fprintf(stderr, "undecided");
+    if (first > 1) {
+        fprintf(stderr, " between ");
+        print_patterns(options, rows, ranking->n, KOKSMA_RANK_UNDECIDED, 1);
+    }
+    if (ranking->n_slow) {
+        fprintf(stderr, "; the time was too short to rank %zu of %zu patterns", ranking->n_slow, options->n_patterns);
+    }
+    if (first == 1) {
+        fprintf(stderr, "; of the others %s leaves the least error", options->patterns[rows[0].pattern]);
+    }
+    if (!ranking->needed_trials) {
+        fprintf(stderr, "; more trials would not decide it, because the reference's own error is too large");
+        return;
+    }
+    fprintf(stderr, "; about %lld trials of a pattern", ranking->needed_trials);
+    if (ranking->needed_s > 0) {
+        fprintf(stderr, ", ");
+        print_seconds(ranking->needed_s);
+        fprintf(stderr, " for this number of samples,");
+    }
+    fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
+}
+
+static void advise_sizes(const koksma_rank_options *options, const koksma_rank_row *rows,
+                         const koksma_ranking *ranking)
+{
+    for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
+        const koksma_rank_check *check = &ranking->checks[i];
+        fprintf(stderr, "  at %d x %d: ", check->width, check->height);
+        switch (check->state) {
+        case KOKSMA_RANK_CONFIRMED:
+            fprintf(stderr, "the same\n");
+            break;
+        case KOKSMA_RANK_OVERTURNED:
+            fprintf(stderr, "the order changes: %s is the best, and %s leaves ", options->patterns[check->pattern],
+                    options->patterns[rows[0].pattern]);
+            print_percent(check->behind, check->behind_low, check->behind_high);
+            fprintf(stderr, "\n");
+            break;
+        case KOKSMA_RANK_UNSETTLED:
+            fprintf(stderr, "undecided after %lld trials\n", check->trials);
+            break;
+        default:
+            fprintf(stderr, "not checked%s\n", ranking->cut_short ? ", the time was up" : "");
+        }
+    }
+}
+
+static void advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
+{
+    fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", options->scene, options->spp, ranking->width,
+            ranking->height);
+    if (ranking->settled) {
+        advise_best(options, rows, ranking);
+    } else {
+        advise_undecided(options, rows, ranking);
+    }
+    fprintf(stderr, ".\n  %lld trial%s (%s, %s filter) in ", ranking->trials, ranking->trials == 1 ? "" : "s",
+            options->integrator->name, options->filter->name);
+    print_seconds(ranking->seconds);
+    if (isfinite(ranking->reference_error)) {
+        fprintf(stderr, "; the reference's own error is %.1g", ranking->reference_error);
+    }
+    fprintf(stderr, "%s\n",
+            ranking->complete    ? ""
+            : ranking->cut_short ? "; the time was up before every pair was decided"
+                                 : "; the trials were too few to decide every pair");
+    if (ranking->settled && ranking->n > 1 && !options->one_size) {
+        advise_sizes(options, rows, ranking);
+    }
+}
+
+/* *settled: whether the best pattern is known. */
 static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_options *options, cli_work *work,
-                             cli_rows *rows)
+                             cli_rows *rows, bool *settled)
 {
     koksma_rank_row table[MAX_PATTERNS];
     koksma_ranking ranking;
-    const koksma_status status = koksma_rank(options, &work->run, table, &ranking);
+    const koksma_status status = koksma_rank_patterns(options, &work->run, table, &ranking);
     cli_work_end(work);
     if (status) {
         return status;
     }
-    for (size_t i = 0; i < ranking.n; i++) {
+    for (size_t i = 0; i < options->n_patterns; i++) {
         put_row(rows, options, &table[i], &ranking, cli_flag(arguments, "json"));
     }
     if (!cli_flag(arguments, "quiet")) {
         advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
-        fprintf(stderr, "koksma rank: %s is left out: %s\n", options->patterns[table[i].pattern], table[i].reason);
+        if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) { /* else the time is too short for all */
+            fprintf(stderr, "koksma rank: %s is not ranked: %s\n", options->patterns[table[i].pattern],
+                    table[i].reason);
+        }
     }
+    *settled = ranking.settled;
     return KOKSMA_OK;
 }
 
@@ -149,6 +312,7 @@ static int run(const cli_arguments *arguments)
     patterns p = {.n = 0};
     double time_limit_s;
     int width = 0, height = 0;
+    uint64_t max_trials;
     const koksma_integrator *integrator = koksma_integrator_find("distribution");
     const koksma_filter *filter = koksma_filter_find("box");
     const char *list = cli_text(arguments, "spp", "4,16,64");
@@ -164,12 +328,17 @@ static int run(const cli_arguments *arguments)
     int code = parse_patterns(arguments, &p);
     if (code || !cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
+        !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
         !cli_work_begin(arguments, "ranking", &work)) {
         return code ? code : CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_status status = KOKSMA_OK;
+    bool all_settled = true;
+    const double start_s = work.started_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
+        const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);
+        bool settled = false;
         const koksma_rank_options options = {.scene = arguments->operands[0],
                                              .patterns = p.at,
                                              .n_patterns = p.n,
@@ -178,22 +347,27 @@ static int run(const cli_arguments *arguments)
                                              .height = height,
                                              .integrator = integrator,
                                              .filter = filter,
-                                             .time_limit_s = time_limit_s / (double)n_spp};
-        status = rank_at(arguments, &options, &work, rows);
+                                             .time_limit_s = left_s / (double)(n_spp - i),
+                                             .max_trials = (long long)max_trials,
+                                             .one_size = cli_flag(arguments, "one-size")};
+        status = rank_at(arguments, &options, &work, rows, &settled);
+        all_settled &= settled;
     }
     cli_work_end(&work);
-    code = status ? cli_fail(arguments, status) : CLI_YES;
+    code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
     const int rows_code = cli_rows_close(rows);
-    return code ? code : rows_code;
+    return code > CLI_NO || !rows_code ? code : rows_code;
 }
 
 static const cli_option options[] = {
     {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
     {'p', "patterns", "PATTERN,..|thesis|later", "what is ranked (default: thesis)"},
-    {0, "size", "WxH", "pixels (default: the scene's, halved until a ranking fits into the time)"},
+    {0, "size", "WxH", "pixels (default: the scene's, halved until there are 19,200 at most)"},
+    {0, "one-size", NULL, "don't check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
+    {0, "max-trials", "N", "pictures of a pattern at a size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -202,13 +376,23 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "which pattern leaves the least error in a scene",
-    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH]\n"
-                "  [--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--json]",
+    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size]\n"
+                "  [--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--json]",
     .details =
-        "Renders the scene again and again with every pattern until the ranking is clear or the time is up, 4,096\n"
-        "times at most: each pattern's mean absolute error with its 95 % interval; patterns that can't be told\n"
-        "apart share a place. 'behind' is the relative difference to the best. The advice goes to stderr. Light\n"
-        "between surfaces is only in what --integrator path and irradiance-cache render.\n"
+        "Renders the scene again and again with every pattern and ranks the patterns by the mean absolute error of\n"
+        "the picture. The sequence of work depends on the command line only: rounds of 8, 16, 32, ... trials until\n"
+        "the best pattern is decided, then the same for the first three at half and at twice the size, then rounds\n"
+        "until every pair is decided. A pair is decided when the interval of the quotient of its errors excludes 1\n"
+        "or lies within 2 % of 1 (equal). A time limit cuts the sequence short: a longer one never names another\n"
+        "best pattern, and without enough time the answer is 'undecided', with an estimate of what would do.\n"
+        "\n"
+        "position: 1 + the number of patterns that are decided to be better; 'behind' is the relative difference to\n"
+        "the first row. All intervals and decisions of a ranking hold together with 95 %, with the reference's own\n"
+        "error in them. A pattern whose first 8 trials take more than its share of the time is put off until the\n"
+        "others are decided, and is not ranked when no time is left. The advice goes to stderr.\n"
+        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is not for one or more.\n"
+        "\n"
+        "Light between surfaces is only in what --integrator path and irradiance-cache render.\n"
         "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
     .options = options,
     .run = run,

@@ -31,7 +31,7 @@ int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
     return koksma_status_exit_code(KOKSMA_INTERRUPTED);
 }
 
-static double now_s(void)
+double cli_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -40,7 +40,7 @@ static double now_s(void)
 
 static void show(cli_work *work, double fraction)
 {
-    const double now = now_s(), elapsed = now - work->started_s;
+    const double now = cli_seconds(), elapsed = now - work->started_s;
     if (now - work->updated_s < 1.0 / 6) {
         return;
     }
@@ -79,7 +79,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
         return false;
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
-    *work = (cli_work){.what = what, .started_s = now_s()};
+    *work = (cli_work){.what = what, .started_s = cli_seconds()};
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
     signal(SIGXFSZ, SIG_IGN); /* a full disk, or a limit, is an error of the write */

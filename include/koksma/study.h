@@ -147,45 +147,96 @@ KOKSMA_API koksma_status koksma_study_images(const char *places, const char *ref
 
 /* ---- Ranking patterns for a scene ------------------------------------------------------------------------- */
 
-enum { KOKSMA_MAX_RANK_TRIALS = 65536 };
+enum { KOKSMA_MAX_RANK_TRIALS = 65536, KOKSMA_RANK_CHECKS = 2, KOKSMA_RANK_REASON = 256 };
 
 typedef struct koksma_rank_options {
     const char *scene;           /* a name or a file */
     const char *const *patterns; /* specs */
     size_t n_patterns;
     int spp;
-    int width, height;                   /* 0: the scene's, halved until a ranking fits into the time limit */
+    int width, height; /* of the picture; 0: the scene's, halved until it has 19,200 pixels at most */
     const koksma_integrator *integrator; /* NULL: distribution */
     const koksma_filter *filter;         /* NULL: box */
-    double time_limit_s;                 /* 0: until the ranking is clear, or max_trials */
-    long long max_trials;                /* 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
+    double time_limit_s;                 /* 0: none. It cuts the sequence of work short and changes nothing else */
+    long long max_trials;                /* of a pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
+    bool one_size;                       /* leave out the checks at half and twice the size */
 } koksma_rank_options;
 
-/* One pattern of a ranking. */
+typedef enum koksma_rank_state {
+    KOKSMA_RANK_RANKED,
+    KOKSMA_RANK_TOO_SLOW, /* no interval in its share of the time limit */
+    KOKSMA_RANK_REFUSED,  /* it cannot serve; `reason` says why */
+} koksma_rank_state;
+
+/* What is decided about a pattern and the pattern of row 0. */
+typedef enum koksma_rank_decision {
+    KOKSMA_RANK_UNDECIDED,
+    KOKSMA_RANK_BEST,  /* row 0, once it is decided against all others */
+    KOKSMA_RANK_EQUAL, /* to row 0, within 2 % */
+    KOKSMA_RANK_WORSE, /* than row 0 */
+} koksma_rank_decision;
+
+/* One pattern of a ranking. Intervals are simultaneous: of all patterns, pairs and rounds of the ranking together 95
+   % hold, and they include the reference's own error. NaN: none. */
 typedef struct koksma_rank_row {
-    size_t pattern;         /* index into the options' patterns */
-    size_t place;           /* from 1; shared by those that can't be told apart from the first of them */
-    double mean, low, high; /* of the mean absolute error of the image over the trials, with its 95 % interval */
-    double behind, behind_low, behind_high; /* relative difference to the best's mean */
-    char reason[256];                       /* not empty: why the pattern can't serve; it comes last, with place 0 */
+    size_t pattern;  /* index into the options' patterns */
+    size_t position; /* 1 + the number of patterns that are decided to leave less error; 0: not ranked */
+    koksma_rank_state state;
+    koksma_rank_decision decision;
+    long long trials;
+    double mean, low, high; /* of the mean absolute error of the image, without what the reference's error adds */
+    double behind, behind_low, behind_high; /* relative difference to the mean of row 0 */
+    char reason[KOKSMA_RANK_REASON];        /* why it is not ranked; empty when it is */
 } koksma_rank_row;
 
-typedef struct koksma_ranking {
-    size_t n; /* patterns in the ranking */
+typedef enum koksma_rank_check_state {
+    KOKSMA_RANK_UNCHECKED,  /* left out, not settled at the size itself, or the time was up */
+    KOKSMA_RANK_CONFIRMED,  /* the best pattern is the best there, or equal to the best within 2 % */
+    KOKSMA_RANK_OVERTURNED, /* another pattern is decided to leave less error there */
+    KOKSMA_RANK_UNSETTLED,  /* the trials were too few to decide */
+} koksma_rank_check_state;
+
+/* The first patterns, three at most, at another size. */
+typedef struct koksma_rank_check {
+    int width, height;
+    koksma_rank_check_state state;
+    size_t pattern; /* of a row: OVERTURNED by this one, an index into the options' patterns */
+    double behind, behind_low, behind_high; /* OVERTURNED: of the best pattern against that one */
     long long trials;
-    int width, height;      /* of the picture that was ranked by */
-    double reference_error; /* the reference's own mean absolute error */
-    bool clear;             /* every neighbours in the ranking are different, or equal to 2 % */
-    bool cut_short;         /* not clear, and the time limit is why: else all max_trials were made */
+} koksma_rank_check;
+
+typedef struct koksma_ranking {
+    size_t n;                /* ranked patterns: rows 0 .. n - 1; the others follow */
+    size_t n_slow;           /* of the others */
+    bool settled;            /* the best pattern is decided: row 0 */
+    bool complete;           /* every pair is decided */
+    bool cut_short;          /* the time limit ended the work */
+    long long trials;        /* of the pattern that has the most */
+    long long needed_trials; /* not settled: of each pattern, about so many would decide; 0: not known, or no number
+                                would, because the reference is too noisy */
+    double needed_s;         /* and the time limit for them; 0: not known */
+    int width, height;
+    double reference_error; /* the reference's own expected mean absolute error; NaN: it was not finished */
+    koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* at half and at twice the size */
     double seconds;
 } koksma_ranking;
 
-/* Renders the scene with every pattern, trial by trial, and ranks them by error. Stops when the ranking is clear:
-   rounds of doubling numbers of trials, each judged with intervals of 99.5 %, because it is judged several times.
-   The trials of a pattern are independent of each other and of every other pattern's. rows has room for n_patterns.
-   Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve, or max_trials), MEMORY, INTERRUPTED. */
-KOKSMA_API koksma_status koksma_rank(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
-                                     koksma_ranking *out);
+/* Renders the scene with every pattern, trial by trial, and ranks the patterns by the mean absolute error of the
+   image.
+
+   The sequence of work depends on the options alone, not on the machine: rounds of 8, 16, 32, ... trials until the
+   best pattern is decided, the checks at half and twice the size, then further rounds until every pair is decided. A
+   pair is decided after a round when the interval of the quotient of its errors excludes 1, or lies within 2 % of 1
+   (equal); a decision is not revoked. All decisions at a size hold together with 96 % probability, those of each
+   check with 99.5 %. A time limit only cuts the sequence short: a longer one names the same best pattern, or one
+   where there was none. A pattern whose first round takes more than its share of the time limit is put off until the
+   others are decided, and no best pattern is named while one is left.
+
+   rows has room for n_patterns. The trials of a pattern are independent of each other and of every other pattern's.
+   Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve, or max_trials), MEMORY, INTERRUPTED. A time
+   limit is no error, however short. */
+KOKSMA_API koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run,
+                                              koksma_rank_row *rows, koksma_ranking *out);
 
 #ifdef __cplusplus
 }

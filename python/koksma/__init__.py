@@ -15,12 +15,14 @@ from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOf
                        SystemError as SystemError, UnsupportedError)
 from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
                       write)
+from ._rank import Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
 from ._spectrum import Spectrum, spectrum
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Comparison", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError",
-    "OutOfMemoryError", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical", "compare", "generate", "measure",
-    "measures", "patterns", "read", "read_image", "render", "scenes", "spectrum", "verify", "version", "write",
+    "OutOfMemoryError", "Ranked", "Ranking", "SizeCheck", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical",
+    "compare", "generate", "measure", "measures", "patterns", "rank", "read", "read_image", "render", "scenes", "spectrum",
+    "verify", "version", "write",
 ]

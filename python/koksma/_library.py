@@ -128,6 +128,8 @@ def lab() -> ctypes.CDLL:
         _declare(library, c_void_p, f"koksma_{name}_find", c_char_p)
     _declare(library, None, "koksma_render_options_init", options, c_void_p)
     _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
+    _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
+             POINTER(s.Ranking))
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)

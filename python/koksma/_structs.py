@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The structs of the public headers, member for member. tests/python/test_structs.py compares them with the C
 compiler's."""
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint,
-                    c_uint64, c_void_p, sizeof)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_longlong,
+                    c_size_t, c_uint, c_uint64, c_void_p, sizeof)
 
 MAX_PARAMS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 512, 16, 8
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
+MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
 MAX_INT, MAX_SEED = (1 << 31) - 1, (1 << 64) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
@@ -99,12 +100,39 @@ class RenderOptions(Structure):
                 ("depth", c_int), ("filter", c_void_p), ("splat", c_bool)]
 
 
+class RankOptions(Structure):
+    _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
+                ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p),
+                ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool)]
+
+
+class RankRow(Structure):
+    _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
+                ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
+                ("behind", c_double), ("behind_low", c_double), ("behind_high", c_double),
+                ("reason", c_char * RANK_REASON)]
+
+
+class RankCheck(Structure):
+    _fields_ = [("width", c_int), ("height", c_int), ("state", c_int), ("pattern", c_size_t), ("behind", c_double),
+                ("behind_low", c_double), ("behind_high", c_double), ("trials", c_longlong)]
+
+
+class Ranking(Structure):
+    _fields_ = [("n", c_size_t), ("n_slow", c_size_t), ("settled", c_bool), ("complete", c_bool),
+                ("cut_short", c_bool), ("trials", c_longlong), ("needed_trials", c_longlong), ("needed_s", c_double),
+                ("width", c_int), ("height", c_int), ("reference_error", c_double),
+                ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double)]
+
+
 #: Header, C name and value of the limits above.
 CONSTANTS = [
     ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
     ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
     ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
+    ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
+    ("study.h", "KOKSMA_RANK_REASON", RANK_REASON),
     ("koksma.h", "UINT64_MAX", MAX_SEED),
 ]
 
@@ -120,4 +148,6 @@ LAYOUTS = [
     ("image.h", "koksma_image", Image), ("image.h", "koksma_image_error", ImageError),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_render_options", RenderOptions),
+    ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
+    ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
 ]

@@ -4,6 +4,7 @@
  * of whole rows, whose number depends on the sizes only, and in a task pixels go in groups through the pipeline.
  */
 #include <math.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,7 @@
 #include "render/film.h"
 #include "render/rows.h"
 
-enum { SAMPLES_A_TASK = 1 << 15 };
+enum { SAMPLES_A_TASK = 1 << 15, SAMPLES_A_LOOK = 1 << 12 };
 
 typedef struct job {
     koksma__frame *frame;
@@ -23,6 +24,11 @@ typedef struct job {
     int rows_a_task;
     size_t capacity; /* samples of a group */
     atomic_ullong rays;
+    const koksma_run *run;
+    pthread_t caller; /* the one thread that may ask run->keep_going */
+    size_t tasks;
+    atomic_size_t tasks_done;
+    atomic_bool stop;
 } job;
 
 /* ---- Groups ----------------------------------------------------------------------------------------------- */
@@ -47,6 +53,16 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 
 /* ---- Tasks --------------------------------------------------------------------------------------------- */
 
+/* A task is a row or more, which may take minutes of many samples: the caller is asked within it, too. */
+static koksma_status look(job *j)
+{
+    if (pthread_equal(pthread_self(), j->caller) &&
+        !koksma__keep_going(j->run, (double)atomic_load(&j->tasks_done) / (double)j->tasks)) {
+        atomic_store(&j->stop, true);
+    }
+    return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
+}
+
 static koksma_status render_rows(void *context, size_t task)
 {
     job *j = context;
@@ -54,6 +70,7 @@ static koksma_status render_rows(void *context, size_t task)
     const int first_row = j->first_row + (int)task * j->rows_a_task, left = j->end_row - first_row;
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
+    size_t samples = 0; /* since the last look */
     koksma__workroom r;
     koksma__group group;
     koksma_status status = koksma__workroom_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
@@ -63,12 +80,18 @@ static koksma_status render_rows(void *context, size_t task)
         for (size_t pixel = end - width; !status && pixel < end; pixel += group.count) {
             koksma__group_fill(f, pixel, end, &group);
             status = render_group(j, task, &group, &r);
+            samples += group.start[group.count];
+            if (!status && samples >= SAMPLES_A_LOOK) {
+                samples = 0;
+                status = look(j);
+            }
         }
     }
     if (!status) {
         koksma__film_close_task(f, &j->film, task);
     }
     atomic_fetch_add(&j->rays, r.values.rays);
+    atomic_fetch_add(&j->tasks_done, 1);
     koksma__workroom_fini(&r);
     return status;
 }
@@ -80,6 +103,9 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     const size_t rows = SAMPLES_A_TASK / (width * spp);
     j->rows_a_task = rows ? (int)rows : 1;
     const size_t tasks = (size_t)((j->end_row - j->first_row + j->rows_a_task - 1) / j->rows_a_task);
+    j->tasks = tasks;
+    j->run = run;
+    j->caller = pthread_self();
     j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
     j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);

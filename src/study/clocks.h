@@ -4,16 +4,13 @@
 
 #include <time.h>
 
+#include "core/clock.h"
+
 static inline double koksma__clock_s(clockid_t clock)
 {
     struct timespec t;
     clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static inline double koksma__now_s(void)
-{
-    return koksma__clock_s(CLOCK_MONOTONIC);
 }
 
 /* Processor time of this process, and of this thread. */

@@ -121,7 +121,7 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     summary->complete = all && !refused.n;
     if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
         const koksma_status recorded = record_run(study, started, summary);
-        status = status == KOKSMA_OK || atomic_load(&w.is_up) ? recorded : status;
+        status = status == KOKSMA_OK || koksma__watch_time_is_up(&w) ? recorded : status;
     }
     if (all && !status && refused.n) {
         status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", refused.n,

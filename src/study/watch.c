@@ -4,15 +4,24 @@
 #include "core/parallel.h"
 #include "study/clocks.h"
 
+/* The caller first: after a long job both may say stop, and an interruption counts more than the time. */
 static bool look(koksma__watch *w)
 {
-    if (w->end_s > 0 && koksma__now_s() > w->end_s) {
-        atomic_store(&w->is_up, true);
+    if (!atomic_load(&w->interrupted) && !koksma__keep_going(w->caller_run, w->fraction)) {
+        atomic_store(&w->interrupted, true);
         atomic_store(&w->stop, true);
-    } else if (!koksma__keep_going(w->caller_run, w->fraction)) {
+    }
+    if (!atomic_load(&w->stop) && w->end_s > 0 && koksma__now_s() > w->end_s) {
+        atomic_store(&w->is_up, true);
         atomic_store(&w->stop, true);
     }
     return !atomic_load(&w->stop);
+}
+
+bool koksma__watch_time_is_up(koksma__watch *w)
+{
+    look(w);
+    return atomic_load(&w->is_up) && !atomic_load(&w->interrupted);
 }
 
 static bool keep_running(void *context, double fraction)

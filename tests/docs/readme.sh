@@ -24,7 +24,7 @@ while read -r command; do
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac
-  if ! timeout 300 sh -c "$command" >out 2>&1 </dev/null; then
+  if ! timeout 3000 sh -c "$command" >out 2>&1 </dev/null; then
     echo "README.md: $command: $(tail -1 out)"
     failed=$((failed + 1))
   fi

@@ -256,7 +256,7 @@ async function guards(browser) {
   const page = await open(browser);
   await page.evaluate(() => koksmaExplorer.limit(0.5));
   await page.evaluate(() => { location.hash = "#a=random@8192&witness=edge"; });
-  await page.waitForFunction(() => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"), null, { timeout: 30000 });
+  await page.waitForFunction(() => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"), null, { timeout: 240000 });
   await page.evaluate(() => { koksmaExplorer.limit(60); location.hash = "#a=random@32"; });
   await page.waitForFunction(() => koksmaExplorer.hash().includes("random@32"));
   await idle(page);

@@ -26,7 +26,7 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 KINDS = ["memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory"]
 MODES = {kind: ["once", "on"] for kind in KINDS} | {
     "write": ["once", "on", "end"], "sync": ["once", "end"], "rename": ["once", "end"], "db": ["once", "on", "end"]}
-SECONDS = 200  # a run takes tenths of one; this is for machines under load
+SECONDS = 1800  # a run takes tenths of one; this finds those that never end, on machines under any load
 ENDED = 99
 OLD = b"what was there before\n"
 

@@ -22,6 +22,7 @@ from unittest import mock
 import numpy as np
 
 import koksma
+from koksma._signals import Signals
 from koksma import _library, _points, _render, _structs
 
 PROGRAM = os.environ["KOKSMA"]
@@ -200,18 +201,53 @@ class Errors(unittest.TestCase):
                 koksma.read(file.name)
 
     def test_control_c(self):
-        started = time.monotonic()
-        timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
-        timer.start()
+        def press():  # when the library has the handlers
+            while not isinstance(signal.getsignal(signal.SIGINT), Signals):
+                time.sleep(0.001)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        points, thread = koksma.generate("random", 1000, 6), threading.Thread(target=press)
         with self.assertRaises(KeyboardInterrupt):
-            koksma.measure(koksma.generate("random", 1000, 6), "star")
-        timer.join()
-        self.assertLess(time.monotonic() - started, 20)
+            thread.start()
+            koksma.measure(points, "star")
+        thread.join()
 
     def test_time_limit_gives_bounds(self):
         value = koksma.measure(koksma.generate("random", 500, 6), "star", time_limit=0.2)
         self.assertFalse(value.exact)
         self.assertLessEqual(value.lower, value.upper)
+
+
+class Rankings(unittest.TestCase):
+    def test_rank(self):
+        ranking = koksma.rank("checker", ["random", "n-rooks"], 4, size=(16, 12), time_limit=None)
+        self.assertEqual((ranking.best, ranking.settled, ranking.complete, ranking.cut_short), ("n-rooks", True, True, False))
+        first, last = ranking.rows
+        self.assertEqual([first.position, last.position, first.decision, last.decision], [1, 2, "best", "worse"])
+        self.assertLess(last.interval[0], last.error)
+        self.assertGreater(last.behind_interval[0], 0)
+        self.assertEqual([check.size for check in ranking.checks], [(8, 6), (32, 24)])
+        self.assertEqual({check.state for check in ranking.checks}, {"confirmed"})
+        self.assertIsNone(ranking.needed_trials)
+
+    def test_undecided(self):
+        ranking = koksma.rank("checker", ["n-rooks", "multi-jittered", "jittered"], 7, size=(8, 6), max_trials=8,
+                              one_size=True, time_limit=None)
+        self.assertEqual(ranking.rows[-1].state, "refused")
+        self.assertIn("jittered", ranking.rows[-1].reason)
+        self.assertIsNone(ranking.rows[-1].position)
+
+    def test_a_short_time_is_no_error(self):
+        ranking = koksma.rank("balls", ["n-rooks", "random"], 65536, size=(640, 480), time_limit=1e-3)
+        self.assertEqual((ranking.best, ranking.cut_short), (None, True))
+        self.assertEqual({row.state for row in ranking.rows}, {"too-slow"})
+        self.assertGreater(ranking.needed_seconds, 0)
+
+    def test_arguments(self):
+        for wrong in ({"patterns": []}, {"patterns": ["random", "random"]}, {"time_limit": 0}, {"max_trials": 7},
+                      {"integrator": "none"}, {"size": (0, 1)}):
+            with self.assertRaises(koksma.ArgumentError):
+                koksma.rank("checker", **wrong)
 
 
 class OddArrays(unittest.TestCase):

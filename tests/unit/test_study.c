@@ -294,10 +294,10 @@ static void rankings_have_eight_trials_or_more(void **state)
         .scene = "checker", .patterns = patterns, .n_patterns = 2, .spp = 4, .width = 8, .height = 6};
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         options.max_trials = refused[i];
-        assert_int_equal(koksma_rank(&options, NULL, rows, &ranking), KOKSMA_ARGUMENT);
+        assert_int_equal(koksma_rank_patterns(&options, NULL, rows, &ranking), KOKSMA_ARGUMENT);
     }
     options.max_trials = 8;
-    assert_ok(koksma_rank(&options, NULL, rows, &ranking));
+    assert_ok(koksma_rank_patterns(&options, NULL, rows, &ranking));
     assert_int_equal(ranking.trials, 8);
 }
 

@@ -4,16 +4,10 @@
 #define KOKSMA_MEASURES_PARTS_CLOCK_H
 
 #include <math.h>
-#include <time.h>
 
 #include <koksma/koksma.h>
 
-static inline double koksma__now_s(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "core/clock.h"
 
 /* The moment at which `share` of run's time limit will have passed; infinite without a limit. */
 static inline double koksma__deadline_s(const koksma_run *run, double share)

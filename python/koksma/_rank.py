@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rankings of patterns for a scene."""
+from __future__ import annotations
+
+import math
+import os
+from ctypes import byref, c_char_p
+from dataclasses import dataclass
+from typing import List, Optional, Sequence, SupportsIndex, Tuple, Union
+
+from . import _structs as s
+from ._library import ArgumentError, call, lab, text, whole
+from ._points import canonical
+from ._render import _found
+
+THESIS = ("n-rooks", "jittered", "half-jittered", "poisson-disk:d=0.2", "poisson-disk:d=0.1", "regular", "random")
+
+_STATES = ("ranked", "too-slow", "refused")
+_DECISIONS = ("undecided", "best", "equal", "worse")
+_CHECKS = ("unchecked", "confirmed", "overturned", "unsettled")
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A pattern of a ranking. Intervals (low, high) hold together for all patterns with 95 %; NaN: none."""
+    pattern: str
+    position: Optional[int]  #: 1 + the number of patterns that are decided to leave less error; None: not ranked
+    state: str  #: ranked, too-slow or refused
+    decision: str  #: best, equal (to the first, within 2 %), worse or undecided
+    trials: int
+    error: float
+    interval: Tuple[float, float]
+    behind: float  #: relative difference to the error of the first
+    behind_interval: Tuple[float, float]
+    reason: str  #: why it is not ranked
+
+
+@dataclass(frozen=True)
+class SizeCheck:
+    """The first patterns at half or twice the size."""
+    size: Tuple[int, int]
+    state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
+    best: Optional[str]
+    behind: float  #: overturned: of the best pattern of the ranking against `best`
+    behind_interval: Tuple[float, float]
+    trials: int
+
+
+@dataclass(frozen=True)
+class Ranking:
+    """What koksma.rank returns: rows[0] is the best pattern if `settled`."""
+    rows: List[Ranked]
+    settled: bool
+    complete: bool  #: every pair is decided
+    cut_short: bool  #: by the time limit
+    trials: int
+    needed_trials: Optional[int]  #: not settled: about so many trials of a pattern would decide; None: not known
+    needed_seconds: Optional[float]
+    size: Tuple[int, int]
+    reference_error: float
+    checks: Tuple[SizeCheck, ...]
+    seconds: float
+
+    @property
+    def best(self) -> Optional[str]:
+        """The pattern with the least error; None while it is undecided."""
+        return self.rows[0].pattern if self.settled else None
+
+
+def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS, spp: SupportsIndex = 16, *,
+         size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
+         filter: Optional[str] = None, time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
+         one_size: bool = False, threads: SupportsIndex = 0) -> Ranking:
+    """Ranks patterns by the mean absolute error of the pictures that they make of a scene, as `koksma rank` does.
+
+    size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
+    for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one
+    where there was none. one_size: leave out the checks at half and twice the size.
+    """
+    if time_limit is not None and not time_limit > 0:
+        raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
+    names = [canonical(pattern) for pattern in patterns]
+    if not names or len(set(names)) < len(names):
+        raise ArgumentError("patterns: it takes one or more, each once")
+    array = (c_char_p * len(names))(*[text(name) for name in names])
+    name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
+    options = s.RankOptions(scene=text(name), patterns=array, n_patterns=len(names), one_size=one_size,
+                            time_limit_s=time_limit or 0.0, spp=whole("spp", spp, 1, s.MAX_SPP),
+                            max_trials=whole("max_trials", max_trials, 8, s.MAX_RANK_TRIALS),
+                            integrator=_found("integrator", integrator or "distribution"),
+                            filter=_found("filter", filter or "box"))
+    if size is not None:
+        width, height = size
+        options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
+        options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
+    rows, out = (s.RankRow * len(names))(), s.Ranking()
+    call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
+    undecided = not out.settled
+    return Ranking(
+        rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
+                     (r.low, r.high), r.behind, (r.behind_low, r.behind_high), r.reason.decode(errors="replace"))
+              for r in rows],
+        settled=out.settled, complete=out.complete, cut_short=out.cut_short, trials=out.trials,
+        needed_trials=out.needed_trials or None if undecided else None,
+        needed_seconds=out.needed_s or None if undecided else None, size=(out.width, out.height),
+        reference_error=out.reference_error, seconds=out.seconds,
+        checks=tuple(_check(c, names) for c in out.checks))
+
+
+def _check(check: s.RankCheck, names: Sequence[str]) -> SizeCheck:
+    overturned = _CHECKS[check.state] == "overturned"
+    interval = (check.behind_low, check.behind_high) if overturned else (math.nan, math.nan)
+    return SizeCheck((check.width, check.height), _CHECKS[check.state], names[check.pattern] if overturned else None,
+                     check.behind if overturned else math.nan, interval, check.trials)

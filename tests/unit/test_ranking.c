@@ -1,0 +1,456 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a ranking concludes: from invented errors, whose means are known, and from small pictures under a clock that
+   cuts the work short at any moment. Long because the two belong together: what cuts may cost is a decision. */
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/study.h>
+
+#include "core/clock.h"
+#include "core/quantiles.h"
+#include "core/random.h"
+#include "study/ranking_decisions.h"
+#include "study/ranking_reference.h"
+#include "test.h"
+
+/* ---- Invented errors ------------------------------------------------------------------------------------ */
+
+enum { MOST = 8, PIXELS = 40 };
+
+/* A world: patterns whose pictures have pixels of known error, and a reference with an error of its own. */
+typedef struct world {
+    size_t n;
+    const double *scale; /* the patterns' errors: of a pixel, the absolute value of `scale` times a number */
+    double spread;       /* how much trials differ: the numbers' common factor is exp(spread z) */
+    double reference;    /* deviation of a replicate's pixel */
+    uint64_t seed;
+} world;
+
+static double normal(uint64_t seed, uint64_t i, uint64_t j)
+{
+    double pair[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_TEST, i, (uint32_t)j, pair);
+    return sqrt(-2 * log1p(-pair[0])) * cos(6.283185307179586 * pair[1]);
+}
+
+/* All errors of pattern p up to n trials, by definition: pixel by pixel, replicate by replicate. The exact picture is
+   0, so that the true mean error of pattern p is scale[p] sqrt(2/pi) exp(spread^2 / 2). */
+static koksma__rank_errors errors_of(const world *w, size_t p, size_t n)
+{
+    enum { K = KOKSMA__RANK_REPLICATES };
+    static double replicate[PIXELS][K];
+    koksma__rank_errors e = {.n = n};
+    double squares = 0;
+    for (uint64_t x = 0; x < PIXELS; x++) {
+        for (uint64_t r = 0; r < K; r++) {
+            replicate[x][r] = w->reference > 0 ? w->reference * normal(w->seed, 1000000 + r, (uint64_t)x) : 0;
+        }
+    }
+    for (size_t t = 0; t < n; t++) {
+        const uint64_t key = (uint64_t)(p * 65536 + t);
+        const double factor = w->scale[p] * exp(w->spread * normal(w->seed, key, PIXELS));
+        double errors[1 + K] = {0};
+        for (uint64_t x = 0; x < PIXELS; x++) {
+            const double y = factor * normal(w->seed, key, x);
+            double mean = 0;
+            for (int r = 0; r < K; r++) {
+                mean += replicate[x][r] / K;
+            }
+            errors[0] += fabs(y - mean) / PIXELS;
+            for (int r = 0; r < K; r++) {
+                errors[1 + r] += fabs(y - (K * mean - replicate[x][r]) / (K - 1)) / PIXELS;
+            }
+        }
+        const double off = errors[0] - e.mean;
+        e.mean += off / (double)(t + 1);
+        squares += off * (errors[0] - e.mean);
+        for (int r = 0; r < K; r++) {
+            e.without[r] += errors[1 + r] / (double)n;
+        }
+    }
+    e.variance = squares / (double)(n - 1);
+    return e;
+}
+
+/* Runs `rounds` rounds of a ranking in a world; what is wrongly decided is counted. */
+typedef struct outcome {
+    size_t wrong, leader, decided;
+} outcome;
+
+static outcome rank_world(const world *w, int rounds, double alpha)
+{
+    koksma__rank_table table;
+    outcome out = {0};
+    assert_ok(koksma__rank_table_init(&table, w->n, alpha));
+    for (int round = 0; round < rounds; round++) {
+        for (size_t p = 0; p < w->n; p++) {
+            koksma__rank_entrant *e = &table.entrants[p];
+            e->rounds[e->n_rounds++] = errors_of(w, p, (size_t)KOKSMA__RANK_FIRST_ROUND << round);
+        }
+        koksma__rank_decide(&table);
+    }
+    for (size_t i = 0; i < w->n; i++) {
+        for (size_t j = i + 1; j < w->n; j++) {
+            const double quotient = w->scale[i] / w->scale[j];
+            const koksma__rank_verdict v = table.pairs[i * w->n + j].verdict;
+            out.decided += v != KOKSMA__RANK_OPEN;
+            out.wrong += (v == KOKSMA__RANK_LESS && quotient >= 1) || (v == KOKSMA__RANK_MORE && quotient <= 1) ||
+                         (v == KOKSMA__RANK_SAME && fabs(log(quotient)) > log(KOKSMA__RANK_EQUAL) + 1e-12);
+        }
+    }
+    out.leader = table.leader;
+    koksma__rank_table_fini(&table);
+    return out;
+}
+
+/* Equal means, means at the edge of "equal", and near ties; with a good reference and with one as noisy as the
+   patterns themselves. Rankings with any wrong decision are rarer than alpha: of 100 with alpha = 0.2 fewer than 36,
+   which 20 expected ones reach with probability 1e-4. */
+static void wrong_decisions_are_rare(void **state)
+{
+    (void)state;
+    static const double equal[] = {1, 1, 1, 1}, edge[] = {1, 1.0201, 1.0201, 1.0201}, ties[] = {1, 1.005, 1.01, 1.03};
+    const double *const scales[] = {equal, edge, ties};
+    for (size_t s = 0; s < 3; s++) {
+        for (int noisy = 0; noisy < 2; noisy++) {
+            size_t wrong = 0;
+            for (uint64_t seed = 0; seed < 40; seed++) {
+                const world w = {.n = 4,
+                                 .scale = scales[s],
+                                 .spread = noisy ? 0.02 : 0.15,
+                                 .reference = noisy ? 1.2 : 0.1,
+                                 .seed = seed + 1000 * s};
+                wrong += rank_world(&w, 3, 0.2).wrong > 0;
+            }
+            if (wrong >= 18) {
+                fail_msg("case %zu, %s reference: %zu of 40 rankings decide wrongly", s, noisy ? "noisy" : "good",
+                         wrong);
+            }
+        }
+    }
+}
+
+/* What differs clearly is decided, and the best leads; equal ones are found to be equal. */
+static void clear_cases_are_decided(void **state)
+{
+    (void)state;
+    static const double scale[] = {1.5, 1, 2, 1.25}, equal[] = {1, 1};
+    const world w = {.n = 4, .scale = scale, .spread = 0.05, .reference = 0.1, .seed = 3};
+    const outcome o = rank_world(&w, 3, 0.04);
+    assert_int_equal(o.wrong, 0);
+    assert_int_equal(o.decided, 6);
+    assert_int_equal(o.leader, 1);
+    const world same = {.n = 2, .scale = equal, .spread = 0.005, .reference = 0, .seed = 4};
+    assert_int_equal(rank_world(&same, 9, 0.04).decided, 1);
+}
+
+/* A reference that is as noisy as what it judges leaves a small difference open, whatever the number of trials. */
+static void noisy_references_decide_nothing(void **state)
+{
+    (void)state;
+    static const double scale[] = {1, 1.03};
+    const world w = {.n = 2, .scale = scale, .spread = 0.01, .reference = 4, .seed = 5};
+    const koksma__rank_errors a = errors_of(&w, 0, 256), b = errors_of(&w, 1, 256);
+    const double level = koksma__rank_level(0.04, 2);
+    assert_int_equal(koksma__rank_judge(&a, &b, level), KOKSMA__RANK_OPEN);
+    assert_int_equal(koksma__rank_trials_needed(&a, &b, level), 0);
+    const koksma__estimate q = koksma__rank_quotient(&a, &b, level);
+    assert_true(q.low < 1 / 1.03 && q.high > 1 / 1.03);
+}
+
+/* ---- By hand -------------------------------------------------------------------------------------------- */
+
+static koksma__rank_errors exact(double mean, double sd, size_t n)
+{
+    koksma__rank_errors e = {.n = n, .mean = mean, .variance = sd * sd};
+    for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
+        e.without[r] = mean;
+    }
+    return e;
+}
+
+static void intervals_by_hand(void **state)
+{
+    (void)state;
+    const double level = 0.01;
+    const koksma__rank_errors a = exact(2, 0.4, 16), b = exact(1, 0, 16);
+    const double half = koksma__student_quantile(0.99, 15) * 0.1; /* only a varies */
+    koksma__estimate e = koksma__rank_error(&a, level);
+    assert_near(e.value, 2, 1e-15);
+    assert_near(e.low, 2 - half, 1e-9);
+    assert_near(e.high, 2 + half, 1e-9);
+    e = koksma__rank_quotient(&a, &b, level);
+    assert_near(e.value, 2, 1e-15);
+    assert_near(e.low, 2 - half, 1e-6);
+    assert_near(e.high, 2 + half, 1e-6);
+    assert_int_equal(koksma__rank_judge(&a, &b, level), KOKSMA__RANK_MORE);
+    assert_int_equal(koksma__rank_judge(&b, &a, level), KOKSMA__RANK_LESS);
+    /* 28 bounds in each of 14 rounds for 7 patterns and their 21 pairs */
+    assert_near(koksma__rank_level(0.05, 7), 0.05 / (2 * 14 * 28), 1e-18);
+}
+
+/* The jackknife removes a bias of b/k and knows the deviation of a mean. */
+static void references_by_hand(void **state)
+{
+    (void)state;
+    enum { K = KOKSMA__RANK_REPLICATES };
+    koksma__rank_errors a = exact(1, 0, 8);
+    double squares = 0;
+    for (int r = 0; r < K;
+         r++) { /* the error is 0.84 + 0.16 * 16 / k + the mean of d over the replicates that are in */
+        const double d = (r - 7.5) / 100;
+        squares += d * d;
+        a.without[r] = 0.84 + 0.16 * K / (K - 1) - d / (K - 1);
+    }
+    const koksma__estimate e = koksma__rank_error(&a, 0.01);
+    const double error = sqrt(squares / (K - 1) / K);
+    assert_near(e.value, 0.84, 1e-12);
+    assert_near(e.high - e.value, koksma__student_quantile(0.99, K - 1) * error + 0.16, 1e-9);
+}
+
+static void equal_errors_are_equal(void **state)
+{
+    (void)state;
+    const koksma__rank_errors zero = exact(0, 0, 8), one = exact(1, 0, 8), more = exact(1.0199, 0, 8),
+                              most = exact(1.0201, 0, 8), single = exact(1, NAN, 1);
+    assert_int_equal(koksma__rank_judge(&zero, &zero, 1e-3), KOKSMA__RANK_SAME);
+    assert_near(koksma__rank_quotient(&zero, &zero, 1e-3).value, 1, 0);
+    assert_int_equal(koksma__rank_judge(&one, &one, 1e-3), KOKSMA__RANK_SAME);
+    assert_int_equal(koksma__rank_judge(&one, &more, 1e-3), KOKSMA__RANK_SAME);
+    assert_int_equal(koksma__rank_judge(&one, &most, 1e-3), KOKSMA__RANK_LESS);
+    assert_int_equal(koksma__rank_judge(&one, &single, 1e-3), KOKSMA__RANK_OPEN);
+    assert_int_equal(koksma__rank_judge(&zero, &one, 1e-3), KOKSMA__RANK_LESS);
+}
+
+/* The number of trials that is foretold is the smallest that decides if nothing changes. */
+static void trials_are_foretold(void **state)
+{
+    (void)state;
+    const koksma__rank_errors a = exact(1, 0.05, 8), b = exact(1.03, 0.05, 8);
+    const size_t n = koksma__rank_trials_needed(&a, &b, 1e-3);
+    const koksma__rank_errors enough_a = exact(1, 0.05, n), enough_b = exact(1.03, 0.05, n),
+                              few_a = exact(1, 0.05, n / 2), few_b = exact(1.03, 0.05, n / 2);
+    assert_true(n > 8 && n <= 256);
+    assert_true(koksma__rank_judge(&enough_a, &enough_b, 1e-3) == KOKSMA__RANK_LESS);
+    assert_true(koksma__rank_judge(&few_a, &few_b, 1e-3) == KOKSMA__RANK_OPEN);
+}
+
+/* ---- Pictures under a test's clock ---------------------------------------------------------------------- */
+
+static atomic_ullong ticks;
+
+static double ticking(void)
+{
+    return (double)atomic_fetch_add(&ticks, 1);
+}
+
+static const char *const three[] = {"random", "jittered", "n-rooks"};
+
+static koksma_rank_options small(void)
+{
+    return (koksma_rank_options){
+        .scene = "ball", .patterns = three, .n_patterns = 3, .spp = 4, .width = 24, .height = 18};
+}
+
+static koksma_ranking rank_small(const koksma_rank_options *options, int threads, koksma_rank_row *rows)
+{
+    koksma_ranking ranking;
+    const koksma_run run = {.threads = threads};
+    assert_ok(koksma_rank_patterns(options, &run, rows, &ranking));
+    return ranking;
+}
+
+/* Wherever the time limit cuts the work, on any number of threads: the same best pattern or none, the same decisions
+   or none, and always rows. */
+static void time_limits_only_cut(void **state)
+{
+    (void)state;
+    koksma_rank_row whole[3], rows[3];
+    koksma_rank_options options = small();
+    const koksma_ranking all = rank_small(&options, 1, whole);
+    size_t settled = 0, cut = 0, checked = 0;
+    assert_true(all.settled && all.complete && !all.cut_short && all.n == 3);
+    assert_true(all.checks[0].state && all.checks[1].state);
+    koksma__set_clock(ticking);
+    for (double limit = 1; limit < 1e6; limit *= 1.5) {
+        for (int threads = 1; threads <= 2; threads++) {
+            options.time_limit_s = limit;
+            const koksma_ranking r = rank_small(&options, threads, rows);
+            cut += r.cut_short;
+            settled += r.settled;
+            assert_true(r.settled || r.needed_trials > 0);
+            assert_true(r.width == 24 && r.height == 18 && r.n + r.n_slow == 3);
+            assert_true(!r.settled || rows[0].pattern == whole[0].pattern);
+            assert_true(!r.settled || rows[0].decision == KOKSMA_RANK_BEST);
+            for (int i = 0; i < 2; i++) {
+                checked += r.checks[i].state != KOKSMA_RANK_UNCHECKED;
+                assert_true(!r.checks[i].state || r.checks[i].state == all.checks[i].state);
+                assert_true(r.checks[i].state != KOKSMA_RANK_OVERTURNED ||
+                            r.checks[i].pattern == all.checks[i].pattern);
+            }
+            for (size_t i = 0; i < 3; i++) {
+                const koksma_rank_row *row = &rows[i], *other = whole;
+                while (other->pattern != row->pattern) {
+                    other++;
+                }
+                assert_true((row->state == KOKSMA_RANK_RANKED) == (i < r.n) && (row->position > 0) == (i < r.n));
+                assert_true(row->position <= other->position);
+                assert_true(!r.settled || !row->decision || row->decision == other->decision);
+                assert_true((row->reason[0] != 0) == (row->state != KOKSMA_RANK_RANKED));
+            }
+        }
+    }
+    koksma__set_clock(NULL);
+    assert_true(cut >= 4 && settled >= 4 && checked >= 2);
+}
+
+static bool stop_at_200(void *context, double fraction)
+{
+    (void)fraction;
+    return ++*(int *)context < 200;
+}
+
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+/* An interruption is not overtaken by a time limit, also where both come between two looks. */
+static void interruptions_come_first(void **state)
+{
+    (void)state;
+    koksma_rank_row rows[3];
+    koksma_ranking ranking;
+    koksma_rank_options options = small();
+    int asked = 0;
+    const koksma_run at_once = {.threads = 1, .keep_going = stop_at_once},
+                     later = {.threads = 1, .keep_going = stop_at_200, .context = &asked};
+    koksma__set_clock(ticking);
+    for (double limit = 1e-3; limit < 100; limit *= 10) {
+        options.time_limit_s = limit;
+        assert_int_equal(koksma_rank_patterns(&options, &at_once, rows, &ranking), KOKSMA_INTERRUPTED);
+    }
+    options.time_limit_s = 0;
+    assert_int_equal(koksma_rank_patterns(&options, &later, rows, &ranking), KOKSMA_INTERRUPTED);
+    koksma__set_clock(NULL);
+}
+
+/* Long rows of a picture are no longer than others between two looks. */
+static int looks_of(int spp)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    int asked = -1000000;
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    options.spp = spp;
+    options.width = 64;
+    options.height = 2;
+    const koksma_run run = {.threads = 1, .keep_going = stop_at_200, .context = &asked};
+    assert_ok(koksma_render(scene, &options, &run, &image));
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+    return asked + 1000000;
+}
+
+static void rows_of_many_samples_are_left(void **state)
+{
+    (void)state;
+    assert_true(looks_of(1024) >= 2 * 64 * 1024 / (2 * 4096));
+}
+
+/* A clock that leaps at two of its calls. */
+static unsigned long long first_leap, second_leap;
+
+static double leaping(void)
+{
+    const unsigned long long call = atomic_fetch_add(&ticks, 1);
+    return (double)call + (call >= first_leap ? 6000 : 0) + (call >= second_leap ? 6000 : 0);
+}
+
+/* A trial that takes more than its pattern's share puts the pattern off, and the others are ranked without it: they
+   are ranked when the time ends before its turn comes again, and all are when it does not, with the same best
+   pattern. */
+static void slow_patterns_are_put_off(void **state)
+{
+    (void)state;
+    koksma_rank_row whole[3], rows[3];
+    koksma_rank_options options = small();
+    static const unsigned long long gaps[] = {145, 190, 1000000};
+    size_t left_out = 0, settled = 0;
+    options.one_size = true;
+    rank_small(&options, 1, whole);
+    options.time_limit_s = 10000;
+    koksma__set_clock(leaping);
+    for (unsigned long long call = 100; call < 160; call += 4) {
+        for (int g = 0; g < 3; g++) {
+            atomic_store(&ticks, 0);
+            first_leap = call;
+            second_leap = call + gaps[g];
+            const koksma_ranking r = rank_small(&options, 1, rows);
+            settled += r.settled;
+            assert_true(r.n + r.n_slow == 3 && (!r.settled || rows[0].pattern == whole[0].pattern));
+            if (r.n == 2) {
+                left_out++;
+                assert_true(r.cut_short && !r.settled && !r.complete && r.needed_trials > 0 && r.needed_s > 0);
+                assert_true(rows[0].position == 1 && rows[2].state == KOKSMA_RANK_TOO_SLOW && rows[2].position == 0);
+                assert_true(!rows[1].decision || rows[1].decision == KOKSMA_RANK_WORSE);
+            }
+        }
+    }
+    koksma__set_clock(NULL);
+    assert_true(left_out >= 2 && settled >= 3);
+}
+
+static void patterns_that_cannot_serve(void **state)
+{
+    (void)state;
+    const char *patterns[] = {"jittered", "n-rooks"};
+    koksma_rank_row rows[2];
+    koksma_rank_options options = {
+        .scene = "ball", .patterns = patterns, .n_patterns = 2, .spp = 7, .width = 8, .height = 6};
+    const koksma_ranking r = rank_small(&options, 1, rows);
+    assert_true(r.settled && r.complete && r.n == 1 && r.n_slow == 0);
+    assert_true(rows[0].pattern == 1 && rows[0].decision == KOKSMA_RANK_BEST);
+    assert_true(rows[1].state == KOKSMA_RANK_REFUSED && strstr(rows[1].reason, "jittered"));
+}
+
+/* The size is the scene's, or the one asked for, on every machine. */
+static void sizes_are_part_of_the_question(void **state)
+{
+    (void)state;
+    koksma_rank_row rows[3];
+    koksma_rank_options options = small();
+    options.width = options.height = 0;
+    options.scene = "cornell";
+    koksma__set_clock(ticking);
+    options.time_limit_s = 1e-6;
+    const koksma_ranking r = rank_small(&options, 1, rows);
+    koksma__set_clock(NULL);
+    assert_true(r.width == 128 && r.height == 128 && r.checks[0].width == 64 && r.checks[1].height == 256);
+    assert_true(r.cut_short && r.n == 0 && r.n_slow == 3 && isnan(r.reference_error));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(wrong_decisions_are_rare),
+        cmocka_unit_test(clear_cases_are_decided),
+        cmocka_unit_test(noisy_references_decide_nothing),
+        cmocka_unit_test(intervals_by_hand),
+        cmocka_unit_test(references_by_hand),
+        cmocka_unit_test(equal_errors_are_equal),
+        cmocka_unit_test(trials_are_foretold),
+        cmocka_unit_test(time_limits_only_cut),
+        cmocka_unit_test(interruptions_come_first),
+        cmocka_unit_test(rows_of_many_samples_are_left),
+        cmocka_unit_test(slow_patterns_are_put_off),
+        cmocka_unit_test(patterns_that_cannot_serve),
+        cmocka_unit_test(sizes_are_part_of_the_question),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
