@@ -108,7 +108,7 @@ KOKSMA_API const char *koksma_study_verdict_name(koksma_study_verdict verdict);
 /* A row of a published table beside ours. NaN where there is no number. */
 typedef struct koksma_study_row {
     const char *pattern, *label;
-    long long n; /* points, or samples per pixel */
+    long long n;            /* points, or samples per pixel */
     double published[3];    /* mean, SD, max */
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN of one) */
     double sd, max;         /* image tables: means over the trials; discrepancies: SD over the sets, mean of the

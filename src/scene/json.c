@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* JSON files by jansson, with errors that name file, line and path. jansson keeps no lines of values: a small scanner
+   finds the line of a node again, once something is wrong with it. Long because reading, checking and finding lines
+   share what a node is. */
 #include "scene/json.h"
 
 #include <stdarg.h>

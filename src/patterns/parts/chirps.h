@@ -3,7 +3,7 @@
 #ifndef KOKSMA_PATTERNS_PARTS_CHIRPS_H
 #define KOKSMA_PATTERNS_PARTS_CHIRPS_H
 
-#include "patterns/parts/fourier.h"
+#include "patterns/parts/fourier_pow2.h"
 
 typedef struct koksma__chirps {
     size_t length, padded; /* padded: of the convolution; 0: by the definition */

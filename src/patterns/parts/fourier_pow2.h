@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Discrete Fourier transforms of one sequence, for convolutions: in place, and nothing is put in order. */
-#ifndef KOKSMA_PATTERNS_PARTS_FOURIER_H
-#define KOKSMA_PATTERNS_PARTS_FOURIER_H
+#ifndef KOKSMA_PATTERNS_PARTS_FOURIER_POW2_H
+#define KOKSMA_PATTERNS_PARTS_FOURIER_POW2_H
 
 #include <koksma/koksma.h>
 

@@ -6,7 +6,7 @@
  * are saved. The reference twin of that kernel is the definition, whose n^2 steps are too many for a search's
  * lengths.
  */
-#include "patterns/parts/fourier.h"
+#include "patterns/parts/fourier_pow2.h"
 
 #include <math.h>
 #include <stdlib.h>
