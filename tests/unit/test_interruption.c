@@ -123,7 +123,7 @@ static void one_false_stops(void **state)
     int asked = 0;
     const koksma_run run = {.threads = 1, .keep_going = stop_once, .context = &asked};
     assert_ok(koksma_points_init(&p, 20000, 2));
-    assert_ok(koksma_pattern_spec("poisson-disk:d=0.0045", &spec));
+    assert_ok(koksma_pattern_spec("poisson-disk:d=0.0056", &spec));
     assert_int_equal(koksma_generate(&spec, 0, &run, &p), KOKSMA_INTERRUPTED);
     koksma_points_fini(&p);
 }
