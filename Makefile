@@ -1,6 +1,6 @@
 # Koksma's front door: every target sets up what it needs (Debian packages) and says what it does.
 #
-#   make demo      install what is missing, build, reproduce the first paper's tables, say where the report is
+#   make demo      install what is missing, build, reproduce both papers' tables and figures, say where the report is
 #   make test      build with sanitizers and with clang, run all tests
 #   make bench     speeds, each beside what it is compared with
 #   make install   install the release build (PREFIX=/usr/local, DESTDIR=), run ldconfig without a DESTDIR
@@ -24,7 +24,7 @@ release:
 	@cmake --build --preset release
 
 demo: release
-	build/release/koksma reproduce shirley1991 -o $(DEMO) $(if $(TRIALS),--trials $(TRIALS))
+	build/release/koksma reproduce shirley1991 mitchell1992 --papers-only -o $(DEMO) $(if $(TRIALS),--trials $(TRIALS),--quick)
 
 test:
 	@scripts/setup build test

@@ -84,7 +84,7 @@ static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX
         mitchell |= !strcmp(arguments->operands[i], "mitchell1992");
         open |= !strcmp(arguments->operands[i], "open-questions");
     }
-    if (shirley && mitchell && !open && n < MAX_PLANS) {
+    if (shirley && mitchell && !open && n < MAX_PLANS && !cli_flag(arguments, "papers-only")) {
         plans[n++] = "open-questions";
     }
     return n;
@@ -133,6 +133,7 @@ static const cli_option option_table[] = {
     {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
+    {0, "papers-only", NULL, "without the plan open-questions, which both papers together bring"},
     {0, "table", "ID|all|none",
      "table to print at the end (default: the first); the first plan's where several have one ID"},
     CLI_ROW_OPTIONS,
@@ -143,7 +144,7 @@ static const cli_option option_table[] = {
 const cli_command cli_command_reproduce = {
     .name = "reproduce",
     .summary = "reproduce the tables and figures of papers",
-    .synopsis = "PAPER... -o DIR [--quick] [--trials T] [--table ID] [--json]",
+    .synopsis = "PAPER... -o DIR [--quick] [--papers-only] [--trials T] [--table ID] [--json]",
     .details =
         "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
         "Both papers together also bring the plan open-questions: what the papers leave open, answered.\n"
