@@ -3,7 +3,7 @@
  * Published tables whose columns are numbers of points, as Mitchell 1992 prints them. Each pattern has a line of the
  * printed means, one of ours with intervals and verdicts, and, where the table has a second measure, one of that. At
  * the end of a line is its slope in log-log: of the printed ends, and of our means by least squares over all columns
- * (koksma__trend_of); theory's exponent stands behind them. A chart of the same means follows.
+ * (koksma__trend_of); theory's exponent follows. A chart of the same means follows.
  */
 #include <math.h>
 #include <stdio.h>
