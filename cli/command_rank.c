@@ -7,6 +7,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "rank_advice.h"
 #include "render_options.h"
 
 enum { MAX_PATTERNS = 64 };
@@ -53,12 +54,14 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
 
 static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
 static const char *const states[] = {"ranked", "too-slow", "refused"};
-static const char *const check_names[KOKSMA_RANK_CHECKS][4] = {
-    {"half_width", "half_height", "half_size", "half_size_best"},
-    {"twice_width", "twice_height", "twice_size", "twice_size_best"}};
+static const char *const check_names[KOKSMA_RANK_CHECKS][5] = {
+    {"half_width", "half_height", "half_size", "half_size_best", "half_size_coherent"},
+    {"twice_width", "twice_height", "twice_size", "twice_size_best", "twice_size_coherent"}};
 static const char *const check_states[] = {"unchecked", "confirmed", "overturned", "unsettled"};
 
-static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking)
+/* advised: a pattern, where there is one. */
+static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
+                        size_t advised)
 {
     cli_row_text(rows, "integrator", options->integrator->name);
     cli_row_text(rows, "filter", options->filter->name);
@@ -66,6 +69,9 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     cli_row_flag(rows, "settled", ranking->settled);
     cli_row_flag(rows, "complete", ranking->complete);
     cli_row_flag(rows, "cut_short", ranking->cut_short);
+    if (ranking->advised) {
+        cli_row_text(rows, "advised", options->patterns[advised]);
+    }
     cli_row_whole(rows, "needed_trials", (uint64_t)ranking->needed_trials);
     cli_row_number(rows, "needed_s", ranking->needed_s);
     for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
@@ -76,13 +82,17 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
         if (check->state == KOKSMA_RANK_OVERTURNED) {
             cli_row_text(rows, check_names[i][3], options->patterns[check->pattern]);
         }
+        if (check->state == KOKSMA_RANK_CONFIRMED || check->state == KOKSMA_RANK_OVERTURNED) {
+            cli_row_flag(rows, check_names[i][4], check->coherent);
+        }
     }
 }
 
 /* What holds for all rows of a ranking is for machines: a reader has it in the advice. */
-static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *row,
+static void put_row(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_row *table, size_t i,
                     const koksma_ranking *ranking, bool json)
 {
+    const koksma_rank_row *row = &table[i];
     cli_row_text(rows, "scene", options->scene);
     cli_row_whole(rows, "spp", (uint64_t)options->spp);
     if (row->position) {
@@ -98,170 +108,23 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
     cli_row_rounded(rows, "behind_low", row->behind_low, 3);
     cli_row_rounded(rows, "behind_high", row->behind_high, 3);
     cli_row_whole(rows, "trials", (uint64_t)row->trials);
+    cli_row_rounded(rows, "coherence", row->coherence.coherence, 3);
+    if (json) {
+        cli_row_rounded(rows, "coherence_low", row->coherence.low, 3);
+        cli_row_rounded(rows, "coherence_high", row->coherence.high, 3);
+        cli_row_rounded(rows, "coherence_noise", row->coherence.noise_high, 3);
+        cli_row_rounded(rows, "coherence_p", row->coherence.p, 3);
+    }
+    cli_row_flag(rows, "coherent", row->coherence.coherent);
     cli_row_whole(rows, "width", (uint64_t)ranking->width);
     cli_row_whole(rows, "height", (uint64_t)ranking->height);
     if (json) {
         cli_row_text(rows, "state", states[row->state]);
         cli_row_text(rows, "decision", decisions[row->decision]);
         cli_row_text(rows, "reason", row->reason);
-        put_ranking(rows, options, ranking);
+        put_ranking(rows, options, ranking, table[ranking->advised_row].pattern);
     }
     cli_row_end(rows);
-}
-
-/* ---- The advice ------------------------------------------------------------------------------------------ */
-
-/* "a", "a and b", "a, b and c": those with the decision, at the position, if it is not 0. */
-static void print_patterns(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n,
-                           koksma_rank_decision decision, size_t position)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < n; i++) {
-        count += position ? rows[i].position == position : rows[i].decision == decision;
-    }
-    for (size_t i = 0, done = 0; i < n; i++) {
-        if (position ? rows[i].position == position : rows[i].decision == decision) {
-            fprintf(stderr, "%s%s",
-                    !done              ? ""
-                    : done + 1 < count ? ", "
-                                       : " and ",
-                    options->patterns[rows[i].pattern]);
-            done++;
-        }
-    }
-}
-
-/* A number to two digits, without an exponent where it is large. */
-static void print_two_digits(double x)
-{
-    fprintf(stderr, fabs(x) < 99.5 ? "%.2g" : "%.0f", x);
-}
-
-static void print_seconds(double seconds)
-{
-    print_two_digits(fmax(seconds, 0.1));
-    fprintf(stderr, " s");
-}
-
-static void print_percent(double behind, double low, double high)
-{
-    print_two_digits(100 * behind);
-    fprintf(stderr, " %% more error");
-    if (isfinite(low) && isfinite(high)) {
-        fprintf(stderr, " (");
-        print_two_digits(100 * low);
-        fprintf(stderr, " to ");
-        print_two_digits(100 * high);
-        fprintf(stderr, ")");
-    }
-}
-
-static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
-                        const koksma_ranking *ranking)
-{
-    size_t next = 1;
-    const koksma_rank_row *last = &rows[ranking->n - 1];
-    fprintf(stderr, "use %s", options->patterns[rows[0].pattern]);
-    for (size_t i = 1; i < ranking->n; i++) {
-        if (rows[i].decision == KOKSMA_RANK_EQUAL) {
-            fprintf(stderr, "; equal to it within 2 %%: ");
-            print_patterns(options, rows, ranking->n, KOKSMA_RANK_EQUAL, 0);
-            break;
-        }
-    }
-    while (next < ranking->n && rows[next].decision != KOKSMA_RANK_WORSE) {
-        next++;
-    }
-    if (next < ranking->n) {
-        fprintf(stderr, "; %s leaves ", options->patterns[rows[next].pattern]);
-        print_percent(rows[next].behind, rows[next].behind_low, rows[next].behind_high);
-        if (next + 1 < ranking->n) {
-            fprintf(stderr, ", %s ", options->patterns[last->pattern]);
-            print_two_digits(100 * last->behind);
-            fprintf(stderr, " %% more");
-        }
-    }
-}
-
-/* What is known, and what it would take. */
-static void advise_undecided(const koksma_rank_options *options, const koksma_rank_row *rows,
-                             const koksma_ranking *ranking)
-{
-    size_t first = 0;
-    for (size_t i = 0; i < ranking->n; i++) {
-        first += rows[i].position == 1;
-    }
-    fprintf(stderr, "undecided");
-    if (first > 1) {
-        fprintf(stderr, " between ");
-        print_patterns(options, rows, ranking->n, KOKSMA_RANK_UNDECIDED, 1);
-    }
-    if (ranking->n_slow) {
-        fprintf(stderr, "; the time was too short to rank %zu of %zu patterns", ranking->n_slow, options->n_patterns);
-    }
-    if (first == 1) {
-        fprintf(stderr, "; of the others %s leaves the least error", options->patterns[rows[0].pattern]);
-    }
-    if (!ranking->needed_trials) {
-        fprintf(stderr, "; more trials would not decide it, because the reference's own error is too large");
-        return;
-    }
-    fprintf(stderr, "; about %lld trials of a pattern", ranking->needed_trials);
-    if (ranking->needed_s > 0) {
-        fprintf(stderr, ", ");
-        print_seconds(ranking->needed_s);
-        fprintf(stderr, " for this number of samples,");
-    }
-    fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
-}
-
-static void advise_sizes(const koksma_rank_options *options, const koksma_rank_row *rows,
-                         const koksma_ranking *ranking)
-{
-    for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
-        const koksma_rank_check *check = &ranking->checks[i];
-        fprintf(stderr, "  at %d x %d: ", check->width, check->height);
-        switch (check->state) {
-        case KOKSMA_RANK_CONFIRMED:
-            fprintf(stderr, "the same\n");
-            break;
-        case KOKSMA_RANK_OVERTURNED:
-            fprintf(stderr, "the order changes: %s is the best, and %s leaves ", options->patterns[check->pattern],
-                    options->patterns[rows[0].pattern]);
-            print_percent(check->behind, check->behind_low, check->behind_high);
-            fprintf(stderr, "\n");
-            break;
-        case KOKSMA_RANK_UNSETTLED:
-            fprintf(stderr, "undecided after %lld trials\n", check->trials);
-            break;
-        default:
-            fprintf(stderr, "not checked%s\n", ranking->cut_short ? ", the time was up" : "");
-        }
-    }
-}
-
-static void advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
-{
-    fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", options->scene, options->spp, ranking->width,
-            ranking->height);
-    if (ranking->settled) {
-        advise_best(options, rows, ranking);
-    } else {
-        advise_undecided(options, rows, ranking);
-    }
-    fprintf(stderr, ".\n  %lld trial%s (%s, %s filter) in ", ranking->trials, ranking->trials == 1 ? "" : "s",
-            options->integrator->name, options->filter->name);
-    print_seconds(ranking->seconds);
-    if (isfinite(ranking->reference_error)) {
-        fprintf(stderr, "; the reference's own error is %.1g", ranking->reference_error);
-    }
-    fprintf(stderr, "%s\n",
-            ranking->complete    ? ""
-            : ranking->cut_short ? "; the time was up before every pair was decided"
-                                 : "; the trials were too few to decide every pair");
-    if (ranking->settled && ranking->n > 1 && !options->one_size) {
-        advise_sizes(options, rows, ranking);
-    }
 }
 
 /* *settled: whether the best pattern is known. */
@@ -276,10 +139,10 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
         return status;
     }
     for (size_t i = 0; i < options->n_patterns; i++) {
-        put_row(rows, options, &table[i], &ranking, cli_flag(arguments, "json"));
+        put_row(rows, options, table, i, &ranking, cli_flag(arguments, "json"));
     }
     if (!cli_flag(arguments, "quiet")) {
-        advise(options, table, &ranking);
+        cli_rank_advise(options, table, &ranking);
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) { /* else the time is too short for all */
@@ -381,7 +244,9 @@ const cli_command cli_command_rank = {
     .details =
         "Renders the scene again and again with every pattern and ranks the patterns by the mean absolute error of\n"
         "the picture. The sequence of work depends on the command line only: rounds of 8, 16, 32, ... trials until\n"
-        "the best pattern is decided, then the same for the first three at half and at twice the size, then rounds\n"
+        "the best pattern is decided and the best of those without bands, then the same for the first three of "
+        "those\n"
+        "at half and at twice the size, then rounds\n"
         "until every pair is decided. A pair is decided when the interval of the quotient of its errors excludes 1\n"
         "or lies within 2 % of 1 (equal). A time limit cuts the sequence short: a longer one never names another\n"
         "best pattern, and without enough time the answer is 'undecided', with an estimate of what would do.\n"
@@ -390,6 +255,14 @@ const cli_command cli_command_rank = {
         "the first row. All intervals and decisions of a ranking hold together with 95 %, with the reference's own\n"
         "error in them. A pattern whose first 8 trials take more than its share of the time is put off until the\n"
         "others are decided, and is not ranked when no time is left. The advice goes to stderr.\n"
+        "\n"
+        "coherence: the peak of the spectrum of the error over its mean, of the first 8 trials; coherent: it is "
+        "above\n"
+        "what 99.5 % of noise has (koksma compare --help). Such an error has bands or another pattern in it, which "
+        "is\n"
+        "seen more than noise of that size: the advice is the best pattern whose error is not coherent, and says "
+        "what\n"
+        "a coherent one would save. Patterns are judged as they are used: behind a random shift a pixel, if so.\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is not for one or more.\n"
         "\n"
         "Light between surfaces is only in what --integrator path and irradiance-cache render.\n"

@@ -186,22 +186,26 @@ typedef struct koksma_rank_row {
     long long trials;
     double mean, low, high; /* of the mean absolute error of the image, without what the reference's error adds */
     double behind, behind_low, behind_high; /* relative difference to the mean of row 0 */
+    koksma_coherence_values coherence;      /* of the errors of its first 8 trials, however many it has; images is 0
+                                               where it has fewer, and where it has no error */
     char reason[KOKSMA_RANK_REASON];        /* why it is not ranked; empty when it is */
 } koksma_rank_row;
 
 typedef enum koksma_rank_check_state {
     KOKSMA_RANK_UNCHECKED,  /* left out, not settled at the size itself, or the time was up */
-    KOKSMA_RANK_CONFIRMED,  /* the best pattern is the best there, or equal to the best within 2 % */
+    KOKSMA_RANK_CONFIRMED,  /* the checked pattern is the best there, or equal to the best within 2 % */
     KOKSMA_RANK_OVERTURNED, /* another pattern is decided to leave less error there */
     KOKSMA_RANK_UNSETTLED,  /* the trials were too few to decide */
 } koksma_rank_check_state;
 
-/* The first patterns, three at most, at another size. */
+/* The first patterns, three at most, at another size: of those whose error is not coherent, or
+   of all where every error is. */
 typedef struct koksma_rank_check {
     int width, height;
     koksma_rank_check_state state;
     size_t pattern; /* of a row: OVERTURNED by this one, an index into the options' patterns */
-    double behind, behind_low, behind_high; /* OVERTURNED: of the best pattern against that one */
+    bool coherent;  /* the error of what is the best there is: of the checked one or, OVERTURNED, of `pattern` */
+    double behind, behind_low, behind_high; /* OVERTURNED: of the checked pattern against that one */
     long long trials;
 } koksma_rank_check;
 
@@ -219,18 +223,22 @@ typedef struct koksma_ranking {
     double reference_error; /* the reference's own expected mean absolute error; NaN: it was not finished */
     koksma_rank_check checks[KOKSMA_RANK_CHECKS]; /* at half and at twice the size */
     double seconds;
+    bool advised;       /* of the patterns whose error is not coherent, it is decided which leaves the least */
+    size_t advised_row; /* that one's row, where `advised` */
+    size_t n_coherent;  /* ranked patterns whose error is coherent */
 } koksma_ranking;
 
 /* Renders the scene with every pattern, trial by trial, and ranks the patterns by the mean absolute error of the
    image.
 
    The sequence of work depends on the options alone, not on the machine: rounds of 8, 16, 32, ... trials until the
-   best pattern is decided, the checks at half and twice the size, then further rounds until every pair is decided. A
-   pair is decided after a round when the interval of the quotient of its errors excludes 1, or lies within 2 % of 1
-   (equal); a decision is not revoked. All decisions at a size hold together with 96 % probability, those of each
-   check with 99.5 %. A time limit only cuts the sequence short: a longer one names the same best pattern, or one
-   where there was none. A pattern whose first round takes more than its share of the time limit is put off until the
-   others are decided, and no best pattern is named while one is left.
+   best pattern is decided, further ones until the best of those is whose error is not coherent (image.h), the checks
+   at half and twice the size, then further rounds until every pair is decided. A pair is decided after a round when
+   the interval of the quotient of its errors excludes 1, or lies within 2 % of 1 (equal); a decision is not revoked.
+   All decisions at a size hold together with 96 % probability, those of each check with 99.5 %. A time limit only
+   cuts the sequence short: a longer one names the same best pattern, or one where there was none. A pattern whose
+   first round takes more than its share of the time limit is put off until the others are decided, and no best
+   pattern is named while one is left.
 
    rows has room for n_patterns. The trials of a pattern are independent of each other and of every other pattern's.
    Errors: UNKNOWN, MISSING, MALFORMED, ARGUMENT (no pattern can serve, or max_trials), MEMORY, INTERRUPTED. A time

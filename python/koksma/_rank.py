@@ -33,17 +33,23 @@ class Ranked:
     behind: float  #: relative difference to the error of the first
     behind_interval: Tuple[float, float]
     reason: str  #: why it is not ranked
+    coherence: float  #: of the error of its first 8 trials, as koksma.compare has it; NaN: they are not all there
+    coherence_interval: Tuple[float, float]  #: of the mean over the trials, at the peak's frequency
+    coherence_noise: float  #: 97.5 % of white-noise errors have less
+    coherence_p: float
+    coherent: bool  #: the error has bands or another pattern
 
 
 @dataclass(frozen=True)
 class SizeCheck:
-    """The first patterns at half or twice the size."""
+    """The first patterns whose error is not coherent at half or twice the size (the first ones, if all are)."""
     size: Tuple[int, int]
     state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
     best: Optional[str]
-    behind: float  #: overturned: of the best pattern of the ranking against `best`
+    behind: float  #: overturned: of the checked pattern against `best`
     behind_interval: Tuple[float, float]
     trials: int
+    coherent: bool  #: confirmed, overturned: the error of what is the best there is
 
 
 @dataclass(frozen=True)
@@ -60,10 +66,11 @@ class Ranking:
     reference_error: float
     checks: Tuple[SizeCheck, ...]
     seconds: float
+    advised: Optional[str]  #: decided to leave the least of those whose error is not coherent; None: undecided, or no such
 
     @property
     def best(self) -> Optional[str]:
-        """The pattern with the least error; None while it is undecided."""
+        """The pattern with the least error, in bands or not; None while it is undecided. What to use is `advised`."""
         return self.rows[0].pattern if self.settled else None
 
 
@@ -98,12 +105,15 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
     undecided = not out.settled
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
-                     (r.low, r.high), r.behind, (r.behind_low, r.behind_high), r.reason.decode(errors="replace"))
+                     (r.low, r.high), r.behind, (r.behind_low, r.behind_high), r.reason.decode(errors="replace"),
+                     r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
+                     r.coherence.p, r.coherence.coherent)
               for r in rows],
         settled=out.settled, complete=out.complete, cut_short=out.cut_short, trials=out.trials,
         needed_trials=out.needed_trials or None if undecided else None,
         needed_seconds=out.needed_s or None if undecided else None, size=(out.width, out.height),
         reference_error=out.reference_error, seconds=out.seconds,
+        advised=names[rows[out.advised_row].pattern] if out.advised else None,
         checks=tuple(_check(c, names) for c in out.checks))
 
 
@@ -111,4 +121,4 @@ def _check(check: s.RankCheck, names: Sequence[str]) -> SizeCheck:
     overturned = _CHECKS[check.state] == "overturned"
     interval = (check.behind_low, check.behind_high) if overturned else (math.nan, math.nan)
     return SizeCheck((check.width, check.height), _CHECKS[check.state], names[check.pattern] if overturned else None,
-                     check.behind if overturned else math.nan, interval, check.trials)
+                     check.behind if overturned else math.nan, interval, check.trials, check.coherent)

@@ -110,11 +110,12 @@ class RankRow(Structure):
     _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
                 ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
                 ("behind", c_double), ("behind_low", c_double), ("behind_high", c_double),
-                ("reason", c_char * RANK_REASON)]
+                ("coherence", CoherenceValues), ("reason", c_char * RANK_REASON)]
 
 
 class RankCheck(Structure):
-    _fields_ = [("width", c_int), ("height", c_int), ("state", c_int), ("pattern", c_size_t), ("behind", c_double),
+    _fields_ = [("width", c_int), ("height", c_int), ("state", c_int), ("pattern", c_size_t), ("coherent", c_bool),
+                ("behind", c_double),
                 ("behind_low", c_double), ("behind_high", c_double), ("trials", c_longlong)]
 
 
@@ -122,7 +123,8 @@ class Ranking(Structure):
     _fields_ = [("n", c_size_t), ("n_slow", c_size_t), ("settled", c_bool), ("complete", c_bool),
                 ("cut_short", c_bool), ("trials", c_longlong), ("needed_trials", c_longlong), ("needed_s", c_double),
                 ("width", c_int), ("height", c_int), ("reference_error", c_double),
-                ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double)]
+                ("checks", RankCheck * RANK_CHECKS), ("seconds", c_double), ("advised", c_bool),
+                ("advised_row", c_size_t), ("n_coherent", c_size_t)]
 
 
 #: Header, C name and value of the limits above.

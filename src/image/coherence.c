@@ -30,6 +30,7 @@
 
 #include "core/status.h"
 #include "core/sum.h"
+#include "image/coherence.h"
 #include "image/coherence_law.h"
 #include "image/formats.h"
 #include "image/fourier.h"
@@ -115,14 +116,12 @@ static size_t ring_of(const koksma_coherence *c, size_t u, size_t v, size_t ring
 /* ---- Adding -------------------------------------------------------------------------------------------- */
 
 /* The errors over their standard deviation, their mean taken off; *even: they are all the same. */
-static koksma_status standardise(const koksma_coherence *c, const koksma_image *image, const koksma_image *reference,
-                                 double *errors, bool *even)
+static koksma_status standardise(const koksma_coherence *c, double *errors, bool *even)
 {
     const size_t n = pixels_of(c);
     koksma__sum sum = {0}, squares = {0};
     double largest = 0;
     for (size_t i = 0; i < n; i++) {
-        errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
         if (!isfinite(errors[i])) {
             return koksma__fail(KOKSMA_MALFORMED, "pixel %zu,%zu of an image or its reference is no finite number",
                                 i % (size_t)c->width, i / (size_t)c->width);
@@ -163,6 +162,24 @@ static void add_power(koksma_coherence *c, const double *errors, const double *p
     }
 }
 
+koksma_status koksma__coherence_add_errors(koksma_coherence *coherence, double *errors)
+{
+    double *power = malloc(powers_of(coherence) * sizeof *power);
+    if (!power) {
+        return koksma__fail_memory(powers_of(coherence) * sizeof *power);
+    }
+    bool even = false;
+    koksma_status status = standardise(coherence, errors, &even);
+    if (!status && !even) {
+        status = koksma__fourier_power(coherence->width, coherence->height, errors, power);
+        if (!status) {
+            add_power(coherence, errors, power);
+        }
+    }
+    free(power);
+    return status;
+}
+
 koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
                                    const koksma_image *reference)
 {
@@ -177,20 +194,15 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
                                 coherence->height);
         }
     }
-    const size_t doubles = pixels_of(coherence) + powers_of(coherence);
-    double *errors = malloc(doubles * sizeof *errors);
+    const size_t n = pixels_of(coherence);
+    double *errors = malloc(n * sizeof *errors);
     if (!errors) {
-        return koksma__fail_memory(doubles * sizeof *errors);
+        return koksma__fail_memory(n * sizeof *errors);
     }
-    double *power = errors + pixels_of(coherence);
-    bool even = false;
-    koksma_status status = standardise(coherence, image, reference, errors, &even);
-    if (!status && !even) {
-        status = koksma__fourier_power(coherence->width, coherence->height, errors, power);
-        if (!status) {
-            add_power(coherence, errors, power);
-        }
+    for (size_t i = 0; i < n; i++) {
+        errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
     }
+    const koksma_status status = koksma__coherence_add_errors(coherence, errors);
     free(errors);
     return status;
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Which pattern leaves the least error in a scene. The sequence of work is
- *     1. a contest of all patterns at the size itself, until the best is decided;
- *     2. contests of the first three at half and at twice the size, until the best is decided there;
+ *     1. a contest of all patterns at the size itself, until the best is decided, and then until the best of those is
+ *        whose error is not coherent;
+ *     2. contests of the first three of those (of all, where every error is coherent) at half and at twice the size,
+ *        until the best is decided there;
  *     3. the first contest again, until every pair is decided.
  * A time limit ends it anywhere, and rows are made of what is there. Every part is a function of the options alone
  * (ranking_contest.c, on patterns that are too slow for a limit, and ranking_decisions.c, on the statistics), so that
@@ -35,26 +37,39 @@ typedef struct ranking {
 
 /* ---- Checks at other sizes ------------------------------------------------------------------------------ */
 
-/* The mean error of contestant i after the round in which the leader was decided, or after its own last one before.
- */
-static double early_mean(const koksma__rank_table *table, size_t i)
+/* Who is checked: what is advised, or the leader where every error is coherent. NOBODY: that is not decided. */
+static size_t checked(const koksma__contest *c)
 {
-    const koksma__rank_entrant *e = &table->entrants[i];
-    const int last = table->entrants[table->leader].n_rounds;
-    return e->out || !e->n_rounds ? (double)INFINITY : e->rounds[(e->n_rounds < last ? e->n_rounds : last) - 1].mean;
+    bool all_coherent = true;
+    for (size_t i = 0; i < c->n; i++) {
+        all_coherent &= c->table.entrants[i].out || c->table.entrants[i].coherent;
+    }
+    return all_coherent || c->table.leader == NOBODY ? c->table.leader : c->table.advised;
 }
 
-/* The leader, and then those with the smallest errors. */
+/* The mean error of contestant i after the round in which `best` was decided, or after its own last one before;
+   infinite for those that are not advised in its stead. */
+static double early_mean(const koksma__rank_table *table, size_t i, size_t best)
+{
+    const koksma__rank_entrant *e = &table->entrants[i];
+    const int last = table->entrants[best].n_rounds;
+    return (e->coherent && !table->entrants[best].coherent) || e->out || !e->n_rounds
+               ? (double)INFINITY
+               : e->rounds[(e->n_rounds < last ? e->n_rounds : last) - 1].mean;
+}
+
+/* The one that is checked, and then those with the smallest errors. */
 static size_t first_patterns(const koksma__contest *c, size_t first[CHECKED])
 {
+    const size_t best = checked(c);
     size_t n = 1;
-    first[0] = c->table.leader;
+    first[0] = best;
     for (size_t i = 0; i < c->n; i++) {
-        if (i == c->table.leader || isinf(early_mean(&c->table, i))) {
+        if (i == best || isinf(early_mean(&c->table, i, best))) {
             continue;
         }
         size_t at = n;
-        for (; at > 1 && early_mean(&c->table, i) < early_mean(&c->table, first[at - 1]); at--) {
+        for (; at > 1 && early_mean(&c->table, i, best) < early_mean(&c->table, first[at - 1], best); at--) {
             if (at < CHECKED) {
                 first[at] = first[at - 1];
             }
@@ -79,10 +94,12 @@ static void conclude(const koksma__contest *c, koksma_rank_check *check)
         check->state = KOKSMA_RANK_UNSETTLED;
     } else if (leader == 0 || table->pairs[leader * c->n].verdict == KOKSMA__RANK_SAME) {
         check->state = KOKSMA_RANK_CONFIRMED;
+        check->coherent = c->contestants[0].coherence.coherent;
     } else {
         const koksma__estimate q = koksma__rank_compare(table, 0, leader);
         check->state = KOKSMA_RANK_OVERTURNED;
         check->pattern = c->contestants[leader].pattern;
+        check->coherent = c->contestants[leader].coherence.coherent;
         check->behind = q.value - 1;
         check->behind_low = q.low - 1;
         check->behind_high = q.high - 1;
@@ -106,7 +123,7 @@ static koksma_status check_size(ranking *r, koksma_rank_check *check)
     }
     koksma_status status =
         koksma__contest_init(&contest, r->options, &scene, r->variant, &r->watch, patterns, n, CHECK_ALPHA);
-    status = status ? status : koksma__contest_run(&contest, false);
+    status = status ? status : koksma__contest_run(&contest, KOKSMA__RANK_FIND_LEADER);
     if (!status) {
         conclude(&contest, check);
     }
@@ -174,7 +191,7 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
         const size_t made = koksma__contest_errors(c, i).n;
         bool more = !c->table.entrants[i].n_rounds;
         for (size_t j = 0; j < c->n; j++) {
-            more |= koksma__rank_matters(&c->table, i, j, false);
+            more |= koksma__rank_matters(&c->table, i, j, KOKSMA__RANK_FIND_LEADER);
         }
         if (more && !c->table.entrants[i].out && made < needed) {
             threads_s += (double)(needed - made) * trial_s(c, i);
@@ -215,12 +232,14 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
     const koksma__rank_errors e = koksma__contest_errors(c, i), best = koksma__contest_errors(c, first);
     *row = (koksma_rank_row){.pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN};
     row->behind = row->behind_low = row->behind_high = NAN;
+    row->coherence = c->contestants[i].coherence;
     row->trials = (long long)e.n;
     row->state = table->entrants[i].out        ? KOKSMA_RANK_REFUSED
                  : table->entrants[i].n_rounds ? KOKSMA_RANK_RANKED
                                                : KOKSMA_RANK_TOO_SLOW;
     if (row->state == KOKSMA_RANK_REFUSED) {
         row->trials = 0;
+        koksma_coherence_find(&(koksma_coherence){0}, &row->coherence);
         snprintf(row->reason, sizeof row->reason, "%s", c->contestants[i].reason);
         return;
     }
@@ -264,6 +283,11 @@ static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, 
     for (size_t k = 0; k < c->n; k++) {
         fill_row(c, order[k], order[0], &rows[k]);
         out->n += rows[k].state == KOKSMA_RANK_RANKED;
+        out->n_coherent += rows[k].state == KOKSMA_RANK_RANKED && rows[k].coherence.coherent;
+        if (order[k] == c->table.advised) {
+            out->advised = true;
+            out->advised_row = k;
+        }
         out->n_slow += rows[k].state == KOKSMA_RANK_TOO_SLOW;
         out->trials = rows[k].trials > out->trials ? rows[k].trials : out->trials;
         for (size_t j = 0; j < c->n; j++) {
@@ -294,12 +318,13 @@ static koksma_status do_sequence(ranking *r, koksma_ranking *out)
     koksma__contest *c = &r->contest;
     koksma_status status = koksma__contest_try_patterns(c);
     status = status ? status : nobody_can_serve(c);
-    status = status ? status : koksma__contest_run(c, false);
+    status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
+    status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
     status = status ? status : nobody_can_serve(c);
-    for (int i = 0; !status && !r->options->one_size && c->table.leader != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
+    for (int i = 0; !status && !r->options->one_size && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
         status = check_size(r, &out->checks[i]);
     }
-    return status ? status : koksma__contest_run(c, true);
+    return status ? status : koksma__contest_run(c, KOKSMA__RANK_ORDER_ALL);
 }
 
 static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_ranking *out)

@@ -6,6 +6,10 @@
  * first round takes more thread time than its share, the time left times the threads over the patterns. The others go
  * on as if it were not there, until it is known which of them leads; then what time is left is for those put off. As
  * a pair's decision after a round depends on nothing else, both only change how far the ranking gets.
+ *
+ * The coherence of a pattern's error is that of the trials of round 0, however long the ranking runs: what noise has
+ * depends on their number. Trials are added in their order, whichever thread rendered them: those that are ahead
+ * wait. So every pattern that is ranked has one.
  */
 #include "study/ranking_contest.h"
 
@@ -17,6 +21,7 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
+#include "image/coherence.h"
 
 enum { BATCH = 64, FIRST = KOKSMA__RANK_FIRST_ROUND, ERRORS = KOKSMA__RANK_ERRORS };
 
@@ -84,9 +89,44 @@ static koksma_status take_out(const timed *t, size_t trial, koksma_status status
 
 /* ---- Trials --------------------------------------------------------------------------------------------- */
 
-static koksma_status render_trial(const koksma__contest *c, const char *pattern, size_t trial, const koksma_run *run,
+/* Adds what is there in its turn. Takes the trial's errors over. */
+static koksma_status add_coherence(const koksma__contest *c, koksma__contestant *p, size_t trial, double *errors)
+{
+    koksma_status status = KOKSMA_OK;
+    pthread_mutex_lock(&p->lock);
+    p->waiting[trial] = errors;
+    if (!p->sums.error) {
+        status = koksma_coherence_init(&p->sums, c->scene.width, c->scene.height);
+    }
+    while (!status && p->added < FIRST && p->waiting[p->added]) {
+        status = koksma__coherence_add_errors(&p->sums, p->waiting[p->added]);
+        free(p->waiting[p->added]);
+        p->waiting[p->added++] = NULL;
+    }
+    if (!status && p->added == FIRST) {
+        koksma_coherence_find(&p->sums, &p->coherence);
+        koksma_coherence_fini(&p->sums);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return status;
+}
+
+static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p, size_t trial,
+                                       const koksma_image *image)
+{
+    double *errors = malloc(c->reference.pixels * sizeof *errors);
+    if (!errors) {
+        return koksma__fail_memory(c->reference.pixels * sizeof *errors);
+    }
+    koksma__rank_reference_subtract(&c->reference, image, errors);
+    return add_coherence(c, p, trial, errors);
+}
+
+/* The errors of a trial, of the first round with their coherence. */
+static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
                                   double errors[ERRORS])
 {
+    const char *pattern = c->options->patterns[p->pattern];
     koksma_image image;
     const koksma__picture picture = {.pattern = pattern,
                                      .variant = c->variant,
@@ -96,14 +136,16 @@ static koksma_status render_trial(const koksma__contest *c, const char *pattern,
                                      .seed = koksma__job_seed("rank|%s|%s|%s|%d|%dx%d|%zu", c->scene.hash, pattern,
                                                               c->variant, c->options->spp, c->scene.width,
                                                               c->scene.height, trial)};
-    const koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
+    koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
     if (!status) {
         koksma__rank_reference_compare(&c->reference, &image, errors);
+        status = isfinite(errors[0])
+                     ? KOKSMA_OK
+                     : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
+        status = status || trial >= FIRST ? status : measure_coherence(c, p, trial, &image);
         koksma_image_fini(&image);
     }
-    return status || isfinite(errors[0])
-               ? status
-               : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
+    return status;
 }
 
 static koksma_status do_trial(void *context, size_t i)
@@ -118,7 +160,7 @@ static koksma_status do_trial(void *context, size_t i)
     timed work = {.contest = c, .contestant = p, .start_s = koksma__now_s()};
     const koksma_run run = run_in_share(&work);
     double *errors = b->first_round ? p->first[t] : b->errors + (a * b->count + t) * ERRORS;
-    const koksma_status status = render_trial(c, c->options->patterns[p->pattern], b->first + t, &run, errors);
+    const koksma_status status = render_trial(c, p, b->first + t, &run, errors);
     atomic_fetch_add(&p->busy_ns, since_ns(work.start_s));
     if (!status && b->first_round) {
         atomic_store(&p->done[t], true);
@@ -191,6 +233,7 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
         e->out = atomic_load(&p->refused);
         e->aside = atomic_load(&p->late);
         if (!e->out && !e->aside) {
+            e->coherent = p->coherence.coherent;
             e->rounds[e->n_rounds++] = summary(p);
         }
     }
@@ -201,24 +244,24 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
 }
 
 /* Whether contestant i needs another round for the question. */
-static bool needs_round(const koksma__contest *c, size_t i, bool everything)
+static bool needs_round(const koksma__contest *c, size_t i, koksma__rank_goal goal)
 {
     const koksma__rank_entrant *e = &c->table.entrants[i];
     bool needs = !e->n_rounds;
     for (size_t j = 0; !needs && j < c->n; j++) {
-        needs = !c->table.entrants[j].aside && koksma__rank_matters(&c->table, i, j, everything);
+        needs = !c->table.entrants[j].aside && koksma__rank_matters(&c->table, i, j, goal);
     }
     return needs && !e->out && !e->aside && e->n_rounds < c->max_rounds;
 }
 
 /* Those that make the next round, into active; -1: nobody. */
-static int next_round(const koksma__contest *c, bool everything, size_t *active, size_t *n_active)
+static int next_round(const koksma__contest *c, koksma__rank_goal goal, size_t *active, size_t *n_active)
 {
     int round = -1;
     *n_active = 0;
     for (size_t i = 0; i < c->n; i++) {
         const int mine = c->table.entrants[i].n_rounds;
-        if (!needs_round(c, i, everything) || (round >= 0 && mine > round)) {
+        if (!needs_round(c, i, goal) || (round >= 0 && mine > round)) {
             continue;
         }
         if (mine < round) {
@@ -263,7 +306,7 @@ static void set_share(koksma__contest *c, double part)
                       : 0;
 }
 
-koksma_status koksma__contest_run(koksma__contest *c, bool everything)
+koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 {
     koksma_status status = KOKSMA_OK;
     size_t *active = malloc(c->n * sizeof *active), n_active;
@@ -276,8 +319,8 @@ koksma_status koksma__contest_run(koksma__contest *c, bool everything)
         c->reference_s = koksma__now_s() - start_s;
         set_share(c, 1);
     }
-    while (!status && (everything || c->table.leader == KOKSMA__RANK_NOBODY)) {
-        const int round = others_are_led(c) ? -1 : next_round(c, everything, active, &n_active);
+    while (!status && !koksma__rank_reached(&c->table, goal)) {
+        const int round = others_are_led(c) ? -1 : next_round(c, goal, active, &n_active);
         if (round >= 0) {
             status = do_round(c, round, active, n_active);
         } else if (!call_back(c)) {
@@ -331,12 +374,21 @@ koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options
     }
     for (size_t i = 0; i < n; i++) {
         c->contestants[i].pattern = patterns[i];
+        pthread_mutex_init(&c->contestants[i].lock, NULL);
+        koksma_coherence_find(&c->contestants[i].sums, &c->contestants[i].coherence);
     }
     return koksma__rank_table_init(&c->table, n, alpha);
 }
 
 void koksma__contest_fini(koksma__contest *c)
 {
+    for (size_t i = 0; c->contestants && i < c->n; i++) {
+        for (size_t t = 0; t < FIRST; t++) {
+            free(c->contestants[i].waiting[t]);
+        }
+        koksma_coherence_fini(&c->contestants[i].sums);
+        pthread_mutex_destroy(&c->contestants[i].lock);
+    }
     if (c->contestants) {
         pthread_mutex_destroy(&c->lock);
     }

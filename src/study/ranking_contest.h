@@ -25,6 +25,11 @@ typedef struct koksma__contestant {
     atomic_bool done[KOKSMA__RANK_FIRST_ROUND];                  /* those that are there */
     size_t n;                                                    /* trials in what follows, added in their order */
     double mean, squares, without[KOKSMA__RANK_REPLICATES];      /* sums: without */
+    pthread_mutex_t lock;                                        /* guards what follows until round 0 is complete */
+    double *waiting[KOKSMA__RANK_FIRST_ROUND]; /* errors of the pixels of trials whose turn to be added is not yet */
+    size_t added;                              /* trials that were added to */
+    koksma_coherence sums;
+    koksma_coherence_values coherence; /* of all trials of round 0, once they are there; before, images is 0 */
 } koksma__contestant;
 
 typedef struct koksma__contest {
@@ -52,9 +57,9 @@ void koksma__contest_fini(koksma__contest *contest);
    INTERRUPTED. */
 koksma_status koksma__contest_try_patterns(koksma__contest *contest);
 
-/* Goes on until the leader is decided or, with `everything`, every pair is, as far as max_rounds allow. Errors: those
-   of rendering the reference, MEMORY, INTERRUPTED (also when the time is up). */
-koksma_status koksma__contest_run(koksma__contest *contest, bool everything);
+/* Goes on until what is asked for is decided, as far as max_rounds allow. Errors: those of rendering the reference,
+   MEMORY, INTERRUPTED (also when the time is up). */
+koksma_status koksma__contest_run(koksma__contest *contest, koksma__rank_goal goal);
 
 /* The errors of all trials that count so far: those of the last complete round or, before it, of the first trials
    that are there. n is 0 without any. */

@@ -184,7 +184,8 @@ koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, doubl
                                   .level = koksma__rank_level(alpha, n),
                                   .entrants = calloc(n, sizeof *table->entrants),
                                   .pairs = calloc(n * n, sizeof *table->pairs),
-                                  .leader = KOKSMA__RANK_NOBODY};
+                                  .leader = KOKSMA__RANK_NOBODY,
+                                  .advised = KOKSMA__RANK_NOBODY};
     return table->entrants && table->pairs ? KOKSMA_OK : koksma__fail_memory(n * n * sizeof *table->pairs);
 }
 
@@ -242,24 +243,43 @@ bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
     return leads;
 }
 
-/* The round after which all pairs of i were decided. */
-static int last_round(const koksma__rank_table *table, size_t i)
+/* Whether i leads all others whose error is not coherent either. Of those without a round that is not known yet, and
+   so nobody does. */
+static bool leads_incoherent(const koksma__rank_table *table, size_t i)
+{
+    const koksma__rank_entrant *mine = &table->entrants[i];
+    bool leads = mine->n_rounds && !mine->out && !mine->coherent;
+    for (size_t j = 0; leads && j < table->n; j++) {
+        const koksma__rank_entrant *other = &table->entrants[j];
+        const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
+        leads = j == i || other->out || (other->n_rounds && other->coherent) || verdict == KOKSMA__RANK_LESS ||
+                verdict == KOKSMA__RANK_SAME;
+    }
+    return leads;
+}
+
+/* The round after which all pairs of i that count for the goal were decided. */
+static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     int round = 0;
     for (size_t j = 0; j < table->n; j++) {
         const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
-        round = j != i && pair->verdict && pair->round > round ? pair->round : round;
+        const bool counts = goal == KOKSMA__RANK_FIND_LEADER || !table->entrants[j].coherent;
+        round = j != i && counts && pair->verdict && pair->round > round ? pair->round : round;
     }
     return round;
 }
 
 /* Of several that lead, being the same, the one that was the first to; then the one with the smaller mean then. */
-static size_t find_leader(const koksma__rank_table *table)
+static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
 {
     size_t leader = KOKSMA__RANK_NOBODY;
     for (size_t i = 0; i < table->n; i++) {
-        if (koksma__rank_leads(table, i, false)) {
-            const int round = last_round(table, i), first = leader < table->n ? last_round(table, leader) : round + 1;
+        const bool leads =
+            goal == KOKSMA__RANK_FIND_LEADER ? koksma__rank_leads(table, i, false) : leads_incoherent(table, i);
+        if (leads) {
+            const int round = last_round(table, i, goal),
+                      first = leader < table->n ? last_round(table, leader, goal) : round + 1;
             if (round < first || (round == first && table->entrants[i].rounds[round].mean <
                                                         table->entrants[leader].rounds[round].mean)) {
                 leader = i;
@@ -279,20 +299,40 @@ void koksma__rank_decide(koksma__rank_table *table)
         }
     }
     if (table->leader == KOKSMA__RANK_NOBODY) {
-        table->leader = find_leader(table);
+        table->leader = find_leader(table, KOKSMA__RANK_FIND_LEADER);
+    }
+    if (table->advised == KOKSMA__RANK_NOBODY) {
+        table->advised = find_leader(table, KOKSMA__RANK_FIND_ADVISED);
     }
 }
 
-/* Whether nobody is decided to leave less. */
-static bool may_lead(const koksma__rank_table *table, size_t i)
+/* Whether nobody that counts for the goal is decided to leave less. */
+static bool may_lead(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
-    return koksma__rank_position(table, i) == 1;
+    bool may = true;
+    for (size_t j = 0; may && j < table->n; j++) {
+        const koksma__rank_entrant *other = &table->entrants[j];
+        const bool counts = !other->out && (goal == KOKSMA__RANK_FIND_LEADER || !other->coherent);
+        may = !counts || table->pairs[i * table->n + j].verdict != KOKSMA__RANK_MORE;
+    }
+    return may;
 }
 
-bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, bool everything)
+bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal)
 {
-    return i != j && !table->entrants[i].out && !table->entrants[j].out && !table->pairs[i * table->n + j].verdict &&
-           !table->pairs[i * table->n + j].hopeless && (everything || may_lead(table, i) || may_lead(table, j));
+    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
+    const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
+    if (i == j || a->out || b->out || pair->verdict || pair->hopeless) {
+        return false;
+    }
+    return goal == KOKSMA__RANK_ORDER_ALL || ((goal == KOKSMA__RANK_FIND_LEADER || (!a->coherent && !b->coherent)) &&
+                                              (may_lead(table, i, goal) || may_lead(table, j, goal)));
+}
+
+bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal)
+{
+    return (goal == KOKSMA__RANK_FIND_LEADER && table->leader != KOKSMA__RANK_NOBODY) ||
+           (goal == KOKSMA__RANK_FIND_ADVISED && table->advised != KOKSMA__RANK_NOBODY);
 }
 
 size_t koksma__rank_position(const koksma__rank_table *table, size_t i)

@@ -68,6 +68,7 @@ typedef struct koksma__rank_pair {
 typedef struct koksma__rank_entrant {
     bool out;                                        /* cannot be ranked at all: nothing is decided about it */
     bool aside;                                      /* put off for now */
+    bool coherent;                                   /* its error is, and it is not advised; known from round 0 on */
     int n_rounds;                                    /* complete */
     koksma__rank_errors rounds[KOKSMA__RANK_ROUNDS]; /* after each of them */
 } koksma__rank_entrant;
@@ -78,7 +79,15 @@ typedef struct koksma__rank_table {
     koksma__rank_entrant *entrants;
     koksma__rank_pair *pairs; /* pair (i, j) at i * n + j */
     size_t leader;            /* KOKSMA__RANK_NOBODY until it is decided; not revoked */
+    size_t advised;           /* the leader of those whose error is not coherent; likewise */
 } koksma__rank_table;
+
+/* What a ranking goes on for. */
+typedef enum koksma__rank_goal {
+    KOKSMA__RANK_FIND_LEADER,
+    KOKSMA__RANK_FIND_ADVISED,
+    KOKSMA__RANK_ORDER_ALL, /* has no end but that no pair matters any more */
+} koksma__rank_goal;
 
 /* Errors: MEMORY. fini takes zeros. */
 koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, double alpha);
@@ -92,8 +101,9 @@ void koksma__rank_decide(koksma__rank_table *table);
    which the pair was decided. Both have made one. */
 koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j);
 
-/* Whether the pair's next round is needed: to find the leader, or (everything) to order all patterns. */
-bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, bool everything);
+/* Whether the pair's next round is needed for that; whether nothing is, as it is decided. */
+bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal);
+bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal);
 
 /* Whether i is decided against all others that are not out, and none of them leaves less; with `present`, against
    those that are not put off. */

@@ -113,3 +113,11 @@ void koksma__rank_reference_compare(const koksma__rank_reference *reference, con
         errors[1 + r] = sums[r] / (double)reference->pixels;
     }
 }
+
+void koksma__rank_reference_subtract(const koksma__rank_reference *reference, const koksma_image *image,
+                                     double *errors)
+{
+    for (size_t p = 0; p < reference->pixels; p++) {
+        errors[p] = koksma__luminance(image, p) - reference->mean[p];
+    }
+}

@@ -31,4 +31,8 @@ void koksma__rank_reference_fini(koksma__rank_reference *reference);
 void koksma__rank_reference_compare(const koksma__rank_reference *reference, const koksma_image *image,
                                     double errors[1 + KOKSMA__RANK_REPLICATES]);
 
+/* The image's errors pixel by pixel, with their signs. */
+void koksma__rank_reference_subtract(const koksma__rank_reference *reference, const koksma_image *image,
+                                     double *errors);
+
 #endif

@@ -230,6 +230,17 @@ class Rankings(unittest.TestCase):
         self.assertEqual({check.state for check in ranking.checks}, {"confirmed"})
         self.assertIsNone(ranking.needed_trials)
 
+    def test_bands_are_not_advised(self):
+        ranking = koksma.rank("checker-45", ["zaremba", "jittered"], 4, size=(48, 36), time_limit=None, one_size=True)
+        first, second = ranking.rows
+        self.assertEqual((ranking.best, ranking.advised), ("zaremba", "jittered"))
+        self.assertEqual((first.coherent, second.coherent), (True, False))
+        self.assertGreater(first.coherence, first.coherence_noise)
+        self.assertLess(first.coherence_p, 0.005)
+        self.assertLess(second.coherence_interval[0], second.coherence)
+        only = koksma.rank("checker-45", ["zaremba"], 4, size=(48, 36), time_limit=None, one_size=True)
+        self.assertEqual((only.best, only.advised), ("zaremba", None))
+
     def test_undecided(self):
         ranking = koksma.rank("checker", ["n-rooks", "multi-jittered", "jittered"], 7, size=(8, 6), max_trials=8,
                               one_size=True, time_limit=None)

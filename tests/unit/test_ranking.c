@@ -236,6 +236,149 @@ static void trials_are_foretold(void **state)
     assert_true(koksma__rank_judge(&few_a, &few_b, 1e-3) == KOKSMA__RANK_OPEN);
 }
 
+/* ---- Coherent errors ------------------------------------------------------------------------------------ */
+
+/* Of patterns 0 .. 3 those that are coherent by the bits of `coherent`, with these means, known exactly. */
+static void decide(koksma__rank_table *table, const double *means, unsigned coherent, size_t present)
+{
+    assert_ok(koksma__rank_table_init(table, 4, 0.04));
+    for (size_t i = 0; i < present; i++) {
+        table->entrants[i].coherent = coherent >> i & 1;
+        table->entrants[i].rounds[table->entrants[i].n_rounds++] = exact(means[i], 0, 8);
+    }
+    koksma__rank_decide(table);
+}
+
+/* For every set of coherent errors, what is advised has the smallest mean of all others, and the leader is the same
+   for all of them. */
+static void the_best_without_bands_is_advised(void **state)
+{
+    (void)state;
+    static const double means[] = {3, 1, 4, 2};
+    static const size_t order[] = {1, 3, 0, 2};
+    koksma__rank_table table;
+    for (unsigned coherent = 0; coherent < 16; coherent++) {
+        size_t best = 0;
+        while (best < 4 && coherent >> order[best] & 1) {
+            best++;
+        }
+        decide(&table, means, coherent, 4);
+        assert_int_equal(table.leader, 1);
+        assert_int_equal(table.advised, best < 4 ? order[best] : KOKSMA__RANK_NOBODY);
+        assert_true(koksma__rank_reached(&table, KOKSMA__RANK_FIND_LEADER));
+        assert_int_equal(koksma__rank_reached(&table, KOKSMA__RANK_FIND_ADVISED), best < 4);
+        koksma__rank_table_fini(&table);
+        decide(&table, means, coherent, 3); /* nothing is known of the last */
+        assert_int_equal(table.leader, KOKSMA__RANK_NOBODY);
+        assert_int_equal(table.advised, KOKSMA__RANK_NOBODY);
+        koksma__rank_table_fini(&table);
+    }
+}
+
+/* Open pairs matter for the advice where neither error is coherent and nothing without bands is better than both. */
+static void pairs_that_matter_for_advice(void **state)
+{
+    (void)state;
+    koksma__rank_table table;
+    assert_ok(koksma__rank_table_init(&table, 4, 0.04));
+    for (size_t i = 0; i < 4; i++) {
+        table.entrants[i].coherent = i == 0;
+        table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(i == 3 ? 9 : 1 + 0.03 * (double)i, 0.1, 8);
+    }
+    koksma__rank_decide(&table);
+    assert_true(koksma__rank_matters(&table, 0, 1, KOKSMA__RANK_FIND_LEADER));
+    assert_true(!koksma__rank_matters(&table, 0, 1, KOKSMA__RANK_FIND_ADVISED));
+    assert_true(koksma__rank_matters(&table, 1, 2, KOKSMA__RANK_FIND_ADVISED));
+    assert_true(!koksma__rank_matters(&table, 1, 3, KOKSMA__RANK_FIND_ADVISED)); /* decided */
+    assert_true(koksma__rank_matters(&table, 0, 1, KOKSMA__RANK_ORDER_ALL));
+    koksma__rank_table_fini(&table);
+}
+
+static const char *const banded[] = {"zaremba", "regular", "random", "jittered"};
+
+static const koksma_rank_row *row_of(const koksma_rank_row *rows, size_t pattern)
+{
+    while (rows->pattern != pattern) {
+        rows++;
+    }
+    return rows;
+}
+
+/* In slanted squares Zaremba and regular points make Moire (Mitchell 1992), random and jittered ones don't. However
+   many threads and trials there are, the first 8 trials say so with the same bits. */
+static void bands_are_found(void **state)
+{
+    (void)state;
+    koksma_rank_row first[4], rows[4];
+    koksma_ranking ranking;
+    for (int i = 0; i < 3; i++) {
+        const koksma_rank_options options = {.scene = "checker-45",
+                                             .patterns = banded,
+                                             .n_patterns = 4,
+                                             .spp = 4,
+                                             .width = 48,
+                                             .height = 36,
+                                             .max_trials = i == 2 ? 64 : 8,
+                                             .one_size = true};
+        const koksma_run run = {.threads = i == 1 ? 3 : 1};
+        assert_ok(koksma_rank_patterns(&options, &run, i ? rows : first, &ranking));
+        for (size_t p = 0; p < 4; p++) {
+            const koksma_rank_row *row = row_of(i ? rows : first, p), *other = row_of(first, p);
+            assert_int_equal(row->coherence.images, 8);
+            assert_int_equal(row->coherence.coherent, p < 2);
+            assert_true(p >= 2 || row->coherence.coherence > 20);
+            assert_true(row->coherence.coherence == other->coherence.coherence &&
+                        row->coherence.p == other->coherence.p);
+            assert_true(row->coherence.low == other->coherence.low && row->coherence.high == other->coherence.high);
+        }
+        assert_int_equal(ranking.n_coherent, 2);
+        assert_true(ranking.advised && (i ? rows : first)[ranking.advised_row].pattern == 3);
+    }
+}
+
+/* A pattern without random numbers has the coherence of a picture that is compared with a reference by hand, but for
+   what the references differ by. */
+static void coherence_is_that_of_the_pictures(void **state)
+{
+    (void)state;
+    koksma_rank_row rows[4];
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image, reference;
+    koksma_coherence sums;
+    koksma_coherence_values values;
+    koksma_ranking ranking;
+    const koksma_rank_options rank = {.scene = "checker-45",
+                                      .patterns = banded,
+                                      .n_patterns = 4,
+                                      .spp = 4,
+                                      .width = 48,
+                                      .height = 36,
+                                      .max_trials = 8,
+                                      .one_size = true};
+    assert_ok(koksma_rank_patterns(&rank, NULL, rows, &ranking));
+    assert_ok(koksma_scene_open("checker-45", &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = 48;
+    options.height = 36;
+    options.spp = 900;
+    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &reference));
+    options.spp = 4;
+    for (size_t p = 0; p < 2; p++) {
+        assert_ok(koksma_pattern_spec(banded[p], &options.pattern));
+        assert_ok(koksma_render(scene, &options, NULL, &image));
+        assert_ok(koksma_coherence_init(&sums, 48, 36));
+        assert_ok(koksma_coherence_add(&sums, &image, &reference));
+        koksma_coherence_find(&sums, &values);
+        assert_near(row_of(rows, p)->coherence.coherence / values.coherence, 1, 0.02);
+        koksma_coherence_fini(&sums);
+        koksma_image_fini(&image);
+    }
+    koksma_image_fini(&reference);
+    koksma_scene_close(scene);
+}
+
 /* ---- Pictures under a test's clock ---------------------------------------------------------------------- */
 
 static atomic_ullong ticks;
@@ -263,11 +406,9 @@ static koksma_ranking rank_small(const koksma_rank_options *options, int threads
 
 /* Wherever the time limit cuts the work, on any number of threads: the same best pattern or none, the same decisions
    or none, and always rows. */
-static void time_limits_only_cut(void **state)
+static void cut_everywhere(koksma_rank_options options)
 {
-    (void)state;
     koksma_rank_row whole[3], rows[3];
-    koksma_rank_options options = small();
     const koksma_ranking all = rank_small(&options, 1, whole);
     size_t settled = 0, cut = 0, checked = 0;
     assert_true(all.settled && all.complete && !all.cut_short && all.n == 3);
@@ -283,6 +424,7 @@ static void time_limits_only_cut(void **state)
             assert_true(r.width == 24 && r.height == 18 && r.n + r.n_slow == 3);
             assert_true(!r.settled || rows[0].pattern == whole[0].pattern);
             assert_true(!r.settled || rows[0].decision == KOKSMA_RANK_BEST);
+            assert_true(!r.advised || rows[r.advised_row].pattern == whole[all.advised_row].pattern);
             for (int i = 0; i < 2; i++) {
                 checked += r.checks[i].state != KOKSMA_RANK_UNCHECKED;
                 assert_true(!r.checks[i].state || r.checks[i].state == all.checks[i].state);
@@ -290,10 +432,9 @@ static void time_limits_only_cut(void **state)
                             r.checks[i].pattern == all.checks[i].pattern);
             }
             for (size_t i = 0; i < 3; i++) {
-                const koksma_rank_row *row = &rows[i], *other = whole;
-                while (other->pattern != row->pattern) {
-                    other++;
-                }
+                const koksma_rank_row *row = &rows[i], *other = row_of(whole, row->pattern);
+                assert_true(i >= r.n || row->coherence.coherence == other->coherence.coherence);
+                assert_true(i >= r.n || row->coherence.coherent == other->coherence.coherent);
                 assert_true((row->state == KOKSMA_RANK_RANKED) == (i < r.n) && (row->position > 0) == (i < r.n));
                 assert_true(row->position <= other->position);
                 assert_true(!r.settled || !row->decision || row->decision == other->decision);
@@ -303,6 +444,18 @@ static void time_limits_only_cut(void **state)
     }
     koksma__set_clock(NULL);
     assert_true(cut >= 4 && settled >= 4 && checked >= 2);
+}
+
+/* In the second scene the pattern with the least error is in bands, and another one is advised. */
+static void time_limits_only_cut(void **state)
+{
+    (void)state;
+    static const char *const patterns[] = {"zaremba", "jittered", "random"};
+    koksma_rank_options options = small();
+    cut_everywhere(options);
+    options.scene = "checker-45";
+    options.patterns = patterns;
+    cut_everywhere(options);
 }
 
 static bool stop_at_200(void *context, double fraction)
@@ -445,6 +598,10 @@ int main(void)
         cmocka_unit_test(references_by_hand),
         cmocka_unit_test(equal_errors_are_equal),
         cmocka_unit_test(trials_are_foretold),
+        cmocka_unit_test(the_best_without_bands_is_advised),
+        cmocka_unit_test(pairs_that_matter_for_advice),
+        cmocka_unit_test(bands_are_found),
+        cmocka_unit_test(coherence_is_that_of_the_pictures),
         cmocka_unit_test(time_limits_only_cut),
         cmocka_unit_test(interruptions_come_first),
         cmocka_unit_test(rows_of_many_samples_are_left),

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What a ranking means to a reader. The pattern to use is the best of those whose error is not coherent; where one in
+ * bands leaves less error, that is said, too.
+ */
+#include "rank_advice.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char *in_bands(const koksma_rank_row *row)
+{
+    return row->coherence.coherent ? " (in bands)" : "";
+}
+
+/* "a", "a and b (in bands)", "a, b and c": those with the decision, at the position, if it is not 0. */
+static void print_patterns(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n,
+                           koksma_rank_decision decision, size_t position)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        count += position ? rows[i].position == position : rows[i].decision == decision;
+    }
+    for (size_t i = 0, done = 0; i < n; i++) {
+        if (position ? rows[i].position == position : rows[i].decision == decision) {
+            fprintf(stderr, "%s%s%s",
+                    !done              ? ""
+                    : done + 1 < count ? ", "
+                                       : " and ",
+                    options->patterns[rows[i].pattern], in_bands(&rows[i]));
+            done++;
+        }
+    }
+}
+
+/* A number to two digits, without an exponent where it is large. */
+static void print_two_digits(double x)
+{
+    fprintf(stderr, fabs(x) < 99.5 ? "%.2g" : "%.0f", x);
+}
+
+static void print_seconds(double seconds)
+{
+    print_two_digits(fmax(seconds, 0.1));
+    fprintf(stderr, " s");
+}
+
+static void print_percent(double change, double low, double high, const char *direction)
+{
+    print_two_digits(100 * change);
+    fprintf(stderr, " %% %s error", direction);
+    if (isfinite(low) && isfinite(high)) {
+        fprintf(stderr, " (");
+        print_two_digits(100 * low);
+        fprintf(stderr, " to ");
+        print_two_digits(100 * high);
+        fprintf(stderr, ")");
+    }
+}
+
+static void print_coherence(const koksma_rank_row *row)
+{
+    const koksma_coherence_values *c = &row->coherence;
+    fprintf(stderr, " (coherence ");
+    print_two_digits(c->coherence);
+    fprintf(stderr, ", noise of %zu image%s is below ", c->images, c->images == 1 ? "" : "s");
+    print_two_digits(c->noise_high);
+    fprintf(stderr, ")");
+}
+
+/* Those in bands that leave less error than row `best`: how much the first of them saves, and the others' names. */
+static void advise_against(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const koksma_rank_row *row = &rows[i];
+        if (!row->coherence.coherent || !(row->mean < rows[best].mean)) {
+            continue;
+        }
+        if (count++) {
+            fprintf(stderr, "%s%s", count == 2 ? ", and so does " : ", ", options->patterns[row->pattern]);
+            continue;
+        }
+        const double none = NAN, low = i ? none : 1 - 1 / (1 + rows[best].behind_low),
+                     high = i ? none : 1 - 1 / (1 + rows[best].behind_high);
+        fprintf(stderr, "; %s leaves ", options->patterns[row->pattern]);
+        print_percent(1 - row->mean / rows[best].mean, low, high, "less");
+        fprintf(stderr, ", but in visible bands");
+        print_coherence(row);
+    }
+}
+
+/* The next and the last that leave more error than row `best`. */
+static void advise_behind(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
+{
+    size_t next = best + 1;
+    const koksma_rank_row *last = &rows[n - 1];
+    while (next < n && (best ? rows[next].position <= rows[best].position || !(rows[next].mean > rows[best].mean)
+                             : rows[next].decision != KOKSMA_RANK_WORSE)) {
+        next++;
+    }
+    if (next < n) {
+        const double none = NAN, low = best ? none : rows[next].behind_low,
+                     high = best ? none : rows[next].behind_high;
+        fprintf(stderr, "; %s leaves ", options->patterns[rows[next].pattern]);
+        print_percent(best ? rows[next].mean / rows[best].mean - 1 : rows[next].behind, low, high, "more");
+        if (next + 1 < n) {
+            fprintf(stderr, ", %s ", options->patterns[last->pattern]);
+            print_two_digits(100 * (best ? last->mean / rows[best].mean - 1 : last->behind));
+            fprintf(stderr, " %% more");
+        }
+    }
+}
+
+/* The row of what is advised, or that is the best so far of those without bands; 0 where there are none. */
+static size_t best_row(const koksma_rank_row *rows, const koksma_ranking *ranking)
+{
+    size_t best = ranking->n;
+    for (size_t i = 0; i < ranking->n; i++) {
+        if (!rows[i].coherence.coherent && (best == ranking->n || rows[i].mean < rows[best].mean)) {
+            best = i;
+        }
+    }
+    return ranking->advised ? ranking->advised_row : best < ranking->n ? best : 0;
+}
+
+static void advise_best(const koksma_rank_options *options, const koksma_rank_row *rows,
+                        const koksma_ranking *ranking)
+{
+    const size_t best = best_row(rows, ranking);
+    const char *name = options->patterns[rows[best].pattern];
+    if (ranking->n_coherent == ranking->n) {
+        fprintf(stderr, "the error of every pattern has visible bands; %s leaves the least", name);
+        print_coherence(&rows[best]);
+    } else if (ranking->advised) {
+        fprintf(stderr, "use %s", name);
+    } else {
+        fprintf(stderr, "undecided which pattern without bands leaves the least error, %s so far", name);
+    }
+    for (size_t i = 1; best == 0 && i < ranking->n; i++) {
+        if (rows[i].decision == KOKSMA_RANK_EQUAL) {
+            fprintf(stderr, "; equal to it within 2 %%: ");
+            print_patterns(options, rows, ranking->n, KOKSMA_RANK_EQUAL, 0);
+            break;
+        }
+    }
+    if (ranking->n_coherent < ranking->n) {
+        advise_against(options, rows, ranking->n, best);
+    }
+    advise_behind(options, rows, ranking->n, best);
+}
+
+/* What is known, and what it would take. */
+static void advise_undecided(const koksma_rank_options *options, const koksma_rank_row *rows,
+                             const koksma_ranking *ranking)
+{
+    size_t first = 0;
+    for (size_t i = 0; i < ranking->n; i++) {
+        first += rows[i].position == 1;
+    }
+    fprintf(stderr, "undecided");
+    if (first > 1) {
+        fprintf(stderr, " between ");
+        print_patterns(options, rows, ranking->n, KOKSMA_RANK_UNDECIDED, 1);
+    }
+    if (ranking->n_slow) {
+        fprintf(stderr, "; the time was too short to rank %zu of %zu patterns", ranking->n_slow, options->n_patterns);
+    }
+    if (first == 1) {
+        fprintf(stderr, "; of the others %s leaves the least error%s", options->patterns[rows[0].pattern],
+                in_bands(&rows[0]));
+    }
+    if (ranking->n && ranking->n_coherent == ranking->n) {
+        fprintf(stderr, "; the error of every%s pattern has visible bands", ranking->n_slow ? " ranked" : "");
+    } else if (ranking->advised && ranking->n_coherent) {
+        fprintf(stderr, "; of those without bands %s leaves the least error",
+                options->patterns[rows[ranking->advised_row].pattern]);
+    }
+    if (!ranking->needed_trials) {
+        fprintf(stderr, "; more trials would not decide it, because the reference's own error is too large");
+        return;
+    }
+    fprintf(stderr, "; about %lld trials of a pattern", ranking->needed_trials);
+    if (ranking->needed_s > 0) {
+        fprintf(stderr, ", ");
+        print_seconds(ranking->needed_s);
+        fprintf(stderr, " for this number of samples,");
+    }
+    fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
+}
+
+static void advise_sizes(const koksma_rank_options *options, const koksma_rank_row *rows,
+                         const koksma_ranking *ranking)
+{
+    for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
+        const koksma_rank_check *check = &ranking->checks[i];
+        fprintf(stderr, "  at %d x %d: ", check->width, check->height);
+        switch (check->state) {
+        case KOKSMA_RANK_CONFIRMED:
+            fprintf(stderr, "the same%s\n",
+                    check->coherent && ranking->n_coherent < ranking->n ? ", but in visible bands" : "");
+            break;
+        case KOKSMA_RANK_OVERTURNED:
+            fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", options->patterns[check->pattern],
+                    check->coherent ? " (in bands)" : "", options->patterns[rows[best_row(rows, ranking)].pattern]);
+            print_percent(check->behind, check->behind_low, check->behind_high, "more");
+            fprintf(stderr, "\n");
+            break;
+        case KOKSMA_RANK_UNSETTLED:
+            fprintf(stderr, "undecided after %lld trials\n", check->trials);
+            break;
+        default:
+            fprintf(stderr, "not checked%s\n", ranking->cut_short ? ", the time was up" : "");
+        }
+    }
+}
+
+void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
+{
+    fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", options->scene, options->spp, ranking->width,
+            ranking->height);
+    if (ranking->settled) {
+        advise_best(options, rows, ranking);
+    } else {
+        advise_undecided(options, rows, ranking);
+    }
+    fprintf(stderr, ".\n  %lld trial%s (%s, %s filter) in ", ranking->trials, ranking->trials == 1 ? "" : "s",
+            options->integrator->name, options->filter->name);
+    print_seconds(ranking->seconds);
+    if (isfinite(ranking->reference_error)) {
+        fprintf(stderr, "; the reference's own error is %.1g", ranking->reference_error);
+    }
+    fprintf(stderr, "%s\n",
+            ranking->complete    ? ""
+            : ranking->cut_short ? "; the time was up before every pair was decided"
+                                 : "; the trials were too few to decide every pair");
+    if (ranking->settled && ranking->n > 1 && !options->one_size) {
+        advise_sizes(options, rows, ranking);
+    }
+}
