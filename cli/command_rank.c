@@ -31,15 +31,22 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
     while (cli_list_item(list, p->n, item, sizeof item)) {
-        koksma_spec spec;
+        static char text[KOKSMA_MAX_PATTERNS_TEXT];
+        koksma_render_options options = {0}; /* for its patterns only */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
-        const koksma_status status = koksma_pattern_spec(item, &spec);
+        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern); /* unless the text names another */
+        status = status ? status : koksma_render_patterns(item, &options);
         if (status) {
             return cli_fail(arguments, status);
         }
-        koksma_spec_text(&spec, p->texts[p->n]);
+        koksma_render_patterns_text(&options, text);
+        if (strlen(text) >= sizeof p->texts[p->n]) {
+            return cli_usage_error(arguments, "--patterns %.40s...: longer than %zu characters", text,
+                                   sizeof p->texts[p->n] - 1);
+        }
+        memcpy(p->texts[p->n], text, strlen(text) + 1);
         for (size_t i = 0; i < p->n; i++) {
             if (!strcmp(p->texts[i], p->texts[p->n])) {
                 return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
@@ -209,6 +216,8 @@ const cli_command cli_command_rank = {
         "times at most: each pattern's mean absolute error with its 95 % interval; patterns that can't be told\n"
         "apart share a place. 'behind' is the relative difference to the best. The advice goes to stderr. Light\n"
         "between surfaces is only in what --integrator path and irradiance-cache render.\n"
+        "PATTERN may name patterns of single uses or groups of uses, as in 'random;pixel+time=scan-time' (in "
+        "quotes).\n"
         "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
     .options = options,
     .run = run,

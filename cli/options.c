@@ -222,7 +222,7 @@ int cli_no_memory(void)
 
 /* The end of the list item that starts at s: the next comma that is not followed by "key=value" up to the next
    comma (that is the current spec's next parameter). A parameter never holds a ':'; a new spec has its ':' before
-   any '='. */
+   any '=', or a ';' or '+' of the uses that patterns are for. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;
@@ -232,7 +232,7 @@ static const char *item_end(const char *s)
             return s;
         }
         if (*s == ',') {
-            const size_t stop = strcspn(s + 1, ",:=");
+            const size_t stop = strcspn(s + 1, ",:=+;");
             if (!has_parameters || s[1 + stop] != '=') {
                 return s;
             }

@@ -108,7 +108,7 @@ KOKSMA_API const char *koksma_study_verdict_name(koksma_study_verdict verdict);
 /* A row of a published table beside ours. NaN where there is no number. */
 typedef struct koksma_study_row {
     const char *pattern, *label;
-    long long n; /* points, or samples per pixel */
+    long long n;            /* points, or samples per pixel */
     double published[3];    /* mean, SD, max */
     double mean, low, high; /* our mean over the trials and its 95 % interval (NaN of one) */
     double sd, max;         /* image tables: means over the trials; discrepancies: SD over the sets, mean of the
@@ -150,7 +150,7 @@ enum { KOKSMA_MAX_RANK_TRIALS = 65536 };
 
 typedef struct koksma_rank_options {
     const char *scene;           /* a name or a file */
-    const char *const *patterns; /* specs */
+    const char *const *patterns; /* as koksma_render_patterns takes them */
     size_t n_patterns;
     int spp;
     int width, height;                   /* 0: the scene's, halved until a ranking fits into the time limit */

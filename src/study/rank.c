@@ -17,6 +17,7 @@
 #include "core/quantiles.h"
 #include "core/status.h"
 #include "study/clocks.h"
+#include "study/image_patterns.h"
 #include "study/statistics.h"
 #include "study/study.h"
 #include "study/watch.h"
@@ -79,16 +80,13 @@ static koksma_status do_trial(void *context, size_t i)
 static koksma_status try_patterns(ranking *r, koksma_rank_row *rows, size_t *n_refused)
 {
     for (size_t p = 0; p < r->options->n_patterns; p++) {
-        koksma_spec spec;
-        koksma_points points;
-        koksma_status status = koksma_pattern_spec(r->options->patterns[p], &spec);
-        status = status ? status : koksma_points_init(&points, (size_t)r->options->spp, 2);
+        char text[KOKSMA_MAX_SPEC];
+        koksma_status status = koksma__image_pattern_text(r->options->patterns[p], text);
         if (status) {
             return status;
         }
-        status = koksma_generate(&spec, 0, &r->watch.run, &points);
-        koksma_points_fini(&points);
-        if (status == KOKSMA_INTERRUPTED) {
+        status = koksma__image_pattern_try(text, (size_t)r->options->spp, &r->watch.run);
+        if (status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY) {
             return status;
         }
         if (status) {
