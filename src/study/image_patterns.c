@@ -32,6 +32,19 @@ koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_S
     return KOKSMA_OK;
 }
 
+bool koksma__image_pattern_is_one(const char *text)
+{
+    koksma_render_options options = {0};
+    bool one = !koksma__image_pattern_set(text, &options);
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        one = one && !options.patterns[u].pattern;
+    }
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        one = one && !options.groups[g].n_uses;
+    }
+    return one;
+}
+
 koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run)
 {
     koksma_render_options options = {0};

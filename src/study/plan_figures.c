@@ -39,6 +39,10 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     }
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
+        if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it takes one pattern for all uses", f->pattern,
+                                  f->adaptive);
+        }
     }
     if (status) {
         return koksma__json_fail_in(node, status);

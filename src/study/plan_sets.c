@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Whether patterns can make the numbers of points that a plan asks of them, and measures take their dimensions: a
    study must not fail in its middle. */
-#include <string.h>
-
 #include "core/status.h"
 #include "study/image_patterns.h"
 #include "study/plan_parts.h"
@@ -91,18 +89,15 @@ static koksma_status try_image_set(const char *pattern, long long n)
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
-/* Native pairing, and methods that draw strata of their own, have no place for the pattern of a group. */
+/* Native pairing, and methods that draw strata of their own, have no place for patterns of single uses and groups. */
 static koksma_status check_variant(const char *variant, const koksma__texts *patterns)
 {
     koksma__variant v = {0};
     const koksma_status status = koksma__variant_apply(variant, false, &v);
     const bool native = v.render.pairing == KOKSMA_PAIRING_NATIVE;
-    for (size_t p = 0; !status && (native || (v.adaptive.method && v.adaptive.method->own_samples)); p++) {
-        if (p == patterns->n) {
-            break;
-        }
-        const char *own = strchr(patterns->at[p], ';');
-        if (own && strchr(own, '=')) {
+    const bool takes_one = native || (v.adaptive.method && v.adaptive.method->own_samples);
+    for (size_t p = 0; !status && takes_one && p < patterns->n; p++) {
+        if (!koksma__image_pattern_is_one(patterns->at[p])) {
             return koksma__fail(KOKSMA_ARGUMENT, "%s: %s: it takes one pattern for all uses", patterns->at[p],
                                 variant);
         }
