@@ -254,6 +254,9 @@ const cli_command cli_command_list = {
     .summary = "list the members of a table",
     .synopsis = "[patterns|measures|scenes|integrators|filters] [--json]\n"
                 "       koksma list uses|adaptive|warps|parameters [--json]",
+    .details =
+        "uses are what a sample is spent on, with their dimensions: 'koksma render -p USE=PATTERN' samples one by a\n"
+        "pattern of its own, '-p USE+USE=PATTERN' several by one pattern of their dimensions together.",
     .options = options,
     .run = run,
 };

@@ -32,15 +32,22 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
     while (cli_list_item(list, p->n, item, sizeof item)) {
-        koksma_spec spec;
+        static char text[KOKSMA_MAX_PATTERNS_TEXT];
+        koksma_render_options options = {0}; /* for its patterns only */
         if (p->n == MAX_PATTERNS) {
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
-        const koksma_status status = koksma_pattern_spec(item, &spec);
+        koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern); /* unless the text names another */
+        status = status ? status : koksma_render_patterns(item, &options);
         if (status) {
             return cli_fail(arguments, status);
         }
-        koksma_spec_text(&spec, p->texts[p->n]);
+        koksma_render_patterns_text(&options, text);
+        if (strlen(text) >= sizeof p->texts[p->n]) {
+            return cli_usage_error(arguments, "--patterns %.40s...: longer than %zu characters", text,
+                                   sizeof p->texts[p->n] - 1);
+        }
+        memcpy(p->texts[p->n], text, strlen(text) + 1);
         for (size_t i = 0; i < p->n; i++) {
             if (!strcmp(p->texts[i], p->texts[p->n])) {
                 return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
@@ -244,10 +251,9 @@ const cli_command cli_command_rank = {
     .details =
         "Renders the scene again and again with every pattern and ranks the patterns by the mean absolute error of\n"
         "the picture. The sequence of work depends on the command line only: rounds of 8, 16, 32, ... trials until\n"
-        "the best pattern is decided and the best of those without bands, then the same for the first three of "
-        "those\n"
-        "at half and at twice the size, then rounds\n"
-        "until every pair is decided. A pair is decided when the interval of the quotient of its errors excludes 1\n"
+        "the best pattern is decided and the best of those without bands, then the same for the first three of\n"
+        "those at half and at twice the size, then rounds until every pair is decided. A pair is decided when the "
+        "interval of the quotient of its errors excludes 1\n"
         "or lies within 2 % of 1 (equal). A time limit cuts the sequence short: a longer one never names another\n"
         "best pattern, and without enough time the answer is 'undecided', with an estimate of what would do.\n"
         "\n"
@@ -258,14 +264,14 @@ const cli_command cli_command_rank = {
         "\n"
         "coherence: the peak of the spectrum of the error over its mean, of the first 8 trials; coherent: it is "
         "above\n"
-        "what 99.5 % of noise has (koksma compare --help). Such an error has bands or another pattern in it, which "
-        "is\n"
-        "seen more than noise of that size: the advice is the best pattern whose error is not coherent, and says "
-        "what\n"
-        "a coherent one would save. Patterns are judged as they are used: behind a random shift a pixel, if so.\n"
+        "what 99.5 % of noise has (koksma compare --help). Such an error has bands or another pattern in it, which\n"
+        "is seen more than noise of that size: the advice is the best pattern whose error is not coherent, and says\n"
+        "what a coherent one would save. Patterns are judged as they are used: behind a random shift a pixel, if "
+        "so.\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is not for one or more.\n"
         "\n"
         "Light between surfaces is only in what --integrator path and irradiance-cache render.\n"
+        "PATTERN may name patterns of single uses or groups of uses, as in 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
     .options = options,
     .run = run,

@@ -19,8 +19,8 @@ static int put_row(const cli_arguments *arguments, const koksma_render_options *
                    uint64_t rays, double seconds)
 {
     const koksma_adaptive *method = adaptive->options.method;
-    char pattern[KOKSMA_MAX_SPEC];
-    koksma_spec_text(&options->pattern, pattern);
+    static char pattern[KOKSMA_MAX_PATTERNS_TEXT];
+    koksma_render_patterns_text(options, pattern);
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     cli_row_text(rows, "scene", arguments->operands[0]);
     cli_row_text(rows, "pattern", method && method->own_samples ? "-" : pattern);
@@ -47,6 +47,15 @@ static void describe(const cli_arguments *arguments, const koksma_scene *scene, 
             const size_t used = strlen(text);
             koksma_spec_text(&o->patterns[i], pattern);
             snprintf(text + used, size - used, " %s=%s", koksma_use_at(i)->name, pattern);
+        }
+    }
+    for (size_t g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        if (o->groups[g].n_uses) {
+            char uses[KOKSMA_MAX_SPEC];
+            const size_t used = strlen(text);
+            koksma_use_group_text(&o->groups[g], uses);
+            koksma_spec_text(&o->groups[g].pattern, pattern);
+            snprintf(text + used, size - used, " %s=%s", uses, pattern);
         }
     }
     const size_t used = strlen(text);
@@ -189,7 +198,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'p', "pattern", "[USE=]PATTERN...", "pattern of every use, or of one; again for others (default: n-rooks)"},
+    {'p', "pattern", "[USE[+USE]=]PATTERN...",
+     "pattern of every use, of one, or of several together; again for others (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
@@ -204,13 +214,15 @@ static const cli_option options[] = {
 const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a scene",
-    .synopsis = "SCENE [-p [USE=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
+    .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
                 "                     [--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
         "SCENE is a name of 'koksma list scenes', a JSON file (docs/scenes.md), or a mesh file (.obj .ply .off .gltf "
         ".glb).\n"
         "Every use of a sample ('koksma list uses') has a pattern of its own in every pixel; 'shuffled' pairs them\n"
-        "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. With\n"
+        "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. Uses "
+        "that are\n"
+        "joined by '+' (pixel+time=scan-time) take the coordinates of one pattern of their total dimension. With\n"
         "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.\n"
         "With --adaptive every pixel has SPP samples at first, and then more in rounds until METHOD or the budget\n"
         "says that it is enough.",

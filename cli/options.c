@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/render.h>
+
 /* No table has the letter of --help. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
 
@@ -220,9 +222,20 @@ int cli_no_memory(void)
     return koksma_status_exit_code(KOKSMA_MEMORY);
 }
 
+static bool is_use(const char *name, size_t length)
+{
+    size_t i = 0;
+    while (koksma_use_at(i) &&
+           (strlen(koksma_use_at(i)->name) != length || strncmp(koksma_use_at(i)->name, name, length) != 0)) {
+        i++;
+    }
+    return koksma_use_at(i) != NULL;
+}
+
 /* The end of the list item that starts at s: the next comma that is not followed by "key=value" up to the next
    comma (that is the current spec's next parameter). A parameter never holds a ':'; a new spec has its ':' before
-   any '='. */
+   any '=', or a ';' or '+' of the uses that patterns are for, or is for a single use, which no
+   parameter is named after. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;
@@ -232,8 +245,8 @@ static const char *item_end(const char *s)
             return s;
         }
         if (*s == ',') {
-            const size_t stop = strcspn(s + 1, ",:=");
-            if (!has_parameters || s[1 + stop] != '=') {
+            const size_t stop = strcspn(s + 1, ",:=+;");
+            if (!has_parameters || s[1 + stop] != '=' || is_use(s + 1, stop)) {
                 return s;
             }
         }

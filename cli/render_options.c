@@ -71,37 +71,20 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
     return cli_integrator_and_filter(arguments, &options->integrator, &options->filter);
 }
 
-/* The use that the line starts with ("lens=…"), or -1. */
-static int find_use(const char *line)
-{
-    for (int i = 0; koksma_use_at((size_t)i); i++) {
-        const size_t length = strlen(koksma_use_at((size_t)i)->name);
-        if (!strncmp(koksma_use_at((size_t)i)->name, line, length) && line[length] == '=') {
-            return i;
-        }
-    }
-    return -1;
-}
-
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code)
 {
     while (*lines) {
-        char line[KOKSMA_MAX_SPEC];
+        static char line[KOKSMA_MAX_PATTERNS_TEXT];
         const size_t length = strcspn(lines, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, lines);
-        lines += lines[length] ? length + 1 : length;
-        const int use = find_use(line);
-        const size_t before = strcspn(line, ":=");
-        if (use < 0 && line[before] == '=') {
+        if (length >= sizeof line) {
             *code =
-                cli_usage_error(arguments,
-                                "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
-                                "lobe-choice and roulette",
-                                line);
+                cli_usage_error(arguments, "--pattern %.20s...: longer than %zu characters", lines, sizeof line - 1);
             return false;
         }
-        const koksma_status status = koksma_pattern_spec(use < 0 ? line : line + before + 1,
-                                                         use < 0 ? &options->pattern : &options->patterns[use]);
+        memcpy(line, lines, length);
+        line[length] = '\0';
+        lines += lines[length] ? length + 1 : length;
+        const koksma_status status = koksma_render_patterns(line, options);
         if (status) {
             *code = cli_fail(arguments, status);
             return false;
@@ -117,6 +100,19 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
         if (options->patterns[i].pattern && !koksma_use_is_spent(scene, options, i)) {
             fprintf(stderr, "koksma %s: %s: warning: no sample is spent on %s here; its pattern changes nothing\n",
                     arguments->command->name, name, koksma_use_at(i)->name);
+        }
+    }
+    for (size_t g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        const koksma_use_group *group = &options->groups[g];
+        char text[KOKSMA_MAX_SPEC];
+        koksma_use_group_text(group, text);
+        for (int i = 0; i < group->n_uses; i++) {
+            if (!koksma_use_is_spent(scene, options, (size_t)group->uses[i])) {
+                fprintf(
+                    stderr,
+                    "koksma %s: %s: warning: no sample is spent on %s here; its coordinates of %s change nothing\n",
+                    arguments->command->name, name, koksma_use_at((size_t)group->uses[i])->name, text);
+            }
         }
     }
 }

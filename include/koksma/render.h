@@ -14,7 +14,7 @@
  * Each pixel spends its samples on named uses: the place in the pixel, and what the scene has a need of: the lens,
  * the time, a place on each luminaire, which luminaire, lobe or end of a path (koksma_use_at lists all). Each use
  * gets a set of points of its own in the one or two dimensions that it has, drawn afresh for every pixel unless
- * `scope` or `pairing` says otherwise.
+ * `scope` or `pairing` says otherwise; or several uses form a group and take the coordinates of one set.
  */
 #ifndef KOKSMA_RENDER_H
 #define KOKSMA_RENDER_H
@@ -97,6 +97,18 @@ typedef struct koksma_use {
 /* Use i; NULL past the end. */
 KOKSMA_API const koksma_use *koksma_use_at(size_t i);
 
+/* Uses that one pattern samples together, in as many dimensions as they have in all: sample i takes the coordinates
+   of point i, in the order of `uses`. A set serves what a sample has once (pixel, lens, time) with the first vertex
+   of its path and one luminaire there; every further vertex, and every further luminaire, takes its coordinates of a
+   set of its own, paired with the others as separate uses are. */
+typedef struct koksma_use_group {
+    koksma_spec pattern;
+    int n_uses;              /* 2 or more; 0: there is no such group */
+    int uses[KOKSMA_N_USES]; /* as in koksma_use_at */
+} koksma_use_group;
+
+enum { KOKSMA_MAX_USE_GROUPS = KOKSMA_N_USES / 2, KOKSMA_MAX_PATTERNS_TEXT = KOKSMA_MAX_SPEC * (KOKSMA_N_USES + 1) };
+
 /* How light is followed. */
 typedef struct koksma_integrator {
     const char *name, *title, *cite;
@@ -122,7 +134,9 @@ KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 typedef struct koksma_render_options {
     koksma_spec pattern;                 /* of every use that has none of its own */
     koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where it is not all zero */
-    int spp;                             /* samples a pixel: the n of the pattern */
+    koksma_use_group
+        groups[KOKSMA_MAX_USE_GROUPS]; /* a use has a pattern of its own or is in one group, or neither */
+    int spp;                           /* samples a pixel: the n of the pattern */
     int width, height;
     uint64_t seed;
     koksma_pairing pairing;
@@ -142,6 +156,20 @@ enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
 /* n-rooks, 16 samples a pixel, the scene's own size, seed 0, shuffled, in pixels, all lights, distribution, box. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
+
+/* Sets patterns by a text: "PATTERN" for the uses that have no other, "USE=PATTERN" for one use, "USE+USE=PATTERN"
+   for a group, or several of these with ';' between: "random;pixel+time=scan-time". What the text doesn't name stays.
+   Errors: UNKNOWN (a pattern or use), DIM (a pattern that has not the dimensions of its group), ARGUMENT (a use that
+   has a pattern already, the pattern's own); options are then as before. */
+KOKSMA_API koksma_status koksma_render_patterns(const char *text, koksma_render_options *options);
+
+/* The canonical text of all of them, the common pattern first, then uses and groups in the order of koksma_use_at.
+   text has room for KOKSMA_MAX_PATTERNS_TEXT characters. */
+KOKSMA_API void koksma_render_patterns_text(const koksma_render_options *options, char *text);
+
+/* The names of a group's uses with '+' between, such as "pixel+time"; text has room for KOKSMA_MAX_SPEC characters.
+ */
+KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text);
 
 /* ---- Rendering ------------------------------------------------------------------------------------------- */
 

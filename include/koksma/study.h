@@ -151,7 +151,7 @@ enum { KOKSMA_MAX_RANK_TRIALS = 65536, KOKSMA_RANK_CHECKS = 2, KOKSMA_RANK_REASO
 
 typedef struct koksma_rank_options {
     const char *scene;           /* a name or a file */
-    const char *const *patterns; /* specs */
+    const char *const *patterns; /* as koksma_render_patterns takes them */
     size_t n_patterns;
     int spp;
     int width, height; /* of the picture; 0: the scene's, halved until it has 19,200 pixels at most */

@@ -127,6 +127,7 @@ def lab() -> ctypes.CDLL:
     for name in ("integrator", "filter"):
         _declare(library, c_void_p, f"koksma_{name}_find", c_char_p)
     _declare(library, None, "koksma_render_options_init", options, c_void_p)
+    _declare(library, c_int, "koksma_render_patterns", c_char_p, options)
     _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
              POINTER(s.Ranking))

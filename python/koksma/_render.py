@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, core, lab, spec, text, whole
+from ._library import ArgumentError, call, check, core, lab, text, whole
 from ._points import free_with, shown
 
 
@@ -44,19 +44,21 @@ def render(scene: Union[str, "os.PathLike[str]"], pattern: str = "n-rooks", spp:
            filter: Optional[str] = None, threads: SupportsIndex = 0) -> npt.NDArray[np.float32]:
     """Renders a scene that ships, or a JSON file (a path, or a text with a '/' or that ends in ".json").
 
+    pattern: of all uses of a sample; or also patterns of single uses and of groups of uses, which one pattern of their
+    total dimension samples together, with ';' between: "random;lens=sobol;pixel+time=scan-time".
     size: (width, height); the scene's own when left out. The other arguments are those of `koksma render`, and give
     the same bits. Returns linear light of shape (height, width, channels), channels 1 or 3; row 0 is on top.
     """
     handle, options, image = c_void_p(), s.RenderOptions(), s.Image()
     choices: Dict[str, int] = {"pairing": _choice("pairing", pairing), "scope": _choice("scope", scope),
                                "lights": _choice("light_selection", lights)}
-    parsed = spec("pattern", pattern)
     spp, seed = whole("spp", spp, 1, s.MAX_SPP), whole("seed", seed, 0, s.MAX_SEED)
     name = os.path.join(os.curdir, scene) if isinstance(scene, os.PathLike) else scene
     check(lab().koksma_scene_open(text(name), byref(handle)))
     try:
         lab().koksma_render_options_init(byref(options), handle)
-        options.pattern, options.spp, options.seed = parsed, spp, seed
+        options.spp, options.seed = spp, seed
+        check(lab().koksma_render_patterns(text(pattern), byref(options)))
         for name, value in choices.items():
             setattr(options, name, value)
         if size is not None:

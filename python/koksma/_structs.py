@@ -5,6 +5,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_d
                     c_size_t, c_uint, c_uint64, c_void_p, sizeof)
 
 MAX_PARAMS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 512, 16, 8
+MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
@@ -92,11 +93,13 @@ class CoherenceValues(Structure):
     _fields_ = [("images", c_size_t), ("coherence", c_double), ("low", c_double), ("high", c_double),
                 ("frequency_x", c_double), ("frequency_y", c_double), ("common", c_double), ("noise_low", c_double),
                 ("noise_high", c_double), ("p", c_double), ("coherent", c_bool)]
+class UseGroup(Structure):
+    _fields_ = [("pattern", Spec), ("n_uses", c_int), ("uses", c_int * N_USES)]
 
 
 class RenderOptions(Structure):
-    _fields_ = [("pattern", Spec), ("patterns", Spec * N_USES), ("spp", c_int), ("width", c_int), ("height", c_int),
-                ("seed", c_uint64), ("pairing", c_int), ("scope", c_int), ("lights", c_int), ("integrator", c_void_p),
+    _fields_ = [("pattern", Spec), ("patterns", Spec * N_USES), ("groups", UseGroup * MAX_USE_GROUPS), ("spp", c_int), ("width", c_int),
+                ("height", c_int), ("seed", c_uint64), ("pairing", c_int), ("scope", c_int), ("lights", c_int), ("integrator", c_void_p),
                 ("depth", c_int), ("filter", c_void_p), ("splat", c_bool)]
 
 
@@ -132,6 +135,7 @@ CONSTANTS = [
     ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
     ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
     ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP),
+    ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
     ("study.h", "KOKSMA_RANK_REASON", RANK_REASON),
@@ -149,7 +153,7 @@ LAYOUTS = [
     ("spectrum.h", "koksma_ring", Ring),
     ("image.h", "koksma_image", Image), ("image.h", "koksma_image_error", ImageError),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
-    ("render.h", "koksma_render_options", RenderOptions),
+    ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
 ]

@@ -152,21 +152,6 @@ void koksma__frame_close(koksma__frame *f)
     free(f->substances);
 }
 
-/* Every spec of the options is one of a pattern, or of nothing where the common one serves. */
-static koksma_status check_patterns(const koksma_render_options *o)
-{
-    if (!o->pattern.pattern) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern is not the spec of a pattern");
-    }
-    for (int u = 0; u < KOKSMA_N_USES; u++) {
-        if (!o->patterns[u].pattern && o->patterns[u].measure) {
-            return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern for '%s' is the spec of a measure",
-                                koksma_use_at((size_t)u)->name);
-        }
-    }
-    return KOKSMA_OK;
-}
-
 static koksma_status check(const koksma_render_options *o)
 {
     if (o->width < 1 || o->height < 1 || o->width > KOKSMA_MAX_IMAGE_SIDE || o->height > KOKSMA_MAX_IMAGE_SIDE ||
@@ -191,7 +176,7 @@ static koksma_status check(const koksma_render_options *o)
             "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
             o->filter->name);
     }
-    return check_patterns(o);
+    return koksma__check_use_patterns(o);
 }
 
 koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_options *options,

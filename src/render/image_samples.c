@@ -14,6 +14,7 @@
 
 typedef struct set {
     uint32_t use;
+    bool drawn;
     float *pairs; /* in the order of samples */
 } set;
 
@@ -87,28 +88,46 @@ static void keep(const double *xs, int dim, int first, bool two, size_t n, const
     }
 }
 
-static koksma_status make_set(const image_samples *s, const koksma_run *run, set *to)
+/* A random order of the set with this key, or *out = NULL where the pattern's own order is kept: that of the places
+   on the film, which say in which pixel a sample is. */
+static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32_t **out)
+{
+    *out = NULL;
+    if (set_key == KOKSMA__USE_PIXEL || s->options->pairing != KOKSMA_PAIRING_SHUFFLED) {
+        return KOKSMA_OK;
+    }
+    *out = malloc(s->n * sizeof **out);
+    if (*out) {
+        koksma__random_permutation(s->options->seed, set_key, (uint32_t)s->n, *out);
+    }
+    return *out ? KOKSMA_OK : koksma__fail_memory(s->n * sizeof **out);
+}
+
+/* The set of a use; where it is in a group, also those of the other uses that take their coordinates from it. */
+static koksma_status make_set(image_samples *s, const koksma_run *run, set *to)
 {
     const koksma_render_options *options = s->options;
     const koksma_spec *spec = koksma__use_spec(options, to->use);
-    const bool two = koksma_use_at((size_t)koksma__use_index(to->use))->dim == 2;
-    const unsigned claims = spec->pattern->claims;
-    const int dim = !two && spec->pattern->min_dim == 1 && !(claims & KOKSMA_CLAIM_MIN_DISTANCE) ? 1 : 2;
-    koksma_points points;
-    koksma_status status = koksma_points_init(&points, s->n, dim);
-    status = status ? status : koksma_generate(spec, koksma__random_seed(options->seed, 0, to->use), run, &points);
-    uint32_t *permutation = NULL;
-    if (!status && to->use != KOKSMA__USE_PIXEL && options->pairing == KOKSMA_PAIRING_SHUFFLED) {
-        permutation = malloc(s->n * sizeof *permutation);
-        status = permutation ? KOKSMA_OK : koksma__fail_memory(s->n * sizeof *permutation);
-        if (permutation) {
-            koksma__random_permutation(options->seed, to->use, (uint32_t)s->n, permutation);
+    const int u = koksma__use_index(to->use);
+    const koksma__place_of_use place = koksma__place_of_use_at(options, u);
+    const uint32_t set_key = koksma__set_key(&place, to->use);
+    const int dim = place.group < 0 ? koksma__use_set_dim(spec, u) : place.dim;
+    koksma_points points = {0};
+    koksma_status status = place.group < 0 ? koksma__check_single_use(spec) : KOKSMA_OK;
+    status = status ? status : koksma_points_init(&points, s->n, dim);
+    status = status ? status : koksma_generate(spec, koksma__random_seed(options->seed, 0, set_key), run, &points);
+    uint32_t *order = NULL;
+    status = status ? status : draw_order(s, set_key, &order);
+    for (set *other = to; !status && other < s->sets + s->n_sets; other++) {
+        const int v = koksma__use_index(other->use);
+        const koksma__place_of_use at = koksma__place_of_use_at(options, v);
+        if (other == to ||
+            (at.group >= 0 && at.group == place.group && koksma__set_key(&at, other->use) == set_key)) {
+            keep(points.xs, dim, at.first, koksma_use_at((size_t)v)->dim == 2, s->n, order, other->pairs);
+            other->drawn = true;
         }
     }
-    if (!status) {
-        keep(points.xs, dim, 0, two, s->n, permutation, to->pairs);
-    }
-    free(permutation);
+    free(order);
     koksma_points_fini(&points);
     return status;
 }
@@ -247,7 +266,7 @@ koksma_status koksma__image_samples(const koksma_render_options *options, const 
         status = make_native(s, uses, run);
     }
     for (size_t i = 0; !status && options->pairing != KOKSMA_PAIRING_NATIVE && i < s->n_sets; i++) {
-        status = make_set(s, run, &s->sets[i]);
+        status = s->sets[i].drawn ? KOKSMA_OK : make_set(s, run, &s->sets[i]);
     }
     if (status) {
         release(out);

@@ -25,22 +25,23 @@ enum {
  * pixel's. */
 enum { KOKSMA__WORD_SLOTS = 8, KOKSMA__WORD_COUNTERS = 48 };
 
-/* What a thread needs for drawing: room for the points of one pixel; with a native pattern, for those of the pixels
-   of a group, pixel modulo `slots`. */
+/* What a thread needs for drawing: room for the points of one pixel; and the sets that several uses take their
+   coordinates from, a native pattern's or those of groups of uses, for as many pixels as are drawn together. */
 typedef struct koksma__sample_room {
     double *xs;
     float *pairs;
     uint32_t *words;                        /* KOKSMA__WORD_SLOTS parts, of the uses by turns */
     uint64_t word_keys[KOKSMA__WORD_SLOTS]; /* which pixels' and use's words are there */
-    double *native;
-    uint64_t *native_pixels; /* which pixel is in a slot, plus 1 */
+    double *kept;
+    uint64_t *kept_keys; /* which set is in a slot; 0: none */
 } koksma__sample_room;
 
 typedef struct koksma__sampler {
     void *made;
-    size_t most;         /* samples that a pixel can have */
-    int native_dim;      /* dimensions of a native pattern; else 0 */
-    size_t native_slots; /* pixels whose points a room keeps */
+    size_t most;       /* samples that a pixel can have */
+    int kept_dim;      /* coordinates of a sample that a room keeps, those of all groups, or of a native pattern */
+    size_t kept_sets;  /* groups; a native pattern is one */
+    size_t kept_slots; /* pixels: a pixel's sets are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* The pairs of a use of a pixel, plus offset; the second number of a one-dimensional use is idle. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
@@ -71,8 +72,33 @@ koksma_status koksma__image_samples(const koksma_render_options *options, const 
 koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler);
 void koksma__sample_room_fini(koksma__sample_room *room);
 
-/* The spec of a use: its own, or that of all. */
+/* Where a use of uses.def has its coordinates. */
+typedef struct koksma__place_of_use {
+    int group;      /* of the options; -1: none */
+    int first, dim; /* the use's first coordinate, and how many dimensions the set has that it is taken from */
+    uint32_t lead;  /* of a group: the smallest number of its uses */
+} koksma__place_of_use;
+koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *options, int u);
+
+/* The key of the set that a use takes its coordinates from: that of a use without a group is the use itself. */
+uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use);
+
+/* The spec of a use: its group's, its own, or that of all. */
 const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use);
+
+/* Dimensions of the sets of use u where it is in no group. One that has one dimension takes a set of one dimension
+   where the pattern has any; not from patterns that keep a distance, which is meant for the plane: there it takes the
+   first coordinate. */
+int koksma__use_set_dim(const koksma_spec *spec, int u);
+
+/* Whether every spec is one of a pattern, and every group is in order. Errors: ARGUMENT, DIM. */
+koksma_status koksma__check_use_patterns(const koksma_render_options *options);
+
+/* Generates a set of n points of every pattern that the options name. Errors: the patterns'. */
+koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run);
+
+/* A pattern that has only forms of more than 2 dimensions has none for a single use. Errors: DIM. */
+koksma_status koksma__check_single_use(const koksma_spec *spec);
 
 /* Which line of uses.def a use is, at whichever bounce. */
 int koksma__use_index(uint32_t use);

@@ -42,8 +42,44 @@ int koksma__use_index(uint32_t use)
 
 const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use)
 {
-    const koksma_spec *own = &options->patterns[koksma__use_index(use)];
+    const int u = koksma__use_index(use), group = koksma__place_of_use_at(options, u).group;
+    const koksma_spec *own = group < 0 ? &options->patterns[u] : &options->groups[group].pattern;
     return own->pattern ? own : &options->pattern;
+}
+
+int koksma__use_set_dim(const koksma_spec *spec, int u)
+{
+    const bool one = uses_table[u].dim == 1 && spec->pattern->min_dim == 1;
+    return one && !(spec->pattern->claims & KOKSMA_CLAIM_MIN_DISTANCE) ? 1 : 2;
+}
+
+koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *options, int u)
+{
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        const koksma_use_group *group = &options->groups[g];
+        koksma__place_of_use place = {.group = -1, .lead = UINT32_MAX};
+        for (int i = 0; i < group->n_uses; i++) {
+            const int other = group->uses[i];
+            if (other == u) {
+                place.group = g;
+                place.first = place.dim;
+            }
+            place.dim += uses_table[other].dim;
+            place.lead = numbers[other] < place.lead ? numbers[other] : place.lead;
+        }
+        if (place.group >= 0) {
+            return place;
+        }
+    }
+    return (koksma__place_of_use){.group = -1, .dim = uses_table[u].dim};
+}
+
+/* Only the uses of luminaires are several at a vertex, and only the first of them shares its set. */
+uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use)
+{
+    return place->group < 0 || use % KOKSMA__USES_A_BOUNCE > KOKSMA__USE_LIGHT
+               ? use
+               : use / KOKSMA__USES_A_BOUNCE * KOKSMA__USES_A_BOUNCE + place->lead;
 }
 
 bool koksma__use_is_there(const koksma__use_list *uses, int u)
@@ -98,17 +134,17 @@ koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__
 {
     const size_t n = sampler->most, counters = (n + 3) / 4;
     const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
-    const size_t native = n * (size_t)sampler->native_dim * sampler->native_slots;
+    const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
     *room = (koksma__sample_room){
         .xs = malloc(2 * n * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
         .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
-        .native = malloc((native + 1) * sizeof *room->native),
-        .native_pixels = calloc(sampler->native_slots + 1, sizeof *room->native_pixels),
+        .kept = malloc((kept + 1) * sizeof *room->kept),
+        .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
     };
-    if (!room->xs || !room->pairs || !room->words || !room->native || !room->native_pixels) {
+    if (!room->xs || !room->pairs || !room->words || !room->kept || !room->kept_keys) {
         koksma__sample_room_fini(room);
-        return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * native);
+        return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * kept);
     }
     return KOKSMA_OK;
 }
@@ -118,7 +154,7 @@ void koksma__sample_room_fini(koksma__sample_room *room)
     free(room->xs);
     free(room->pairs);
     free(room->words);
-    free(room->native);
-    free(room->native_pixels);
+    free(room->kept);
+    free(room->kept_keys);
     *room = (koksma__sample_room){0};
 }

@@ -11,6 +11,7 @@
 #include <koksma/warp.h>
 
 #include "scene/json.h"
+#include "study/image_patterns.h"
 #include "study/plan_parts.h"
 #include "study/plans_embedded.h"
 #include "study/variants.h"
@@ -77,8 +78,8 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
-    status = status ? status : koksma__plan_specs(node, "measures", koksma_measure_spec, &b->measures);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma__pattern_text, &b->patterns);
+    status = status ? status : koksma__plan_specs(node, "measures", koksma__measure_text, &b->measures);
     if (!status && koksma__json_has(node, "warps")) {
         status = koksma__plan_texts(node, "warps", &b->warps);
     }
@@ -100,7 +101,7 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     r->replicates = 1;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "name", true, &r->name);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
     if (!status && strlen(r->name) > MAX_NAME) {
@@ -141,7 +142,7 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
     status = status ? status : check_scenes(node, &b->scenes);
-    status = status ? status : koksma__plan_specs(node, "patterns", koksma_pattern_spec, &b->patterns);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma__image_pattern_text, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);

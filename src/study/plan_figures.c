@@ -7,6 +7,7 @@
 #include <koksma/warp.h>
 
 #include "core/status.h"
+#include "study/image_patterns.h"
 #include "study/plan_parts.h"
 #include "study/variants.h"
 
@@ -38,6 +39,10 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     }
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
+        if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it takes one pattern for all uses", f->pattern,
+                                  f->adaptive);
+        }
     }
     if (status) {
         return koksma__json_fail_in(node, status);
@@ -90,7 +95,9 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
     status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
     status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &f->pattern);
+    status = status ? status
+                    : koksma__plan_spec(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
+                                        true, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
     status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
     status = status ? status : get_lines(node, f);

@@ -14,21 +14,36 @@ static koksma_status copy(const char *text, char **out)
     return *out ? KOKSMA_OK : koksma__fail_memory(strlen(text));
 }
 
+koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_spec spec;
+    const koksma_status status = koksma_pattern_spec(text, &spec);
+    if (!status) {
+        koksma_spec_text(&spec, out);
+    }
+    return status;
+}
+
+koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_spec spec;
+    const koksma_status status = koksma_measure_spec(text, &spec);
+    if (!status) {
+        koksma_spec_text(&spec, out);
+    }
+    return status;
+}
+
 static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, char **out)
 {
     const char *text;
-    koksma_spec spec;
+    char name[KOKSMA_MAX_SPEC];
     koksma_status status = koksma__json_text(node, &text);
     if (status) {
         return status;
     }
-    status = parser(text, &spec);
-    if (status) {
-        return koksma__json_fail_in(node, status);
-    }
-    char name[KOKSMA_MAX_SPEC];
-    koksma_spec_text(&spec, name);
-    return copy(name, out);
+    status = parser(text, name);
+    return status ? koksma__json_fail_in(node, status) : copy(name, out);
 }
 
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)

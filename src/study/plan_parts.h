@@ -6,7 +6,8 @@
 #include "scene/json.h"
 #include "study/plan.h"
 
-typedef koksma_status (*koksma__spec_parser)(const char *text, koksma_spec *spec);
+/* Writes the canonical form of a text. */
+typedef koksma_status (*koksma__spec_parser)(const char *text, char out[KOKSMA_MAX_SPEC]);
 typedef koksma_status (*koksma__item_parser)(const koksma__json_node *node, const koksma__plan_trials *trials,
                                              void *item);
 
@@ -15,6 +16,10 @@ koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, 
 
 /* Its "id": letters, digits, '.', '-' and '_', as reports have it in links. */
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out);
+
+/* Parsers: of a pattern of points, of a measure; of an image's patterns see image_patterns.h. */
+koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC]);
+koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
 /* The same for a spec, checked, in its canonical form. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,

@@ -2,6 +2,7 @@
 /* Whether patterns can make the numbers of points that a plan asks of them, and measures take their dimensions: a
    study must not fail in its middle. */
 #include "core/status.h"
+#include "study/image_patterns.h"
 #include "study/plan_parts.h"
 #include "study/variants.h"
 
@@ -81,19 +82,54 @@ static bool takes_spp_points(const char *variant)
            v.render.pairing != KOKSMA_PAIRING_NATIVE && !v.adaptive.method;
 }
 
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block)
+static koksma_status try_image_set(const char *pattern, long long n)
 {
-    for (size_t v = 0; v < block->variants.n; v++) {
-        if (takes_spp_points(block->variants.at[v])) {
-            return koksma__plan_check_sets(node, &block->patterns, "spp", &block->spp, 2);
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    const koksma_status status = koksma__image_pattern_try(pattern, (size_t)n, &briefly);
+    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
+}
+
+/* Native pairing, and methods that draw strata of their own, have no place for patterns of single uses and groups. */
+static koksma_status check_variant(const char *variant, const koksma__texts *patterns)
+{
+    koksma__variant v = {0};
+    const koksma_status status = koksma__variant_apply(variant, false, &v);
+    const bool native = v.render.pairing == KOKSMA_PAIRING_NATIVE;
+    const bool takes_one = native || (v.adaptive.method && v.adaptive.method->own_samples);
+    for (size_t p = 0; !status && takes_one && p < patterns->n; p++) {
+        if (!koksma__image_pattern_is_one(patterns->at[p])) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: %s: it takes one pattern for all uses", patterns->at[p],
+                                variant);
         }
     }
-    return KOKSMA_OK;
+    return status;
+}
+
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block)
+{
+    koksma__json_node list;
+    koksma_status status = koksma__json_member(node, "spp", &list);
+    bool takes_spp = false;
+    for (size_t v = 0; !status && v < block->variants.n; v++) {
+        takes_spp |= takes_spp_points(block->variants.at[v]);
+        status = check_variant(block->variants.at[v], &block->patterns);
+        status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
+    }
+    for (size_t k = 0; !status && takes_spp && k < block->spp.n; k++) {
+        for (size_t p = 0; !status && p < block->patterns.n && block->spp.at[k] <= MOST_TRIED; p++) {
+            status = try_image_set(block->patterns.at[p], block->spp.at[k]);
+            if (status) {
+                const koksma__json_node item = koksma__json_item(&list, k);
+                status = koksma__json_fail_in(&item, status);
+            }
+        }
+    }
+    return status;
 }
 
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)
 {
     const koksma_status status =
-        reference->spp > MOST_TRIED ? KOKSMA_OK : try_set(reference->pattern, reference->spp, 2);
+        reference->spp > MOST_TRIED ? KOKSMA_OK : try_image_set(reference->pattern, reference->spp);
     return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
 }

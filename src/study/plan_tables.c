@@ -10,6 +10,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "study/image_patterns.h"
 #include "study/plan_parts.h"
 
 /* ---- Printed numbers ------------------------------------------------------------------------------------- */
@@ -72,7 +73,7 @@ static koksma_status parse_row(const koksma__json_node *node, const koksma__plan
     koksma__table_row *r = item;
     r->rate = NAN;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, true, &r->pattern);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
     status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
     return status ? status : parse_published(node, r);
@@ -87,7 +88,7 @@ static koksma_status parse_note(const koksma__json_node *node, const koksma__pla
     const char *statistic;
     n->explained = true;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_spec(node, "pattern", koksma_pattern_spec, false, &n->pattern);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, false, &n->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
     status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
@@ -154,8 +155,8 @@ koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_id(node, true, &t->id);
     status = status ? status : koksma__plan_text(node, "title", true, &t->title);
     status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
-    status = status ? status : koksma__plan_spec(node, "measure", koksma_measure_spec, false, &t->measure);
-    status = status ? status : koksma__plan_spec(node, "also", koksma_measure_spec, false, &t->also);
+    status = status ? status : koksma__plan_spec(node, "measure", koksma__measure_text, false, &t->measure);
+    status = status ? status : koksma__plan_spec(node, "also", koksma__measure_text, false, &t->also);
     status = status ? status : koksma__json_get_flag(node, "fitted", false, &t->fitted);
     status = status ? status : parse_sizes(node, t);
     t->dim = 2;

@@ -12,6 +12,7 @@
  * wait. So every pattern that is ranked has one.
  */
 #include "study/ranking_contest.h"
+#include "study/image_patterns.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -340,13 +341,10 @@ koksma_status koksma__contest_try_patterns(koksma__contest *c)
     for (size_t i = 0; !status && i < c->n; i++) {
         timed work = {.contest = c, .contestant = &c->contestants[i], .start_s = koksma__now_s()};
         const koksma_run run = run_in_share(&work);
-        koksma_spec spec;
-        koksma_points points = {0};
-        status = koksma_pattern_spec(c->options->patterns[work.contestant->pattern], &spec);
-        status = status ? status : koksma_points_init(&points, (size_t)c->options->spp, 2);
+        char text[KOKSMA_MAX_SPEC];
+        status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
         if (!status) {
-            status = take_out(&work, 0, koksma_generate(&spec, 0, &run, &points));
-            koksma_points_fini(&points);
+            status = take_out(&work, 0, koksma__image_pattern_try(text, (size_t)c->options->spp, &run));
         }
         c->table.entrants[i].out = atomic_load(&work.contestant->refused);
         c->table.entrants[i].aside = atomic_load(&work.contestant->late);

@@ -20,6 +20,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "render/rows.h"
+#include "study/image_patterns.h"
 #include "study/point_files.h"
 #include "study/study.h"
 
@@ -52,7 +53,7 @@ static koksma_status set_variant(const koksma__study_scene *scene, const koksma_
 {
     koksma_render_options *options = &variant->render;
     koksma_render_options_init(options, scene->scene);
-    koksma_status status = koksma_pattern_spec(picture->pattern, &options->pattern);
+    koksma_status status = koksma__image_pattern_set(picture->pattern, options);
     if (!status) {
         status = koksma__variant_apply(picture->variant, picture->of_reference, variant);
     }

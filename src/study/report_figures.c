@@ -10,6 +10,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "study/image_patterns.h"
 #include "study/report.h"
 #include "study/variants.h"
 
@@ -111,7 +112,7 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html
     koksma_layers layers;
     koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
     koksma_render_options_init(options, scene->scene);
-    koksma_status status = koksma_pattern_spec(f->pattern, &options->pattern);
+    koksma_status status = koksma__image_pattern_set(f->pattern, options);
     status = status ? status : koksma__variant_apply(f->variant, false, &variant);
     status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);
     options->spp = (int)f->n;

@@ -541,6 +541,21 @@ class Rendering(unittest.TestCase):
             np.testing.assert_array_equal(image, koksma.read_image(path))
             np.testing.assert_array_equal(image, koksma.read_image(pathlib.Path(path)))
 
+    def test_groups_of_uses(self):
+        patterns = ["random", "pixel+time=scan-time", "light+lens=sobol"]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "balls.pfm")
+            program("render", "balls", *(word for p in patterns for word in ("-p", p)), "-n", "16", "--size", "12x9", "-q",
+                    "-o", path)
+            image = koksma.render("balls", ";".join(patterns), 16, size=(12, 9))
+            np.testing.assert_array_equal(image, koksma.read_image(path))
+        separate = koksma.render("balls", "random;pixel=jittered;time=random", 16, size=(12, 9))
+        self.assertTrue((image != separate).any())
+        for pattern, said in (("pixel+tme=random", "no such use"), ("pixel+lens=scan-time", "have 4 dimensions together"),
+                              ("pixel+time=random;time=random", "use time has a pattern already")):
+            with self.assertRaisesRegex(koksma.Error, said):
+                koksma.render("balls", pattern, 16, size=(12, 9))
+
     def test_a_path_is_a_file(self):
         scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes", "ball.json")
         expected = koksma.render("ball", spp=1, size=(8, 6))

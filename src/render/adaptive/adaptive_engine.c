@@ -228,6 +228,17 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
         return koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive sampling keeps samples in their pixels, without %s", name,
                             options->splat ? "splatting" : "scope image");
     }
+    for (int g = 0; adaptive->method->own_samples && g < KOKSMA_MAX_USE_GROUPS; g++) {
+        if (options->groups[g].n_uses) {
+            char group[KOKSMA_MAX_SPEC];
+            koksma_use_group_text(&options->groups[g], group);
+            return koksma__fail(
+                KOKSMA_ARGUMENT,
+                "%s: it draws from strata of its own, without a pattern for %s; methods that draw sets "
+                "of the pattern take one, such as two-stage",
+                name, group);
+        }
+    }
     if (!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP)) {
         return koksma__fail(KOKSMA_ARGUMENT, "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget,
                             KOKSMA_MAX_SPP);
@@ -306,8 +317,9 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         run.base = j.frame.sampler;
         run.budget = adaptive->budget > 0 ? (uint64_t)(adaptive->budget * (double)run.pixels) : UINT64_MAX;
         j.frame.sampler = (koksma__sampler){.made = &run,
-                                            .native_dim = run.base.native_dim,
-                                            .native_slots = run.base.native_slots,
+                                            .kept_dim = run.base.kept_dim,
+                                            .kept_sets = run.base.kept_sets,
+                                            .kept_slots = run.base.kept_slots,
                                             .count = count,
                                             .draw = draw};
         j.pipeline = koksma__direct_can(&j.frame) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;

@@ -2,7 +2,7 @@
 /*
  * Samples in sets of the pattern, spp in each. Set k of a pixel is drawn as if it were of another pixel; or, when the
  * pattern is a sequence and the method allows it, the sets are the blocks of one sequence, so that whatever a pixel
- * stops at it has a prefix of it.
+ * stops at it has a prefix of it. A group of uses has sets of its own, whatever its pattern.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -18,21 +18,24 @@ enum { LANE_CONTINUED = 1 << 21 }; /* above the uses and the lane of pairings: k
 
 /* ---- Open and close --------------------------------------------------------------------------------------- */
 
-static bool continues(const koksma__adaptive *run, const koksma_spec *spec)
+static bool continues(const koksma__adaptive *run, int u)
 {
-    return !run->rules->fresh && spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE && spec->pattern->max_dim >= 2 &&
-           run->frame->options->pairing != KOKSMA_PAIRING_NATIVE;
+    const koksma_render_options *options = run->frame->options;
+    const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
+    return !run->rules->fresh && koksma__place_of_use_at(options, u).group < 0 &&
+           spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE && spec->pattern->max_dim >= 2 &&
+           options->pairing != KOKSMA_PAIRING_NATIVE;
 }
 
 /* Whether two seeds give the same points: what a pattern claims depends on its parameters. */
-static koksma_status compare_sets(const koksma_spec *spec, size_t n, bool *same)
+static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bool *same)
 {
     koksma_points one = {0}, two = {0};
-    koksma_status status = koksma_points_init(&one, n, 2);
-    status = status ? status : koksma_points_init(&two, n, 2);
+    koksma_status status = koksma_points_init(&one, n, dim);
+    status = status ? status : koksma_points_init(&two, n, dim);
     status = status ? status : koksma_generate(spec, 1, NULL, &one);
     status = status ? status : koksma_generate(spec, 2, NULL, &two);
-    *same = !status && !memcmp(one.xs, two.xs, 2 * n * sizeof *one.xs);
+    *same = !status && !memcmp(one.xs, two.xs, n * (size_t)dim * sizeof *one.xs);
     koksma_points_fini(&one);
     koksma_points_fini(&two);
     return status;
@@ -45,16 +48,20 @@ static koksma_status check_patterns(const koksma__adaptive *run)
     koksma_status status = KOKSMA_OK;
     bool seen = false; /* the pattern of the uses that have none of their own */
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
-        const bool own = options->patterns[u].pattern != NULL;
-        const koksma_spec *spec = own ? &options->patterns[u] : &options->pattern;
+        const koksma__place_of_use place = koksma__place_of_use_at(options, u);
+        const bool own = place.group >= 0 || options->patterns[u].pattern;
+        const koksma_spec *spec = place.group >= 0 ? &options->groups[place.group].pattern
+                                  : own            ? &options->patterns[u]
+                                                   : &options->pattern;
         const koksma_pattern *p = spec->pattern;
+        const int dim = place.group >= 0 ? place.dim : 2;
         bool same = false;
-        if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, spec)) {
+        if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, u)) {
             continue; /* the sets of a sequence are different */
         }
         seen |= !own;
-        if (p->min_dim <= 2 && p->max_dim >= 2) {
-            status = compare_sets(spec, (size_t)options->spp, &same);
+        if (p->min_dim <= dim && p->max_dim >= dim) {
+            status = compare_sets(spec, (size_t)options->spp, dim, &same);
         }
         if (same) {
             return koksma__fail(KOKSMA_ARGUMENT,
@@ -141,11 +148,10 @@ static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                 koksma__sample_room *room, float *pairs)
 {
-    const koksma_spec *spec = koksma__use_spec(run->frame->options, use);
     const size_t n = koksma__set_size(run), samples = run->asks[pixel].now;
     const size_t first = koksma__sets_of(run, pixel)->drawn;
     koksma_status status = KOKSMA_OK;
-    if (!continues(run, spec)) {
+    if (!continues(run, koksma__use_index(use))) {
         for (size_t k = 0; !status && k < samples / n; k++) {
             status =
                 run->base.draw(&run->base, pixel + (first + k) * run->pixels, use, offset, room, pairs + 2 * k * n);

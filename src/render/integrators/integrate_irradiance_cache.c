@@ -364,6 +364,7 @@ static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
     c->options = *frame->options;
     c->paths.options = &c->options;
     memset(c->options.patterns, 0, sizeof c->options.patterns);
+    memset(c->options.groups, 0, sizeof c->options.groups);
     c->options.spp = RAYS;
     c->options.pairing = KOKSMA_PAIRING_SHUFFLED;
     c->pixel = (float)(2 * tan(frame->scene->camera.fov_rad / 2) / c->options.height);

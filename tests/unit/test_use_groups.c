@@ -1,0 +1,471 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Groups of uses: sample i takes the coordinates of point i of one set, whatever is asked for before; the picture is
+   the same in the mean; texts, and what can't be. */
+#include <koksma/adaptive.h>
+
+#include "core/random.h"
+#include "render/sampler.h"
+#include "rendering.h"
+
+enum { N = 16, SIDE = 4, MOST = 1024 };
+
+static const koksma__use_list all_uses = {
+    .lens = true, .time = true, .lights = 2, .light_choice = true, .vertices = 3};
+
+static koksma_render_options options_for(const char *patterns, int spp)
+{
+    koksma_render_options options = {.spp = spp, .width = SIDE, .height = SIDE, .seed = 77};
+    assert_ok(koksma_pattern_spec("random", &options.pattern));
+    assert_ok(koksma_render_patterns(patterns, &options));
+    options.integrator = koksma_integrator_find("distribution");
+    options.filter = koksma_filter_find("box");
+    return options;
+}
+
+/* Every use's numbers are drawn in the order of `uses`; two a sample. */
+static void draw(const koksma__sampler *sampler, koksma__sample_room *room, uint64_t pixel, uint32_t use,
+                 float *pairs)
+{
+    static const float nowhere[2] = {0, 0};
+    assert_ok(sampler->draw(sampler, pixel, use, nowhere, room, pairs));
+}
+
+static void open(const koksma_render_options *options, koksma__sampler *sampler, koksma__sample_room *room)
+{
+    assert_ok(koksma__pixel_samples(options, &all_uses, sampler));
+    assert_ok(koksma__sample_room_init(room, sampler));
+}
+
+static void close_all(koksma__sampler *sampler, koksma__sample_room *room)
+{
+    koksma__sample_room_fini(room);
+    sampler->release(sampler);
+}
+
+/* ---- Samples ------------------------------------------------------------------------------------------------ */
+
+static void assert_point(const char *name, const double *x, double a, double b, double c)
+{
+    if (!(fabs(x[0] - a) < 1e-6 && fabs(x[1] - b) < 1e-6 && fabs(x[2] - c) < 1e-6)) {
+        fail_msg("%s: sample (%.7g, %.7g, %.7g) of point (%.7g, %.7g, %.7g)", name, a, b, c, x[0], x[1], x[2]);
+    }
+}
+
+/* Every pattern that has three dimensions: pixel and time of sample i are point i, in every pixel, in whichever order
+   pixels and uses are asked for; and in the order of the names. */
+static void samples_are_the_points_of_one_set(void **state)
+{
+    (void)state;
+    size_t tried = 0;
+    for (size_t p = 0; koksma_pattern_at(p); p++) {
+        const koksma_pattern *pattern = koksma_pattern_at(p);
+        koksma_points points;
+        koksma_spec spec;
+        if (pattern->takes_path || pattern->min_dim > 3 || pattern->max_dim < 3) {
+            continue;
+        }
+        assert_ok(koksma_pattern_spec(pattern->name, &spec));
+        static const int sizes[] = {16, 27, 64, 8};
+        for (size_t s = 0; s < 4; s++) {
+            char text[2][128];
+            const int n = sizes[s];
+            assert_ok(koksma_points_init(&points, (size_t)n, 3));
+            if (koksma_generate(&spec, 1, NULL, &points)) { /* not for this n */
+                koksma_points_fini(&points);
+                continue;
+            }
+            tried++;
+            snprintf(text[0], sizeof text[0], "pixel+time=%s", pattern->name);
+            snprintf(text[1], sizeof text[1], "time+pixel=%s", pattern->name);
+            for (int order = 0; order < 2; order++) {
+                const koksma_render_options options = options_for(text[order], n);
+                koksma__sampler sampler;
+                koksma__sample_room room;
+                float place[128], time[128];
+                open(&options, &sampler, &room);
+                for (uint64_t pixel = 0; pixel < 12; pixel++) {
+                    assert_ok(koksma_generate(&spec, koksma__random_seed(options.seed, pixel, KOKSMA__USE_PIXEL),
+                                              NULL, &points));
+                    draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_TIME : KOKSMA__USE_PIXEL,
+                         pixel % 2 ? time : place);
+                    draw(&sampler, &room, pixel + 31, KOKSMA__USE_LENS, pixel % 2 ? place : time);
+                    draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_PIXEL : KOKSMA__USE_TIME,
+                         pixel % 2 ? place : time);
+                    for (int i = 0; i < n; i++) {
+                        const double x = (double)place[2 * i], y = (double)place[2 * i + 1], t = (double)time[2 * i];
+                        assert_point(text[order], points.xs + 3 * i, order ? t : x, order ? x : y, order ? y : t);
+                    }
+                }
+                close_all(&sampler, &room);
+            }
+            koksma_points_fini(&points);
+            break;
+        }
+    }
+    assert_true(tried >= 15);
+}
+
+/* Faure's points in three dimensions: the first 27 have one in every elementary box of volume 1/27. That holds only
+   for coordinates of one point, and for any order of points. */
+static size_t boxes_with_one(const double xyz[][3], size_t n)
+{
+    size_t good = 0;
+    for (int a = 1; a <= 27; a *= 3) {
+        for (int b = 1; a * b <= 27; b *= 3) {
+            const int c = 27 / (a * b);
+            int counts[27] = {0}, one = 0;
+            for (size_t i = 0; i < n; i++) { /* floats may round up to a border */
+                const int box =
+                    ((int)(xyz[i][0] * a + 1e-5) * b + (int)(xyz[i][1] * b + 1e-5)) * c + (int)(xyz[i][2] * c + 1e-5);
+                counts[box]++;
+            }
+            for (int k = 0; k < 27; k++) {
+                one += counts[k] == 1;
+            }
+            good += one == 27;
+        }
+    }
+    return good;
+}
+
+static void stratification_in_all_dimensions_is_kept(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        uint32_t two, one;
+        bool kept;
+    } cases[] = {
+        {"pixel+time=faure", KOKSMA__USE_PIXEL, KOKSMA__USE_TIME, true},
+        {"pixel=faure;time=faure", KOKSMA__USE_PIXEL, KOKSMA__USE_TIME, false},
+        {"lens+time=faure", KOKSMA__USE_LENS, KOKSMA__USE_TIME, true},
+        {"lens+light-choice=faure", KOKSMA__USE_LENS, KOKSMA__USE_LIGHT_CHOICE, true},
+        {"lobe+lobe-choice=faure", 2 * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE,
+         2 * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE_CHOICE, true},
+        {"lobe+lobe-choice=faure", KOKSMA__USE_LOBE, KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE_CHOICE, false},
+        {"light+light-choice=faure", KOKSMA__USE_LIGHT, KOKSMA__USE_LIGHT_CHOICE, true},
+        {"light+light-choice=faure", KOKSMA__USE_LIGHT + 1, KOKSMA__USE_LIGHT_CHOICE, false},
+        {"light+time=faure", KOKSMA__USE_LIGHT, KOKSMA__USE_TIME, true},
+        {"light+time=faure", KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LIGHT, KOKSMA__USE_TIME, false},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        for (int pairing = 0; pairing < 2; pairing++) {
+            koksma_render_options options = options_for(cases[k].text, 27);
+            koksma__sampler sampler;
+            koksma__sample_room room;
+            double xyz[27][3];
+            float two[54], one[54];
+            options.pairing = pairing ? KOKSMA_PAIRING_ALIGNED : KOKSMA_PAIRING_SHUFFLED;
+            open(&options, &sampler, &room);
+            draw(&sampler, &room, 3, cases[k].two, two);
+            draw(&sampler, &room, 3, cases[k].one, one);
+            for (int i = 0; i < 27; i++) {
+                xyz[i][0] = (double)two[2 * i];
+                xyz[i][1] = (double)two[2 * i + 1];
+                xyz[i][2] = (double)one[2 * i];
+            }
+            if (cases[k].kept && boxes_with_one(xyz, 27) != 10) {
+                fail_msg("%s: not one point in every box", cases[k].text);
+            }
+            if (!cases[k].kept && !pairing && boxes_with_one(xyz, 27) == 10) {
+                fail_msg("%s: separate sets have one point in every box", cases[k].text);
+            }
+            close_all(&sampler, &room);
+        }
+    }
+}
+
+/* Two groups of one pattern are paired at random, and differently from pixel to pixel. */
+static void groups_are_shuffled_as_a_whole(void **state)
+{
+    (void)state;
+    koksma_render_options options = options_for("pixel+time=hammersley;lens+light=hammersley", N);
+    koksma__sampler sampler;
+    koksma__sample_room room;
+    float place[2 * N], lens[2][2 * N], light[2][2 * N];
+    open(&options, &sampler, &room);
+    draw(&sampler, &room, 0, KOKSMA__USE_PIXEL, place);
+    for (uint64_t pixel = 0; pixel < 2; pixel++) {
+        draw(&sampler, &room, pixel, KOKSMA__USE_LENS, lens[pixel]);
+        draw(&sampler, &room, pixel, KOKSMA__USE_LIGHT, light[pixel]);
+    }
+    assert_true(memcmp(lens[0], lens[1], sizeof lens[0]) != 0);
+    assert_true(memcmp(lens[0], place, sizeof place) != 0);
+    for (int i = 0; i < N; i++) {
+        int found = 0;
+        for (int k = 0; k < N; k++) { /* the same row in the other pixel */
+            found += !memcmp(lens[0] + 2 * i, lens[1] + 2 * k, 8) && !memcmp(light[0] + 2 * i, light[1] + 2 * k, 8);
+        }
+        assert_int_equal(found, 1);
+    }
+    close_all(&sampler, &room);
+}
+
+/* Over the image: the triples of all pixels are the points of one set of spp x pixels. */
+static void over_the_image_too(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"pixel+time=hammersley", "pixel+time=scan-time", "pixel+lens=hammersley"};
+    for (size_t k = 0; k < 3; k++) {
+        koksma_render_options options = options_for(texts[k], N);
+        koksma__sampler sampler;
+        koksma_points points;
+        const int dim = k == 2 ? 4 : 3;
+        const size_t n = (size_t)N * SIDE * SIDE;
+        const uint32_t other = k == 2 ? KOKSMA__USE_LENS : KOKSMA__USE_TIME;
+        const koksma_use_group *group = &options.groups[0];
+        static float place[2 * MOST], rest[2 * MOST];
+        size_t samples = 0;
+        options.scope = KOKSMA_SCOPE_IMAGE;
+        assert_ok(koksma__image_samples(&options, &all_uses, NULL, &sampler));
+        assert_ok(koksma_points_init(&points, n, dim));
+        assert_ok(
+            koksma_generate(&group->pattern, koksma__random_seed(options.seed, 0, KOKSMA__USE_PIXEL), NULL, &points));
+        for (uint64_t pixel = 0; pixel < (uint64_t)SIDE * SIDE; pixel++) {
+            draw(&sampler, NULL, pixel, KOKSMA__USE_PIXEL, place);
+            draw(&sampler, NULL, pixel, other, rest);
+            for (size_t i = 0; i < sampler.count(&sampler, pixel); i++, samples++) {
+                size_t found = 0;
+                for (size_t j = 0; j < n; j++) {
+                    const double *x = points.xs + j * (size_t)dim;
+                    found += fabs(x[0] * SIDE - (double)place[2 * i]) < 1e-6 * SIDE &&
+                             fabs(x[1] * SIDE - (double)place[2 * i + 1]) < 1e-6 * SIDE &&
+                             fabs(x[2] - (double)rest[2 * i]) < 1e-6 &&
+                             (dim == 3 || fabs(x[3] - (double)rest[2 * i + 1]) < 1e-6);
+                }
+                assert_true(found >= 1);
+            }
+        }
+        assert_int_equal(samples, n);
+        koksma_points_fini(&points);
+        sampler.release(&sampler);
+    }
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------- */
+
+/* A black ball that goes by before white. A ball of radius r at (x, 0, z) before a pinhole covers an ellipse of the
+   plane at distance 1 whose area is pi r^2 sqrt((x^2 + z^2 - r^2) / (z^2 - r^2)^3). */
+#define MOVING_BALL                                                                                                  \
+    "\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 50}, \"background\": 1, \"shapes\": "      \
+    "[{\"kind\": \"sphere\", \"centre\": [-1, 0, 0], \"radius\": 0.6, \"motion\": [2, 0, 0], \"material\": \"m\"}]"
+#define BLACK "{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0}"
+
+static double share_of_white(void)
+{
+    const double r = 0.6, z = 5, pi = acos(-1), side = 2 * tan(25 * pi / 180);
+    double area = 0;
+    for (int i = 0; i < 1000; i++) {
+        const double x = -1 + 2 * (i + 0.5) / 1000;
+        area += pi * r * r * sqrt((x * x + z * z - r * r) / pow(z * z - r * r, 3)) / 1000;
+    }
+    return 1 - area / (side * side);
+}
+
+typedef struct moments {
+    double mean, error, variance; /* of the image's mean over seeds, and of it; mean variance of a pixel */
+} moments;
+
+static moments over_seeds(const koksma_scene *scene, koksma_render_options options, const char *method)
+{
+    enum { SEEDS = 40, PIXELS = 12 * 12 };
+    double sum = 0, squares = 0, pixel_sum[PIXELS] = {0}, pixel_squares[PIXELS] = {0};
+    moments m = {0};
+    options.width = options.height = 12;
+    for (options.seed = 0; options.seed < SEEDS; options.seed++) {
+        koksma_layers layers = {0};
+        koksma_adaptive_options adaptive;
+        double mean = 0;
+        if (method) {
+            assert_ok(koksma_adaptive_parse(method, &adaptive));
+            adaptive.budget = 8 * options.spp;
+            assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL));
+        } else {
+            assert_ok(koksma_render(scene, &options, NULL, &layers.image));
+        }
+        for (int p = 0; p < PIXELS; p++) {
+            const double v = (double)layers.image.pixels[p];
+            mean += v / PIXELS;
+            pixel_sum[p] += v;
+            pixel_squares[p] += v * v;
+        }
+        sum += mean;
+        squares += mean * mean;
+        koksma_layers_fini(&layers);
+    }
+    m.mean = sum / SEEDS;
+    m.error = sqrt(fmax(squares / SEEDS - m.mean * m.mean, 0) / (SEEDS - 1));
+    for (int p = 0; p < PIXELS; p++) {
+        m.variance += (pixel_squares[p] / SEEDS - pixel_sum[p] * pixel_sum[p] / SEEDS / SEEDS) / PIXELS;
+    }
+    return m;
+}
+
+/* Groups of every kind of pattern show the ball's coverage over time, through both pipelines and over the image. */
+static void pictures_are_right_in_the_mean(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "random;pixel+time=random",
+        "random;pixel+time=scan-time",
+        "random;pixel+time=poisson-time",
+        "random;time+pixel=n-rooks",
+        "random;pixel+time=zaremba:shift=1",
+        "random;time+pixel=sobol:scramble=owen",
+        "random;pixel+time=lattice-rank1:shift=1",
+    };
+    koksma_scene *lanes = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
+    koksma_scene *rays = scene_of("{\"materials\": [" BLACK
+                                  ", {\"name\": \"x\", \"kind\": \"mirror\", \"reflectance\": 1}], " MOVING_BALL "}");
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        koksma_render_options options = options_for(texts[k], N);
+        moments m = over_seeds(lanes, options, NULL);
+        assert_mean(m.mean, m.error, share_of_white());
+        options.scope = KOKSMA_SCOPE_IMAGE;
+        m = over_seeds(k % 2 ? lanes : rays, options, NULL);
+        assert_mean(m.mean, m.error, share_of_white());
+        options.scope = KOKSMA_SCOPE_PIXEL;
+        m = over_seeds(rays, options, k % 2 ? "two-stage" : NULL);
+        assert_mean(m.mean, m.error + (k % 2 ? 1e-3 : 0), share_of_white()); /* two-stage: slightly biased */
+    }
+    koksma_scene_close(lanes);
+    koksma_scene_close(rays);
+}
+
+/* Random points in a group are as good as in separate uses: the variance of pixels is the same. About 40 pixels vary,
+   each over 40 seeds: the ratio has a standard deviation of about sqrt(2 * 2 / 1600) = 0.05. */
+static void a_random_group_is_independent_random(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
+    const double alone = over_seeds(scene, options_for("random", N), NULL).variance;
+    const double together = over_seeds(scene, options_for("random;pixel+time=random", N), NULL).variance;
+    assert_true(alone > 0);
+    assert_near(together / alone, 1, 0.25);
+    koksma_scene_close(scene);
+}
+
+/* ---- Texts and errors -------------------------------------------------------------------------------------------
+ */
+
+static void texts_have_a_canonical_form(void **state)
+{
+    (void)state;
+    static const char *const texts[][2] = {
+        {"jittered", "jittered"},
+        {"pixel+time=scan-time", "random;pixel+time=scan-time"},
+        {"time+pixel=scan-time", "random;time+pixel=scan-time"},
+        {"n-rooks ; lens=zaremba:shift=1; pixel+time=sobol:scramble=owen,shift=0",
+         "n-rooks;pixel+time=sobol:scramble=owen;lens=zaremba:shift=1"},
+        {"roulette+lobe=halton;light+lens=sobol;pixel=jittered",
+         "random;pixel=jittered;light+lens=sobol;roulette+lobe=halton"},
+        {"file:a;b.txt;time=random", "file:a;b.txt;time=random"},
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        char once[KOKSMA_MAX_PATTERNS_TEXT], twice[KOKSMA_MAX_PATTERNS_TEXT];
+        const koksma_render_options options = options_for(texts[i][0], N);
+        koksma_render_patterns_text(&options, once);
+        assert_string_equal(once, texts[i][1]);
+        const koksma_render_options again = options_for(once, N);
+        koksma_render_patterns_text(&again, twice);
+        assert_string_equal(twice, once);
+    }
+}
+
+static void texts_that_are_wrong_say_so(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        koksma_status status;
+        const char *said;
+    } cases[] = {
+        {"pixel+tme=random", KOKSMA_UNKNOWN, "pixel+tme=random: no such use; a sample is spent on pixel, lens"},
+        {"pixel+=random", KOKSMA_UNKNOWN, "no such use"},
+        {"+pixel=random", KOKSMA_UNKNOWN, "no such use"},
+        {"pixel+time=rendom", KOKSMA_UNKNOWN, "no pattern 'rendom'"},
+        {"pixel+time=", KOKSMA_ARGUMENT, "not of the form"},
+        {"", KOKSMA_ARGUMENT, "not of the form"},
+        {"random;", KOKSMA_UNKNOWN, "no pattern 'random;'"},
+        {"random;jittered", KOKSMA_UNKNOWN, "no pattern 'random;jittered'"},
+        {"pixel+time+pixel=random", KOKSMA_ARGUMENT, "use pixel is there twice; a group takes each once"},
+        {"pixel+time=random;time+lens=random", KOKSMA_ARGUMENT, "use time has a pattern already"},
+        {"pixel=random;pixel+lens=random", KOKSMA_ARGUMENT, "use pixel has a pattern already"},
+        {"pixel+lens=random;lens=random", KOKSMA_ARGUMENT, "use lens has a pattern already"},
+        {"pixel=random;pixel=jittered", KOKSMA_ARGUMENT, "it takes one, alone or in one group"},
+        {"pixel+lens=scan-time", KOKSMA_DIM,
+         "these uses have 4 dimensions together (pixel 2, lens 2), the pattern has 3"},
+        {"pixel+time=pmj02", KOKSMA_DIM, "have 3 dimensions together (pixel 2, time 1), the pattern has 2"},
+        {"pixel=scan-time", KOKSMA_DIM, "such as pixel+time=PATTERN"},
+    };
+    koksma_render_options options = options_for("jittered", N);
+    const koksma_render_options before = options;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const koksma_status status = koksma_render_patterns(cases[i].text, &options);
+        if (status != cases[i].status || !strstr(koksma_error_text(), cases[i].said)) {
+            fail_msg("'%s': status %d, %s", cases[i].text, status, koksma_error_text());
+        }
+        assert_memory_equal(&options, &before, sizeof before);
+    }
+    assert_int_equal(koksma_render_patterns(NULL, &options), KOKSMA_ARGUMENT);
+}
+
+static void groups_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    koksma_scene *scene = scene_of("{\"materials\": [" BLACK "], " MOVING_BALL "}");
+    koksma_render_options good = options_for("random;pixel+time=scan-time", N), bad;
+    koksma_image image;
+    koksma_layers layers;
+    koksma_adaptive_options adaptive;
+#define REFUSED(wanted, change, said)                                                                                \
+    do {                                                                                                             \
+        bad = good;                                                                                                  \
+        change;                                                                                                      \
+        assert_int_equal(koksma_render(scene, &bad, NULL, &image), wanted);                                          \
+        if (!strstr(koksma_error_text(), said)) {                                                                    \
+            fail_msg("%s", koksma_error_text());                                                                     \
+        }                                                                                                            \
+    } while (0)
+    REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has its own");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 1, "a group of 1 uses");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 99, "a group of 99 uses");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use 8 of a group");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = -1, "use -1 of a group");
+    REFUSED(KOKSMA_DIM, bad.groups[0].uses[1] = 1, "4 dimensions");
+    REFUSED(KOKSMA_ARGUMENT, bad.groups[3] = bad.groups[0], "use pixel has two patterns");
+    REFUSED(KOKSMA_ARGUMENT, bad.patterns[2] = bad.pattern, "use time has two patterns");
+    REFUSED(KOKSMA_ARGUMENT, memset(&bad.groups[0].pattern, 0, sizeof bad.pattern), "'pixel+time' is not the spec");
+    REFUSED(KOKSMA_N, bad.spp = 17, "scan-time");
+    REFUSED(KOKSMA_DIM, (bad.pattern = bad.groups[0].pattern, memset(bad.groups, 0, sizeof bad.groups)),
+            "takes a group of uses");
+    REFUSED(KOKSMA_ARGUMENT, (bad.pairing = KOKSMA_PAIRING_NATIVE, bad.scope = KOKSMA_SCOPE_IMAGE), "native pairing");
+    for (int k = 0; k < 2; k++) {
+        assert_ok(koksma_adaptive_parse(k ? "selective" : "hierarchical", &adaptive));
+        adaptive.budget = 64;
+        assert_int_equal(koksma_render_adaptive(scene, &good, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
+        assert_non_null(strstr(koksma_error_text(), "without a pattern for pixel+time"));
+    }
+    assert_ok(koksma_adaptive_parse("two-stage", &adaptive));
+    adaptive.budget = 128;
+    bad = options_for("random;pixel+time=zaremba", N);
+    assert_int_equal(koksma_render_adaptive(scene, &bad, &adaptive, NULL, &layers, NULL), KOKSMA_ARGUMENT);
+    assert_non_null(strstr(koksma_error_text(), "every set of pattern zaremba is the same; with shift=1"));
+    koksma_scene_close(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(samples_are_the_points_of_one_set),
+        cmocka_unit_test(stratification_in_all_dimensions_is_kept),
+        cmocka_unit_test(groups_are_shuffled_as_a_whole),
+        cmocka_unit_test(over_the_image_too),
+        cmocka_unit_test(pictures_are_right_in_the_mean),
+        cmocka_unit_test(a_random_group_is_independent_random),
+        cmocka_unit_test(texts_have_a_canonical_form),
+        cmocka_unit_test(texts_that_are_wrong_say_so),
+        cmocka_unit_test(groups_that_cannot_be_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
