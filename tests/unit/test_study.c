@@ -8,7 +8,7 @@
 #include <koksma/study.h>
 
 #include "study/plan.h"
-#include "study/rho_means.h"
+#include "study/rho_words.h"
 #include "study/statistics.h"
 #include "study/store.h"
 #include "study/study.h"
@@ -249,15 +249,19 @@ static void correlations_as_shown(void **state)
     } cases[] = {{{1, -1, 1}, 6}, {{1, 1, 1}, 6}, {{1, 1, 1}, 8}, {{0.9, 0.5, 1}, 8}, {{0.2, -0.3, 0.6}, 8}};
     const double draws[KOKSMA__RHO_SAMPLES] = {0};
     koksma__rho_means means = {0};
+    koksma__rho_jackknife jackknife;
     koksma__html html = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const koksma__estimate shown = koksma__rho_shown(&cases[i].rho, cases[i].n_patterns);
         assert_near(shown.value, cases[i].rho.value, 0);
         assert_int_equal(isnan(shown.low) && isnan(shown.high), i < 3);
-        assert_ok(koksma__rho_add(&means, "star", "", &shown, draws, cases[i].n_patterns));
+        const koksma__rho_source source = {"star", "ball", "", 16, cases[i].n_patterns};
+        assert_ok(koksma__rho_add(&means, &source, &shown, draws));
     }
     assert_int_equal(means.of[0].sure, 1);
-    assert_ok(koksma__rho_sentence(&html, &means));
+    assert_ok(koksma__rho_leave_out(&means, &jackknife));
+    koksma__rho_sentence(&html, &means, &jackknife);
+    koksma__rho_jackknife_fini(&jackknife);
     assert_non_null(strstr(
         html.text, "over 5 cases, in 1 of which its interval excludes 0 (2 have fewer than 7 patterns, too few "
                    "for an interval; 1 are in perfect order, which has none)."));
