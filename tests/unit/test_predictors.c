@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Which measure predicts the error: Holm's correction, rankings of measures and what of them holds without any one
-   scene, rank regression on data with known answers, and plans whose groups of scenes are wrong. */
+   scene, and rank regression on data with known answers. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/random.h"
-#include "study/plan.h"
 #include "study/rank_regression.h"
 #include "study/rho_words.h"
 #include "test.h"
@@ -353,46 +352,6 @@ static void single_with_its_sign(void **state)
     assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, out), KOKSMA_ARGUMENT);
 }
 
-/* ---- Plans --------------------------------------------------------------------------------------------- */
-
-static void wrong_question(const char *fields, const char *reason)
-{
-    static const char *const plan =
-        "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [\"random\"], "
-        "\"measures\": [\"star\"], \"n\": [4], \"trials\": 1}], \"images\": [{\"id\": \"i\", \"scenes\": [\"ball\"], "
-        "\"patterns\": [\"random\"], \"spp\": [4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": "
-        "\"random\", \"spp\": 4}]}, {\"id\": \"j\", \"scenes\": [\"checker\"], \"patterns\": [\"random\"], \"spp\": "
-        "[4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": \"random\", \"spp\": 4}]}],\n"
-        "\"questions\": [{\"id\": \"q\", \"title\": \"Q\", \"images\": \"i\", %s}]}";
-    char text[2048];
-    koksma__plan parsed;
-    snprintf(text, sizeof text, plan, fields);
-    assert_int_equal(koksma__plan_parse("p", text, strlen(text), NULL, &parsed), KOKSMA_MALFORMED);
-    if (strcmp(koksma_error_text(), reason) != 0) {
-        fail_msg("the error is \"%s\" and should be \"%s\"", koksma_error_text(), reason);
-    }
-}
-
-#define CORRELATION "\"kind\": \"correlation\", \"discrepancies\": \"d\",\n"
-
-static void wrong_groups(void **state)
-{
-    (void)state;
-    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"checker\"]}]",
-                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: no block of images 'i' has the scene "
-                   "'checker'");
-    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]},\n{\"title\": \"g\", "
-                               "\"scenes\": [\"ball\"]}]",
-                   "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has it");
-    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"ball\"]}]",
-                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' stands twice");
-    wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");
-    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
-                   "plan 'p': line 4: questions[0].groups[0].scene: unknown field");
-    wrong_question("\"kind\": \"equal\",\n\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]}]",
-                   "plan 'p': line 3: questions[0].groups: only a question of kind correlation takes it");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -407,7 +366,6 @@ int main(void)
         cmocka_unit_test(a_pair_that_predicts),
         cmocka_unit_test(noise_predicts_nothing),
         cmocka_unit_test(single_with_its_sign),
-        cmocka_unit_test(wrong_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,6 +89,40 @@ static void wrong_plans(void **state)
         "plan 'p': line 2: tables[0]: no block of the plan makes the row of random");
 }
 
+static void wrong_question(const char *fields, const char *reason)
+{
+    static const char *const plan =
+        "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [\"random\"], "
+        "\"measures\": [\"star\"], \"n\": [4], \"trials\": 1}], \"images\": [{\"id\": \"i\", \"scenes\": [\"ball\"], "
+        "\"patterns\": [\"random\"], \"spp\": [4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": "
+        "\"random\", \"spp\": 4}]}, {\"id\": \"j\", \"scenes\": [\"checker\"], \"patterns\": [\"random\"], \"spp\": "
+        "[4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": \"random\", \"spp\": 4}]}],\n"
+        "\"questions\": [{\"id\": \"q\", \"title\": \"Q\", \"images\": \"i\", %s}]}";
+    char text[2048];
+    snprintf(text, sizeof text, plan, fields);
+    wrong_plan(text, reason);
+}
+
+#define CORRELATION "\"kind\": \"correlation\", \"discrepancies\": \"d\",\n"
+
+static void wrong_groups(void **state)
+{
+    (void)state;
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"checker\"]}]",
+                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: no block of images 'i' has the scene "
+                   "'checker'");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]},\n{\"title\": \"g\", "
+                               "\"scenes\": [\"ball\"]}]",
+                   "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has it");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"ball\"]}]",
+                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' stands twice");
+    wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
+                   "plan 'p': line 4: questions[0].groups[0].scene: unknown field");
+    wrong_question("\"kind\": \"equal\",\n\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]}]",
+                   "plan 'p': line 3: questions[0].groups: only a question of kind correlation takes it");
+}
+
 static void shipped_plans_parse(void **state)
 {
     (void)state;
@@ -312,6 +346,7 @@ int main(void)
         cmocka_unit_test(student_table),
         cmocka_unit_test(largest_of_blocks),
         cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(wrong_groups),
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),
