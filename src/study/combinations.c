@@ -115,9 +115,15 @@ static koksma_status findings_init(const koksma__combinations *c, findings *f)
     return KOKSMA_OK;
 }
 
-static void add_mean(koksma__html *h, const koksma__summary *s)
+static void add_difference(koksma__html *h, const koksma__summary *s)
 {
     koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
+}
+
+/* Of correlations, which end at 1. */
+static void add_mean(koksma__html *h, const koksma__summary *s)
+{
+    koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
 }
 
 /* In how many scenes the choice of scene i was made. */
@@ -174,9 +180,9 @@ static void add_sentence(koksma__html *h, const koksma__cases *cases, const find
     koksma__html_add(h, ", ridge regression on all %zu measures ", cases->n);
     add_mean(h, &all);
     koksma__html_add(h, ". Beside the single measure the pair changes it by ");
-    add_mean(h, &gain);
+    add_difference(h, &gain);
     koksma__html_add(h, ", all by ");
-    add_mean(h, &gain_of_all);
+    add_difference(h, &gain_of_all);
     koksma__html_add(h,
                      ". With the single measure that is best in each scene itself, which no one knows before, it "
                      "would be %+.2f. Intervals are by Student's t over the scenes; their fits share scenes, and "

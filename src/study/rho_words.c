@@ -176,6 +176,7 @@ void koksma__rho_table(koksma__html *h, const char *id, const koksma__rho_means 
     koksma__grid_open(&grid, h, text);
     koksma__grid_head(&grid, "measure");
     koksma__grid_head_interval(&grid, "mean Spearman");
+    koksma__grid_head(&grid, "p of 0 (Holm)");
     koksma__grid_head(&grid, "lowest without a scene");
     koksma__grid_head(&grid, "highest without a scene");
     koksma__grid_head_interval(&grid, "less the first");
@@ -193,6 +194,7 @@ void koksma__rho_table(koksma__html *h, const char *id, const koksma__rho_means 
         koksma__grid_row(&grid);
         koksma__grid_text(&grid, m->measure);
         koksma__grid_interval(&grid, r->at[i].mean, 3);
+        koksma__grid_number(&grid, r->at[i].p, 2);
         koksma__grid_number(&grid, range.low, 3);
         koksma__grid_number(&grid, range.high, 3);
         koksma__grid_interval(&grid, i ? r->at[i].less : none, 2);
