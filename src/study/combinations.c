@@ -88,6 +88,7 @@ static void findings_fini(findings *f)
     free(f->scenes);
     free(f->cases);
     free(f->held_out);
+    *f = (findings){0};
 }
 
 static koksma_status findings_init(const koksma__combinations *c, findings *f)
