@@ -3,7 +3,8 @@
  * Does a measure order the patterns as the error of images does? For every scene, variant and number of samples the
  * rank correlation, over patterns, of the mean of a measure of n points with the mean error of images of n samples a
  * pixel; its interval is a bootstrap over the patterns that redraws the means. All cases and measures are resampled
- * together, so that the mean correlations of two measures can be compared.
+ * together, so that the mean correlations of two measures can be compared. The mean over all cases comes first, then
+ * the means by scene, by group of scenes and by number of samples, then combinations of measures.
  */
 #include <math.h>
 #include <stdio.h>
@@ -13,15 +14,23 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "study/cases.h"
-#include "study/rho_means.h"
+#include "study/combinations.h"
+#include "study/rho_words.h"
 
 typedef struct listing {
     koksma__grid *grid;
     koksma__rho_means *means;
+    koksma__combinations *combinations;
     size_t most_patterns; /* of a case */
 } listing;
 
-/* rho, with its resamples, and tau. */
+/* A correlation of a measure that is better when larger, turned. */
+static koksma__estimate turned(const koksma__estimate *of)
+{
+    return (koksma__estimate){-of->value, -of->high, -of->low};
+}
+
+/* rho, with its resamples, and tau. Kendall's is only shown: a quarter of the resamples will do. */
 static koksma_status correlate(const koksma__case *p, const koksma__pairs *found, double draws[KOKSMA__RHO_SAMPLES],
                                koksma__estimate *rho, koksma__estimate *tau)
 {
@@ -30,10 +39,19 @@ static koksma_status correlate(const koksma__case *p, const koksma__pairs *found
                              koksma__job_seed("means|%s|%s|%lld", p->scene, p->variant, p->spp)};
     const uint64_t seed = koksma__job_seed("correlation");
     memset(draws, 0, KOKSMA__RHO_SAMPLES * sizeof *draws);
-    const koksma_status status =
+    koksma_status status =
         koksma__bootstrap_pairs(&x, &y, found->n, koksma__spearman, KOKSMA__RHO_SAMPLES, seed, draws, rho);
-    return status ? status
-                  : koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES, seed, NULL, tau);
+    if (!status) {
+        status = koksma__bootstrap_pairs(&x, &y, found->n, koksma__kendall, KOKSMA__RHO_SAMPLES / 4, seed, NULL, tau);
+    }
+    if (p->of->larger) {
+        *rho = turned(rho);
+        *tau = turned(tau);
+        for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+            draws[i] = -draws[i];
+        }
+    }
+    return status;
 }
 
 static koksma_status list_row(const koksma__cases *cases, void *context, const koksma__case *p)
@@ -47,7 +65,8 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
     if (status || found.n < 4) {
         return status;
     }
-    status = correlate(p, &found, draws, &rho, &tau);
+    status = koksma__combinations_add(l->combinations, p, &found);
+    status = status ? status : correlate(p, &found, draws, &rho, &tau);
     if (status || isnan(rho.value)) {
         return status;
     }
@@ -60,7 +79,8 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
     rho = koksma__rho_shown(&rho, found.n);
     koksma__grid_interval(l->grid, rho, 3);
     koksma__grid_interval(l->grid, koksma__rho_shown(&tau, found.n), 3);
-    return koksma__rho_add(l->means, p->of->label, p->variant, &rho, draws, found.n);
+    const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
+    return koksma__rho_add(l->means, &source, &rho, draws);
 }
 
 /* What the answer leaves out. */
@@ -117,6 +137,30 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     return KOKSMA_OK;
 }
 
+/* Sentence, tables and charts of the correlations, of which there are some; list: the table of every case. */
+static koksma_status report(koksma__html *h, const koksma__cases *cases, const listing *l, const char *list)
+{
+    const koksma__topic *topic = cases->topic;
+    koksma__rho_jackknife jackknife;
+    koksma__rho_order(l->means);
+    koksma_status status = koksma__rho_leave_out(l->means, &jackknife);
+    if (status) {
+        return status;
+    }
+    koksma__rho_sentence(h, l->means, &jackknife);
+    add_limits(h, l);
+    koksma__rho_table(h, topic->id, l->means, &jackknife);
+    koksma__rho_jackknife_fini(&jackknife);
+    status = koksma__rho_breakdowns(h, topic, l->means);
+    status = status ? status : koksma__combinations_report(h, topic->id, l->combinations);
+    koksma__html_add(h, "<details><summary>Every case, with intervals</summary>\n%s</details>\n", list);
+    koksma__html_add(h, "<div class=\"figures\">\n");
+    plots to = {h, l->means->of[0].measure, 6};
+    status = status ? status : koksma__cases_visit(cases, add_scatter, &to);
+    koksma__html_add(h, "</div>\n");
+    return status;
+}
+
 koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, const koksma__topic *topic)
 {
     koksma__grid grid;
@@ -132,25 +176,18 @@ koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, c
     }
     koksma__grid_head_interval(&grid, "Spearman");
     koksma__grid_head_interval(&grid, "Kendall");
-    listing l = {&grid, &s, 0};
     koksma_status status = koksma__cases_open(study, topic, &cases);
+    koksma__combinations combinations = {.cases = &cases};
+    listing l = {&grid, &s, &combinations, 0};
     status = status ? status : koksma__cases_visit(&cases, list_row, &l);
     koksma__grid_close(&grid);
     if (!status && s.n) {
-        koksma__rho_order(&s);
-        status = koksma__rho_sentence(h, &s);
-        add_limits(h, &l);
-        status = status ? status : koksma__rho_table(h, topic->id, &s);
-        koksma__html_add(h, "<details><summary>Every case, with intervals</summary>\n%s</details>\n",
-                         list.text ? list.text : "");
-        koksma__html_add(h, "<div class=\"figures\">\n");
-        plots to = {h, s.of[0].measure, 6};
-        status = status ? status : koksma__cases_visit(&cases, add_scatter, &to);
-        koksma__html_add(h, "</div>\n");
+        status = report(h, &cases, &l, list.text ? list.text : "");
     }
     h->failed |= list.failed;
     free(list.text);
     koksma__rho_fini(&s);
+    koksma__combinations_fini(&combinations);
     koksma__cases_close(&cases);
     return status;
 }

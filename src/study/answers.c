@@ -170,6 +170,8 @@ static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__
     koksma_status status = topic_init(plan, q->id, &topic);
     if (!status) {
         choose_blocks(plan, &plan->parts[q->part], q, &topic);
+        topic.groups = q->groups;
+        topic.n_groups = q->n_groups;
         koksma__html_add(html, "<h3");
         koksma__html_id(html, "question", q->id);
         koksma__html_add(html, ">(%s) ", q->id);

@@ -15,6 +15,8 @@ typedef struct koksma__topic {
     const koksma__discrepancy_block **discrepancies; /* room for all of the plan */
     const koksma__image_block **images;
     size_t n_discrepancies, n_images;
+    size_t n_groups; /* of scenes, of the question */
+    const koksma__scene_group *groups;
 } koksma__topic;
 
 /* Appends all questions of the plan; of a plan without tables and questions, those that its blocks can answer. */

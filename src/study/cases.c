@@ -35,7 +35,9 @@ static koksma_status add_measured(koksma__cases *c, const char *measure, int dim
     }
     c->measured = measured;
     koksma__measured *m = &measured[c->n++];
+    koksma_spec spec;
     *m = (koksma__measured){.measure = measure, .dim = dim};
+    m->larger = !koksma_measure_spec(measure, &spec) && spec.measure->larger_is_better;
     const int length = snprintf(m->label, sizeof m->label, "%s", measure);
     if (dim != 2) {
         snprintf(m->label + length, sizeof m->label - (size_t)length, " (%dD)", dim);

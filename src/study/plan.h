@@ -110,11 +110,19 @@ typedef enum koksma__question_kind {
     KOKSMA__ASK_KINDS
 } koksma__question_kind;
 
+/* Scenes of a question that share what dominates their error. */
+typedef struct koksma__scene_group {
+    char *title;
+    koksma__texts scenes;
+} koksma__scene_group;
+
 typedef struct koksma__question {
     char *id, *title;
     size_t part; /* whose question it is */
     koksma__question_kind kind;
     char *discrepancies, *images; /* ids of blocks; NULL: none */
+    size_t n_groups;              /* of a correlation */
+    koksma__scene_group *groups;
 } koksma__question;
 
 /* One of the plans that became one: its tables and questions speak of its own blocks, whatever others have. */

@@ -181,6 +181,11 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->questions[i].title);
         free(p->questions[i].discrepancies);
         free(p->questions[i].images);
+        for (size_t g = 0; g < p->questions[i].n_groups; g++) {
+            free(p->questions[i].groups[g].title);
+            koksma__texts_fini(&p->questions[i].groups[g].scenes);
+        }
+        free(p->questions[i].groups);
     }
     for (size_t i = 0; i < p->n_parts; i++) {
         free(p->parts[i].title);

@@ -65,6 +65,10 @@ koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, siz
 double koksma__spearman(const double *x, const double *y, size_t n);
 double koksma__kendall(const double *x, const double *y, size_t n);
 
+/* out: the centred mean ranks of n values over the root of their sum of squares, so that the sum of the products of
+   two such lists is Spearman's rho; zeros where all values compare equal. */
+void koksma__unit_ranks(const double *values, size_t n, double *out);
+
 enum { KOKSMA__LEAST_PAIRS = 7 }; /* for an interval */
 
 /* A statistic of the pairs (x, y), NaN when it has no value. */
@@ -97,6 +101,17 @@ typedef struct koksma__draws {
    MEMORY. */
 koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma__draws *b, size_t samples,
                                            koksma__estimate *out);
+
+/* The two-sided p of "it is 0" from resamples, values[i] a - b[i] c (b NULL: 0): twice the rarer sign's share, 0
+   counting for both signs, with the +1 of Davison and Hinkley (1997): never below 2 / (samples + 1). NaN are left
+   out; without values it is 1. */
+double koksma__resampled_p(const double *values, double a, const double *b, double c, size_t samples);
+
+/* ---- Several tests at once ------------------------------------------------------------------------------ */
+
+/* Holm's (1979) adjusted p of n tests, in place: those up to 0.05 may all be called sure, and the chance that one of
+   them is wrong is no more than 5 %, whatever the tests have to do with each other. Errors: MEMORY. */
+koksma_status koksma__holm(double *p, size_t n);
 
 /* ---- Equal error --------------------------------------------------------------------------------------- */
 

@@ -8,7 +8,7 @@
 #include <koksma/study.h>
 
 #include "study/plan.h"
-#include "study/rho_means.h"
+#include "study/rho_words.h"
 #include "study/statistics.h"
 #include "study/store.h"
 #include "study/study.h"
@@ -87,6 +87,40 @@ static void wrong_plans(void **state)
         "[\"star\"], \"n\": [4], \"trials\": 1}], \"tables\": [\n{\"id\": \"1\", \"title\": \"t\", \"measure\": "
         "\"extreme\", \"n\": 4, \"rows\": [{\"pattern\": \"random\", \"label\": \"r\", \"published\": [1,2,3]}]}]}",
         "plan 'p': line 2: tables[0]: no block of the plan makes the row of random");
+}
+
+static void wrong_question(const char *fields, const char *reason)
+{
+    static const char *const plan =
+        "{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"id\": \"d\", \"patterns\": [\"random\"], "
+        "\"measures\": [\"star\"], \"n\": [4], \"trials\": 1}], \"images\": [{\"id\": \"i\", \"scenes\": [\"ball\"], "
+        "\"patterns\": [\"random\"], \"spp\": [4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": "
+        "\"random\", \"spp\": 4}]}, {\"id\": \"j\", \"scenes\": [\"checker\"], \"patterns\": [\"random\"], \"spp\": "
+        "[4], \"trials\": 1, \"references\": [{\"name\": \"r\", \"pattern\": \"random\", \"spp\": 4}]}],\n"
+        "\"questions\": [{\"id\": \"q\", \"title\": \"Q\", \"images\": \"i\", %s}]}";
+    char text[2048];
+    snprintf(text, sizeof text, plan, fields);
+    wrong_plan(text, reason);
+}
+
+#define CORRELATION "\"kind\": \"correlation\", \"discrepancies\": \"d\",\n"
+
+static void wrong_groups(void **state)
+{
+    (void)state;
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"checker\"]}]",
+                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: no block of images 'i' has the scene "
+                   "'checker'");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]},\n{\"title\": \"g\", "
+                               "\"scenes\": [\"ball\"]}]",
+                   "plan 'p': line 4: questions[0].groups[1]: title 'g': another group has it");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scenes\": [\"ball\",\n\"ball\"]}]",
+                   "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' stands twice");
+    wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");
+    wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
+                   "plan 'p': line 4: questions[0].groups[0].scene: unknown field");
+    wrong_question("\"kind\": \"equal\",\n\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]}]",
+                   "plan 'p': line 3: questions[0].groups: only a question of kind correlation takes it");
 }
 
 static void shipped_plans_parse(void **state)
@@ -249,15 +283,19 @@ static void correlations_as_shown(void **state)
     } cases[] = {{{1, -1, 1}, 6}, {{1, 1, 1}, 6}, {{1, 1, 1}, 8}, {{0.9, 0.5, 1}, 8}, {{0.2, -0.3, 0.6}, 8}};
     const double draws[KOKSMA__RHO_SAMPLES] = {0};
     koksma__rho_means means = {0};
+    koksma__rho_jackknife jackknife;
     koksma__html html = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const koksma__estimate shown = koksma__rho_shown(&cases[i].rho, cases[i].n_patterns);
         assert_near(shown.value, cases[i].rho.value, 0);
         assert_int_equal(isnan(shown.low) && isnan(shown.high), i < 3);
-        assert_ok(koksma__rho_add(&means, "star", "", &shown, draws, cases[i].n_patterns));
+        const koksma__rho_source source = {"star", "ball", "", 16, cases[i].n_patterns};
+        assert_ok(koksma__rho_add(&means, &source, &shown, draws));
     }
     assert_int_equal(means.of[0].sure, 1);
-    assert_ok(koksma__rho_sentence(&html, &means));
+    assert_ok(koksma__rho_leave_out(&means, &jackknife));
+    koksma__rho_sentence(&html, &means, &jackknife);
+    koksma__rho_jackknife_fini(&jackknife);
     assert_non_null(strstr(
         html.text, "over 5 cases, in 1 of which its interval excludes 0 (2 have fewer than 7 patterns, too few "
                    "for an interval; 1 are in perfect order, which has none)."));
@@ -308,6 +346,7 @@ int main(void)
         cmocka_unit_test(student_table),
         cmocka_unit_test(largest_of_blocks),
         cmocka_unit_test(wrong_plans),
+        cmocka_unit_test(wrong_groups),
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),

@@ -1,0 +1,371 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Which measure predicts the error: Holm's correction, rankings of measures and what of them holds without any one
+   scene, and rank regression on data with known answers. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "study/rank_regression.h"
+#include "study/rho_words.h"
+#include "test.h"
+
+static double uniform(uint64_t seed, uint64_t i)
+{
+    double u[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, i, 0, u);
+    return u[0];
+}
+
+static double normal(uint64_t seed, uint64_t i)
+{
+    double u[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, i, 0, u);
+    return sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
+}
+
+/* ---- Holm ---------------------------------------------------------------------------------------------- */
+
+/* p.adjust(c(.01, .04, .03, .005), "holm") in R: .03 .06 .06 .02. The four tests of the example in Wikipedia's
+   "Holm-Bonferroni method" (2024): at 5 % the first and the fourth are rejected. */
+static void holm_by_hand(void **state)
+{
+    (void)state;
+    double p[] = {0.01, 0.04, 0.03, 0.005};
+    const double adjusted[] = {0.03, 0.06, 0.06, 0.02};
+    assert_ok(koksma__holm(p, 4));
+    for (size_t i = 0; i < 4; i++) {
+        assert_near(p[i], adjusted[i], 1e-15);
+    }
+    double one[] = {0.04}, large[] = {0.9, 0.6};
+    assert_ok(koksma__holm(one, 1));
+    assert_ok(koksma__holm(large, 2));
+    assert_ok(koksma__holm(NULL, 0));
+    assert_true(one[0] == 0.04 && large[0] == 1 && large[1] == 1);
+}
+
+/* Holm's procedure is the closed test of Bonferroni's: a test's adjusted p is the largest, over all sets of tests
+   that have it, of the set's size times its smallest p. */
+static void holm_is_the_closed_test(void **state)
+{
+    (void)state;
+    for (uint64_t t = 0; t < 100; t++) {
+        double p[7], adjusted[7];
+        for (uint64_t i = 0; i < 7; i++) {
+            p[i] = adjusted[i] = t % 2 ? pow(uniform(t, i), 4) : floor(8 * uniform(t, i)) / 40; /* with ties */
+        }
+        assert_ok(koksma__holm(adjusted, 7));
+        for (unsigned i = 0; i < 7; i++) {
+            double most = 0;
+            for (unsigned set = 1; set < 128; set++) {
+                double least = 1, size = 0;
+                for (unsigned j = 0; j < 7; j++) {
+                    if (set >> j & 1) {
+                        least = fmin(least, p[j]);
+                        size++;
+                    }
+                }
+                most = set >> i & 1 ? fmax(most, fmin(1, size * least)) : most;
+            }
+            assert_near(adjusted[i], most, 1e-15);
+        }
+    }
+}
+
+static void p_of_resamples(void **state)
+{
+    (void)state;
+    const double values[] = {1, 2, -1, 3, NAN, 4, 5, 6, 7, 8}, same[] = {1, 2, -1, 3, 0, 4, 5, 6, 7, 8};
+    assert_near(koksma__resampled_p(values, 1, NULL, 0, 10), 2 * (1 + 1) / 10.0, 1e-15); /* 1 of 9 below 0 */
+    assert_near(koksma__resampled_p(values, -1, NULL, 0, 10), 2 * (1 + 1) / 10.0, 1e-15);
+    assert_near(koksma__resampled_p(values, 1, same, 1, 10), 1, 0); /* all differences are 0 */
+    assert_near(koksma__resampled_p(values, 1, same, -1, 2), 2 / 3.0, 1e-15);
+    assert_near(koksma__resampled_p(values + 4, 1, NULL, 0, 1), 1, 0); /* there is none */
+}
+
+/* The sum of products of unit ranks is Spearman's rho: ranks 1.5 1.5 3.5 3.5 5 and 2 1 4 3 5 less 3. */
+static void unit_ranks_by_hand(void **state)
+{
+    (void)state;
+    const double x[] = {1, 1, 2, 2, 3}, y[] = {20, 10, 40, 30, 50}, flat[] = {2, 2, 2};
+    double a[5], b[5], sum = 0;
+    koksma__unit_ranks(x, 5, a);
+    koksma__unit_ranks(y, 5, b);
+    for (size_t i = 0; i < 5; i++) {
+        sum += a[i] * b[i];
+    }
+    assert_near(a[0], -1.5 / 3, 1e-15);
+    assert_near(a[4], 2 / 3.0, 1e-15);
+    assert_near(sum, (1.5 + 3 + 0.5 + 0 + 4) / sqrt(9 * 10.0), 1e-15);
+    koksma__unit_ranks(flat, 3, a);
+    assert_true(a[0] == 0 && a[1] == 0 && a[2] == 0);
+}
+
+/* ---- Rankings ------------------------------------------------------------------------------------------ */
+
+enum { SCENES = 4, MEASURES = 5 };
+
+static const char *const scene_names[SCENES] = {"s0", "s1", "s2", "s3"};
+static const char *const measure_names[MEASURES] = {"A", "B", "C", "D", "E"};
+
+/* Correlations of measures by scene, with resamples of this standard deviation; without a scene (SCENES: all). */
+static void add_means(koksma__rho_means *s, const double rho[MEASURES][SCENES], size_t measures, double sd,
+                      size_t without)
+{
+    double draws[KOKSMA__RHO_SAMPLES];
+    *s = (koksma__rho_means){0};
+    for (size_t m = 0; m < measures; m++) {
+        for (size_t k = 0; k < SCENES; k++) {
+            if (k != without) {
+                const koksma__rho_source source = {measure_names[m], scene_names[k], "", k < 2 ? 16 : 4, 16};
+                const koksma__estimate e = {rho[m][k], rho[m][k] - 2 * sd, rho[m][k] + 2 * sd};
+                for (uint64_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+                    draws[i] = rho[m][k] + sd * normal(10 * m + k, i);
+                }
+                assert_ok(koksma__rho_add(s, &source, &e, draws));
+            }
+        }
+    }
+    koksma__rho_order(s);
+}
+
+static size_t number_of(const koksma__rho_means *s, const char *measure)
+{
+    size_t m = 0;
+    while (strcmp(s->of[m].measure, measure) != 0) {
+        m++;
+    }
+    return m;
+}
+
+static bool better(const koksma__rho_means *s, const koksma__rho_jackknife *j, const char *a, const char *b)
+{
+    return koksma__rho_always_better(j, number_of(s, a), number_of(s, b));
+}
+
+/* C is surely worse than A over all scenes and surely better than B, but only because of s3 and of the others. */
+static void headline_without_one_scene(void **state)
+{
+    (void)state;
+    const double rho[MEASURES][SCENES] = {
+        {.92, .92, .92, .92}, {.5, .5, .5, .5}, {.9, .9, .9, -.4}, {.05, -.05, .05, -.05}};
+    koksma__rho_means s;
+    koksma__rho_jackknife j;
+    koksma__html h = {0};
+    add_means(&s, rho, 4, 0.03, SCENES);
+    assert_ok(koksma__rho_leave_out(&s, &j));
+    assert_int_equal(j.n, 1 + SCENES);
+    assert_true(j.of[0].n_pairs == 6 && j.of[0].n == 4);
+    const size_t a = number_of(&s, "A"), b = number_of(&s, "B"), c = number_of(&s, "C"), d = number_of(&s, "D");
+    assert_true(koksma__rho_is_better(&j.of[0], a, c) && koksma__rho_is_better(&j.of[0], c, b));
+    assert_true(better(&s, &j, "A", "B") && better(&s, &j, "B", "D") && better(&s, &j, "A", "D"));
+    assert_true(!better(&s, &j, "A", "C") && !better(&s, &j, "C", "B") && !better(&s, &j, "B", "A"));
+    assert_true(koksma__rho_always_predicts(&j, b) && !koksma__rho_always_predicts(&j, d));
+    assert_near(koksma__rho_range(&j, c).low, (0.9 + 0.9 - 0.4) / 3, 1e-15);
+    assert_near(koksma__rho_range(&j, c).high, 0.9, 1e-15);
+    koksma__rho_sentence(&h, &s, &j);
+    assert_non_null(strstr(h.text, "<code>A</code> orders the patterns most"));
+    assert_non_null(strstr(h.text, "comes first without any one of the 4 scenes, too (+0.92 to +0.92)"));
+    assert_non_null(strstr(h.text, "<code>A</code> than <code>B</code> and <code>D</code>;"));
+    assert_null(strstr(h.text, "<code>A</code> than <code>C"));
+    assert_non_null(strstr(h.text, "2 more differences that are sure over all scenes are not without one of them."));
+    koksma__rho_jackknife_fini(&j);
+    koksma__rho_fini(&s);
+    free(h.text);
+}
+
+/* Y comes first over all scenes, and X without s3. */
+static void headline_that_depends_on_a_scene(void **state)
+{
+    (void)state;
+    const double rho[MEASURES][SCENES] = {{.95, .95, .95, -.5}, {.6, .6, .6, .6}};
+    koksma__rho_means s;
+    koksma__rho_jackknife j;
+    koksma__html h = {0};
+    add_means(&s, rho, 2, 0.03, SCENES);
+    assert_ok(koksma__rho_leave_out(&s, &j));
+    koksma__rho_sentence(&h, &s, &j);
+    assert_non_null(strstr(h.text, "depends on the scenes. Over all of them it is <code>B</code>: mean rank "
+                                   "correlation (Spearman) +0.60 over 4 cases"));
+    assert_non_null(strstr(h.text, "; without s3 it is <code>A</code>."));
+    assert_non_null(strstr(h.text, "No measure is surely better than another, whichever one scene is left out."));
+    assert_null(strstr(h.text, "The last is"));
+    koksma__rho_jackknife_fini(&j);
+    koksma__rho_fini(&s);
+    free(h.text);
+}
+
+/* Each statement over all scenes is one again of means that never had a scene, whichever it is. */
+static void statements_survive_any_scene(void **state)
+{
+    (void)state;
+    int stated = 0, dropped = 0;
+    for (uint64_t t = 0; t < 8; t++) {
+        double rho[MEASURES][SCENES];
+        for (uint64_t i = 0; i < (uint64_t)MEASURES * SCENES; i++) {
+            rho[i / SCENES][i % SCENES] = 0.8 - 0.2 * (double)(i / SCENES) + 0.3 * (uniform(t, i) - 0.5);
+        }
+        koksma__rho_means all, less;
+        koksma__rho_jackknife j;
+        add_means(&all, rho, MEASURES, 0.05, SCENES);
+        assert_ok(koksma__rho_leave_out(&all, &j));
+        for (size_t k = 0; k < SCENES; k++) {
+            koksma__rho_ranking r;
+            add_means(&less, rho, MEASURES, 0.05, k);
+            assert_ok(koksma__rho_rank(&less, &(koksma__rho_subset){0}, &r));
+            for (size_t a = 0; a < MEASURES; a++) {
+                for (size_t b = 0; b < MEASURES; b++) {
+                    const size_t x = number_of(&less, measure_names[a]), y = number_of(&less, measure_names[b]);
+                    const bool always = better(&all, &j, measure_names[a], measure_names[b]);
+                    assert_true(!always || koksma__rho_is_better(&r, x, y));
+                    stated += always;
+                    dropped += !always && koksma__rho_is_better(&j.of[0], number_of(&all, measure_names[a]),
+                                                                number_of(&all, measure_names[b]));
+                }
+            }
+            if (koksma__rho_always_first(&j, number_of(&all, "A"))) {
+                assert_int_equal(r.at[0].measure, number_of(&less, "A"));
+            }
+            koksma__rho_ranking_fini(&r);
+            koksma__rho_fini(&less);
+        }
+        koksma__rho_jackknife_fini(&j);
+        koksma__rho_fini(&all);
+    }
+    assert_true(stated > 0 && dropped > 0);
+}
+
+/* A group's mean is over its scenes' cases, a size's over its; one scene alone is no jackknife. */
+static void means_of_parts(void **state)
+{
+    (void)state;
+    const double rho[MEASURES][SCENES] = {{.9, .5, .3, .1}, {.2, .4, .6, .8}};
+    const bool first_two[SCENES] = {true, true, false, false};
+    koksma__rho_means s;
+    koksma__rho_ranking r;
+    add_means(&s, rho, 2, 0.02, SCENES);
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two}, &r));
+    assert_string_equal(s.of[r.at[0].measure].measure, "A");
+    assert_near(r.at[0].mean.value, 0.7, 1e-15);
+    assert_near(r.at[1].less.value, 0.3 - 0.7, 1e-15);
+    assert_in_range(1000 * (r.at[0].mean.high - r.at[0].mean.low), 50, 61); /* 2 x 1.96 x 0.02 / sqrt(2) = 0.0554 */
+    koksma__rho_ranking_fini(&r);
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.spp = 4}, &r)); /* s2 and s3 */
+    assert_string_equal(s.of[r.at[0].measure].measure, "B");
+    assert_near(r.at[0].mean.value, 0.7, 1e-15);
+    koksma__rho_ranking_fini(&r);
+    assert_ok(koksma__rho_rank(&s, &(koksma__rho_subset){.scenes = first_two, .spp = 4}, &r));
+    assert_int_equal(r.n, 0);
+    koksma__rho_ranking_fini(&r);
+    koksma__rho_fini(&s);
+}
+
+/* ---- Rank regression ----------------------------------------------------------------------------------- */
+
+enum { PATTERNS = 16, MOST_MEASURES = 10, MOST_CASES = 24 };
+
+typedef struct data {
+    koksma__rank_case cases[MOST_CASES];
+    double ranks[MOST_CASES][(MOST_MEASURES + 1) * PATTERNS];
+} data;
+
+/* Noise everywhere; with `signal` the first two measures share most of it, and the error is their difference. */
+static void set_data(data *d, uint64_t seed, size_t n_cases, size_t n_scenes, size_t k, bool signal)
+{
+    for (size_t c = 0; c < n_cases; c++) {
+        double x[MOST_MEASURES + 1][PATTERNS];
+        for (uint64_t i = 0; i < (k + 1) * PATTERNS; i++) {
+            x[i / PATTERNS][i % PATTERNS] = uniform(100 * seed + c, i);
+        }
+        for (size_t i = 0; signal && i < PATTERNS; i++) {
+            x[1][i] = x[0][i] + 0.4 * (x[1][i] - 0.5);
+        }
+        for (size_t m = 0; m < k; m++) {
+            koksma__unit_ranks(x[m], PATTERNS, d->ranks[c] + m * PATTERNS);
+        }
+        for (size_t i = 0; signal && i < PATTERNS; i++) {
+            x[k][i] = d->ranks[c][i] - d->ranks[c][PATTERNS + i];
+        }
+        koksma__unit_ranks(x[k], PATTERNS, d->ranks[c] + k * PATTERNS);
+        d->cases[c] = (koksma__rank_case){c % n_scenes, PATTERNS, d->ranks[c]};
+    }
+}
+
+static void a_pair_that_predicts(void **state)
+{
+    (void)state;
+    data d;
+    koksma__held_out out[8];
+    set_data(&d, 7, 24, 8, 6, true);
+    assert_ok(koksma__rank_regression(d.cases, 24, 6, 8, out));
+    for (size_t s = 0; s < 8; s++) {
+        assert_int_equal(out[s].cases, 3);
+        assert_true(out[s].pair[0] == 0 && out[s].pair[1] == 1);
+        assert_true(out[s].rho_pair > 0.95 && out[s].rho_all > 0.85);
+        assert_true(out[s].rho_single < 0.6 && out[s].rho_hindsight < 0.6);
+    }
+}
+
+/* Noise must not look predictive: the mean over 30 sets of 8 scenes of 2 cases has the standard error
+   (1 / sqrt(15)) / sqrt(480) = 0.012; what is best in hindsight looks so. */
+static void noise_predicts_nothing(void **state)
+{
+    (void)state;
+    static data d;
+    double sums[4] = {0};
+    for (uint64_t t = 0; t < 30; t++) {
+        koksma__held_out out[8];
+        set_data(&d, t, 16, 8, MOST_MEASURES, false);
+        assert_ok(koksma__rank_regression(d.cases, 16, MOST_MEASURES, 8, out));
+        for (size_t s = 0; s < 8; s++) {
+            sums[0] += out[s].rho_single / 240;
+            sums[1] += out[s].rho_pair / 240;
+            sums[2] += out[s].rho_all / 240;
+            sums[3] += out[s].rho_hindsight / 240;
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        assert_true(fabs(sums[i]) < 4.5 * 0.012);
+    }
+    assert_true(sums[3] > 0.25);
+}
+
+/* One measure that is the error's order, or its reverse, in all scenes but s: s is predicted with the others' sign.
+ */
+static void single_with_its_sign(void **state)
+{
+    (void)state;
+    data d;
+    koksma__held_out out[5];
+    set_data(&d, 3, 4, 4, 3, false);
+    for (size_t c = 0; c < 4; c++) {
+        for (size_t i = 0; i < PATTERNS; i++) {
+            d.ranks[c][2 * PATTERNS + i] = (c == 1 ? 1 : -1) * d.ranks[c][3 * PATTERNS + i];
+        }
+    }
+    assert_ok(koksma__rank_regression(d.cases, 4, 3, 5, out)); /* scene 4 has no case */
+    for (size_t s = 0; s < 4; s++) {
+        assert_int_equal(out[s].single, 2);
+        assert_near(out[s].rho_single, s == 1 ? -1 : 1, 1e-12);
+        assert_true(out[s].hindsight == 2 && fabs(out[s].rho_hindsight - 1) < 1e-12);
+    }
+    assert_int_equal(out[4].cases, 0);
+    assert_int_equal(koksma__rank_regression(d.cases, 2, 3, 5, out), KOKSMA_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(holm_by_hand),
+        cmocka_unit_test(holm_is_the_closed_test),
+        cmocka_unit_test(p_of_resamples),
+        cmocka_unit_test(unit_ranks_by_hand),
+        cmocka_unit_test(headline_without_one_scene),
+        cmocka_unit_test(headline_that_depends_on_a_scene),
+        cmocka_unit_test(statements_survive_any_scene),
+        cmocka_unit_test(means_of_parts),
+        cmocka_unit_test(a_pair_that_predicts),
+        cmocka_unit_test(noise_predicts_nothing),
+        cmocka_unit_test(single_with_its_sign),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
