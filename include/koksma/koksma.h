@@ -240,10 +240,10 @@ typedef enum koksma_witness_kind {
 } koksma_witness_kind;
 
 /* The region where a supremum is reached, so that anyone can check it by counting: in doubles, boxes by comparing
-   coordinates, half-planes by lo[0] x + lo[1] y (+ lo[2] z), disks by a a + b b against hi[0] hi[0], where a = dx - round(dx) and
-   likewise b are the way from the centre on the torus. Bounds are rounded so that points on the boundary fall on the
-   side that count has them on; volume is that of the region before. Sides of an anchored box (star) at 0 are no
-   boundary: points on them are in. */
+   coordinates, half-planes by lo[0] x + lo[1] y (+ lo[2] z), disks by a a + b b against hi[0] hi[0], where a = dx -
+   round(dx) and likewise b are the way from the centre on the torus. Bounds are rounded so that points on the
+   boundary fall on the side that count has them on; volume is that of the region before. Sides of an anchored box
+   (star) at 0 are no boundary: points on them are in. */
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;
