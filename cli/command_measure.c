@@ -32,7 +32,7 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
         return;
     }
     char json[1024], text[256];
-    const int lo_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 2,
+    const int lo_dim = w->kind == KOKSMA_WITNESS_DISK ? 2 : w->dim,
               hi_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 1;
     snprintf(json, sizeof json,
              "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g,\"lo\":", kinds[w->kind],
@@ -41,15 +41,20 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     strcat(json, ",\"hi\":");
     put_corner(json, sizeof json, w->hi, hi_dim);
     strcat(json, "}");
+    const bool space = w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 3;
     int used = snprintf(text, sizeof text, "%zu points in the %s %s", w->count, w->closed ? "closed" : "open",
-                        kinds[w->kind]);
+                        space ? "half-space" : kinds[w->kind]);
     if (w->kind == KOKSMA_WITNESS_BOX) {
         for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
             used += snprintf(text + used, sizeof text - (size_t)used, "%s%.6g..%.6g", k ? " x " : " ", w->lo[k],
                              w->hi[k]);
         }
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
-        snprintf(text + used, sizeof text - (size_t)used, " %.6g x + %.6g y <= %.6g", w->lo[0], w->lo[1], w->hi[0]);
+        used += snprintf(text + used, sizeof text - (size_t)used, " %.6g x + %.6g y", w->lo[0], w->lo[1]);
+        if (space) {
+            used += snprintf(text + used, sizeof text - (size_t)used, " + %.6g z", w->lo[2]);
+        }
+        snprintf(text + used, sizeof text - (size_t)used, " <= %.6g", w->hi[0]);
     } else {
         snprintf(text + used, sizeof text - (size_t)used, " about (%.6g, %.6g) of radius %.6g", w->lo[0], w->lo[1],
                  w->hi[0]);

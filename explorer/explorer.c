@@ -227,10 +227,10 @@ static void put_witness(const koksma_witness *w)
         put("null");
         return;
     }
-    const bool box = w->kind == KOKSMA_WITNESS_BOX;
+    const bool box = w->kind == KOKSMA_WITNESS_BOX, disk = w->kind == KOKSMA_WITNESS_DISK;
     put("{\"kind\":\"%s\",\"closed\":%s,\"count\":%lu,\"volume\":%.17g", kinds[w->kind], w->closed ? "true" : "false",
         (unsigned long)w->count, w->volume);
-    put_corner("lo", w->lo, box ? w->dim : 2);
+    put_corner("lo", w->lo, disk ? 2 : w->dim);
     put_corner("hi", w->hi, box ? w->dim : 1);
     put("}");
 }

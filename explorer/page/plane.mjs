@@ -55,6 +55,7 @@ function drawWitness(witness, axes, dim) {
     return [svg("rect", { class: edge, ...box })];
   }
   if (kind === "half-plane") {
+    if (lo.length > 2) return []; // a half-space has no outline in the plane
     return [svg("polygon", { class: edge, points: halfPlane(lo, hi).map(([x, y]) => `${at(x)},${up(y)}`).join(" ") })];
   }
   const disks = [];
@@ -69,7 +70,7 @@ export function witnessText(witness, n) {
   const { kind, closed, count, volume, lo, hi } = witness;
   const where = {
     "box": () => lo.map((x, k) => `[${short(x, 6)}, ${short(hi[k], 6)}]`).join(" × "),
-    "half-plane": () => `${short(lo[0], 6)} x + ${short(lo[1], 6)} y ≤ ${short(hi[0], 6)}`,
+    "half-plane": () => `${lo.map((a, k) => `${short(a, 6)} ${"xyz"[k]}`).join(" + ")} ≤ ${short(hi[0], 6)}`,
     "disk": () => `about (${short(lo[0], 6)}, ${short(lo[1], 6)}) of radius ${short(hi[0], 6)}`,
   }[kind]();
   return `${count} of ${n} points in the ${closed ? "closed" : "open"} ${kind} ${where}, whose area is ${short(volume, 6)}: ` +

@@ -238,15 +238,15 @@ enum { KOKSMA_WITNESS_DIM = 16 }; /* regions of more dimensions aren't told: the
 typedef enum koksma_witness_kind {
     KOKSMA_WITNESS_NONE,
     KOKSMA_WITNESS_BOX,        /* sides lo[k] .. hi[k] */
-    KOKSMA_WITNESS_HALF_PLANE, /* lo[0] x + lo[1] y <= hi[0] */
+    KOKSMA_WITNESS_HALF_PLANE, /* lo[0] x + lo[1] y <= hi[0]; of dim 3 a half-space: + lo[2] z */
     KOKSMA_WITNESS_DISK        /* centre lo[0], lo[1], radius hi[0] */
 } koksma_witness_kind;
 
 /* The region where a supremum is reached, so that anyone can check it by counting: in doubles, boxes by comparing
-   coordinates, half-planes by lo[0] x + lo[1] y, disks by a a + b b against hi[0] hi[0], where a = dx - round(dx) and
-   likewise b are the way from the centre on the torus. Bounds are rounded so that points on the boundary fall on the
-   side that count has them on; volume is that of the region before. Sides of an anchored box (star) at 0 are no
-   boundary: points on them are in. */
+   coordinates, half-planes by lo[0] x + lo[1] y (+ lo[2] z), disks by a a + b b against hi[0] hi[0], where a = dx -
+   round(dx) and likewise b are the way from the centre on the torus. Bounds are rounded so that points on the
+   boundary fall on the side that count has them on; volume is that of the region before. Sides of an anchored box
+   (star) at 0 are no boundary: points on them are in. */
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;

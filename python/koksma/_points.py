@@ -207,7 +207,7 @@ def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str]
         call(core().koksma_warp_evaluate, found, byref(parsed), byref(c_points), byref(value), threads=threads,
              time_limit=time_limit, run_at=3)
     w = value.witness
-    lengths = {1: (w.dim, w.dim), 2: (2, 1), 3: (2, 1)}.get(w.kind)
+    lengths = {1: (w.dim, w.dim), 2: (w.dim, 1), 3: (2, 1)}.get(w.kind)
     witness = Witness(_WITNESS_KINDS[w.kind], w.closed, w.count, w.volume, tuple(w.lo[:lengths[0]]),
                       tuple(w.hi[:lengths[1]])) if lengths else None
     return Value(value.value, value.square, value.lower, value.upper, value.standard_error, value.exact, witness)

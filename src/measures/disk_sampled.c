@@ -5,12 +5,12 @@
  * Formula: the root of the mean, over `disks` random disks on the torus, of (#{x_i in the disk}/n - area)^2; its
  * standard error is that of the mean of the squares over twice the value. Source: Mitchell 1992, section 4. Known
  * exactly: E(square) is the square of l2-disk. Limits: a sampled value; equal seeds give equal bits.
+ * In 3 dimensions balls.
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"
-#include "core/random.h"
 #include "core/status.h"
 #include "measures/measures.h"
 #include "measures/parts/disk_laws.h"
@@ -29,23 +29,19 @@ typedef struct job {
 static koksma_status sample_block(void *context, size_t block)
 {
     const job *j = context;
-    const size_t n = j->points->n, first = block * DISKS_PER_BLOCK;
+    const size_t n = j->points->n, dim = (size_t)j->points->dim, first = block * DISKS_PER_BLOCK;
     for (size_t d = first; d < j->disks && d < first + DISKS_PER_BLOCK; d++) {
-        double centre[2], u[2];
-        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 2, centre);
-        koksma__random_pair(j->seed, KOKSMA__PURPOSE_SEARCH, d, 3, u);
-        const double r2 = j->r * j->r *
-                          (j->law == KOKSMA__DISKS_FIXED  ? 1
-                           : j->law == KOKSMA__DISKS_AREA ? u[0]
-                                                          : u[0] * u[0]);
-        double inside = 0;
+        double centre[3], r2, inside = 0;
+        koksma__random_disk(j->law, j->r, j->seed, d, (int)dim, centre, &r2);
         for (size_t i = 0; i < n; i++) {
-            double dx = fabs(j->points->xs[2 * i] - centre[0]), dy = fabs(j->points->xs[2 * i + 1] - centre[1]);
-            dx = dx < 1 - dx ? dx : 1 - dx;
-            dy = dy < 1 - dy ? dy : 1 - dy;
-            inside += dx * dx + dy * dy <= r2 ? 1.0 : 0.0;
+            double distance2 = 0;
+            for (size_t k = 0; k < dim; k++) {
+                const double way = fabs(j->points->xs[dim * i + k] - centre[k]), near = way < 1 - way ? way : 1 - way;
+                distance2 += near * near;
+            }
+            inside += distance2 <= r2 ? 1.0 : 0.0;
         }
-        const double deviation = inside / (double)n - M_PI * r2;
+        const double deviation = inside / (double)n - (dim == 3 ? 4 * M_PI / 3 * r2 * sqrt(r2) : M_PI * r2);
         j->squares[d] = deviation * deviation;
     }
     return KOKSMA_OK;
@@ -71,21 +67,21 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"disks", "random disks", 10000, 1, 1e8, NULL, true},
+    {"disks", "random disks, or balls", 10000, 1, 1e8, NULL, true},
     {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
-    {"law", "fixed radius, radius uniform, or area uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"law", "fixed radius, radius uniform, or area (volume) uniform", 0, 0, 2, koksma__disk_laws, true},
     {"seed", "seed of the disks", 1, 0, 9007199254740992.0, NULL, true},
     {0},
 };
 
 const koksma_measure koksma__measure_disk_sampled = {
     .name = "disk-sampled",
-    .title = "L2 discrepancy of disks on the torus from sampled disks",
+    .title = "L2 discrepancy of disks or balls on the torus from sampled ones",
     .cite = "mitchell1992",
     .cost = "disks n",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .params = params,
     .eval = eval,
     .answer = KOKSMA_ANSWER_SAMPLED,

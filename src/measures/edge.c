@@ -14,12 +14,16 @@
  * also of clusters down to the smallest doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half
  * of it to the pivots and what remains to bounds for intervals of directions (parts/edge_cover.c): the value is then
  * a lower bound, with an upper one beside it.
+ * In 3 dimensions the same of half-spaces and the cube: planes through up to three points (parts/edge_space.c),
+ * O(n^4) and up to 1024 points. Known exactly: one point (u,v,w), all at most 1/3, 1 - 9uvw/2; at most 1/2, and w at
+ * least 1/3, while 2u(1 + 6h) <= 1 + 12h^2 and the same of v, h = 1/2 - w: 1 - 2uv/(1 + 12h^2).
  */
 #include <math.h>
 
 #include "measures/measures.h"
 #include "measures/parts/edge_sweep.h"
 #include "measures/parts/lines.h"
+#include "measures/parts/planes.h"
 
 /* From (2x - ex, ey) to (ex, 2y - ey), e the corner next to p. */
 static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])
@@ -52,6 +56,9 @@ static void try_sides(const koksma_points *points, koksma_value *out)
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     static const koksma__domain square = {koksma__area_below_through, chords_of_square, M_SQRT1_2};
+    if (points->dim == 3) {
+        return koksma__edge_space(points, args->run, out);
+    }
     const koksma_status status = koksma__edge_sweep(&square, points->n, points->xs, args->run, out);
     if (!status) {
         try_sides(points, out);
@@ -63,11 +70,11 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 const koksma_measure koksma__measure_edge = {
     .name = "edge",
-    .title = "L-infinity discrepancy of half-planes",
-    .cite = "mitchell1992 dobkin1993 dobkin1996",
-    .cost = "n^2 log n",
+    .title = "L-infinity discrepancy of half-planes or half-spaces",
+    .cite = "mitchell1992 dobkin1993 dobkin1996 meyer1991",
+    .cost = "n^2 log n; n^4 in 3D, up to 1024 points",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .eval = eval,
 };

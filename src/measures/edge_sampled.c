@@ -7,6 +7,7 @@
  * Source: Mitchell 1992, section 5, where lines=10000. With skip=1 the first point is never counted, though n stays:
  * that procedure gives the paper's table 4 to within its noise (a loop from 1, presumably). Known exactly: nothing;
  * E(square) is the square of l2-edge (skip=0). Limits: a sampled value; equal seeds give equal bits.
+ * In 3 dimensions random planes through the cube instead, isotropic only.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +17,7 @@
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "measures/parts/lines.h"
+#include "measures/parts/planes.h"
 #include "measures/parts/sampled.h"
 
 enum { LANES = 16, LINES_PER_BLOCK = 512 };
@@ -24,6 +26,7 @@ typedef struct job {
     koksma__line_law law;
     size_t lines, n, skip;
     uint64_t seed;
+    const double *points; /* in 3 dimensions */
     double *x, *y;
     double *squares;
 } job;
@@ -48,11 +51,33 @@ static koksma_status sample_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
+static koksma_status sample_planes(void *context, size_t block)
+{
+    const job *j = context;
+    const size_t end = (block + 1) * LINES_PER_BLOCK < j->lines ? (block + 1) * LINES_PER_BLOCK : j->lines;
+    for (size_t plane = block * LINES_PER_BLOCK; plane < end; plane++) {
+        double a[3], c, below = (double)j->skip;
+        koksma__random_plane(j->seed, plane, a, &c);
+        for (size_t i = j->skip; i < j->n; i++) {
+            const double *p = j->points + 3 * i;
+            below += a[0] * p[0] + a[1] * p[1] + a[2] * p[2] <= c ? 1.0 : 0.0;
+        }
+        const double deviation = below / (double)j->n - koksma__volume_below(a, c);
+        j->squares[plane] = deviation * deviation;
+    }
+    return KOKSMA_OK;
+}
+
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     const size_t n = points->n, lines = (size_t)args->params[0];
     job j = {.law = (koksma__line_law)args->params[1], .lines = lines, .n = n, .seed = (uint64_t)args->params[2]};
     j.skip = (size_t)args->params[3] < n ? (size_t)args->params[3] : n;
+    j.points = points->xs;
+    const bool cube = points->dim == 3;
+    if (cube && j.law != KOKSMA__LINES_ISOTROPIC) {
+        return koksma__fail_law_of_plane("edge-sampled");
+    }
     const size_t bytes = (2 * n + lines) * sizeof(double);
     j.x = malloc(bytes);
     if (!j.x) {
@@ -60,12 +85,12 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     }
     j.y = j.x + n;
     j.squares = j.y + n;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && !cube; i++) {
         j.x[i] = points->xs[2 * i];
         j.y[i] = points->xs[2 * i + 1];
     }
-    const koksma_status status =
-        koksma__parallel(args->run, (lines + LINES_PER_BLOCK - 1) / LINES_PER_BLOCK, sample_block, &j);
+    const koksma_status status = koksma__parallel(args->run, (lines + LINES_PER_BLOCK - 1) / LINES_PER_BLOCK,
+                                                  cube ? sample_planes : sample_block, &j);
     if (!status) {
         koksma__sampled_root(j.squares, lines, out);
     }
@@ -74,7 +99,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 }
 
 static const koksma_param params[] = {
-    {"lines", "random lines", 10000, 1, 1e8, NULL, true},
+    {"lines", "random lines, or planes", 10000, 1, 1e8, NULL, true},
     {"law", "the law of the lines: isotropic, or the second paper's", 0, 0, 1, koksma__line_laws, true},
     {"seed", "seed of the lines", 1, 0, 9007199254740992.0, NULL, true},
     {"skip", "points at the start that are not counted", 0, 0, 1e9, NULL, true},
@@ -83,12 +108,12 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_edge_sampled = {
     .name = "edge-sampled",
-    .title = "L2 discrepancy of half-planes from sampled lines",
+    .title = "L2 discrepancy of half-planes or half-spaces from sampled lines or planes",
     .cite = "mitchell1992",
     .cost = "lines n",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .params = params,
     .eval = eval,
     .answer = KOKSMA_ANSWER_SAMPLED,

@@ -9,9 +9,16 @@
  *   fixed   2 r^2 acos(h/r) - 2 h s,                                           c = pi^2 r^4
  *   radius  ((2/3) r^3 acos(h/r) - (4/3) h r s + (2/3) h^3 ln((r+s)/h)) / r,   c = pi^2 r^4 / 5
  *   area    (r^4 acos(h/r) - (5/3) h s^3 - h^3 s) / r^2,                       c = pi^2 r^4 / 3
- * Source: Mitchell 1992, section 4, which samples disks; the closed forms are derived from the lens of two disks.
+ * In 3 dimensions balls and the volume that two share, with t = r - h:
+ *   fixed   (2 pi/3) (2 t + 3 h) t^2,                                          c = (16/9) pi^2 r^6
+ *   radius  pi t^3 (r + h) / (3 r),                                            c = (16/63) pi^2 r^6
+ *   area    (2 pi/r^3) t^3 (t^3/3 + 7 h t^2/5 + 2 h^2 t + h^3),                c = (16/27) pi^2 r^6
+ * where area makes the volume uniform.
+ * Source: Mitchell 1992, section 4, which samples disks; the closed forms are derived from the lens of two
+ * disks.
  * Known exactly: random points, the mean of the square is pi r^2 (1 - pi r^2)/n for a fixed radius, and at r = 1/2
- * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point: pi r^2 (1 - pi r^2).
+ * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point: pi r^2 (1 - pi r^2). Balls
+ * likewise: with v the volume of the largest v (1 - v)/n, (v/4 - v^2/7)/n and (v/2 - v^2/3)/n.
  * Limits: the two terms are near c and cancel; sums are compensated over rows and good to about 1e-15 of c, so that
  * the value keeps 9 digits at 10^5 well-spread points. Cells leave out far pairs up to r = 1/8.
  */
@@ -29,7 +36,9 @@
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 
 typedef struct pairs {
-    koksma__torus_cells cells;
+    koksma__torus_cells cells; /* in the plane */
+    const double *points;      /* in 3 dimensions, else NULL */
+    size_t n;
     int law;
     double r;
     koksma__sum *blocks;
@@ -40,6 +49,29 @@ static double span(const pairs *p, size_t i, size_t first, size_t last)
 {
     const double *xs = p->cells.xs, *ys = p->cells.ys;
     return koksma__kernels()->disk_overlaps(p->law, p->r, xs[i], ys[i], last - first, xs + first, ys + first);
+}
+
+/* The overlaps of ball i with those before it and their copies. Along an axis the two nearest copies are within 1,
+   and no third. */
+static double balls_before(const pairs *p, size_t i)
+{
+    koksma__sum sum = {0};
+    const double reach2 = 4 * p->r * p->r;
+    for (size_t j = 0; j < i; j++) {
+        double ways2[3][2];
+        for (size_t k = 0; k < 3; k++) {
+            const double way = fabs(p->points[3 * i + k] - p->points[3 * j + k]);
+            ways2[k][0] = way * way;
+            ways2[k][1] = (1 - way) * (1 - way);
+        }
+        for (int copy = 0; copy < 8; copy++) {
+            const double distance2 = ways2[0][copy & 1] + ways2[1][copy >> 1 & 1] + ways2[2][copy >> 2];
+            if (distance2 < reach2) {
+                koksma__sum_add(&sum, koksma__ball_overlap((koksma__disk_law)p->law, p->r, distance2));
+            }
+        }
+    }
+    return koksma__sum_value(&sum);
 }
 
 /* Each pair of near points once: the cell itself before the point, the next cell of the row, three of the next row.
@@ -64,10 +96,14 @@ static void add_near(const pairs *p, size_t i, size_t cell, koksma__sum *sum)
 static koksma_status block(void *context, size_t index)
 {
     const pairs *p = context;
-    const size_t first = index * BLOCK, last = first + BLOCK < p->cells.n ? first + BLOCK : p->cells.n;
+    const size_t first = index * BLOCK, last = first + BLOCK < p->n ? first + BLOCK : p->n;
     koksma__sum sum = {0};
     size_t cell = 0;
     for (size_t i = first; i < last; i++) {
+        if (p->points) {
+            koksma__sum_add(&sum, balls_before(p, i));
+            continue;
+        }
         if (p->cells.columns < MIN_COLUMNS) {
             koksma__sum_add(&sum, span(p, i, 0, i));
             continue;
@@ -84,9 +120,15 @@ static koksma_status block(void *context, size_t index)
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
     const koksma__disk_law law = (koksma__disk_law)(int)args->params[1];
-    pairs p = {.law = (int)law, .r = koksma__disk_radius(law, args->params[0])};
+    const bool cube = points->dim == 3;
+    pairs p = {.law = (int)law, .n = points->n, .r = koksma__disk_radius(law, args->params[0])};
     const size_t n_blocks = (points->n + BLOCK - 1) / BLOCK;
-    koksma_status status = koksma__torus_cells_init(&p.cells, points, 2 * p.r);
+    koksma_status status = KOKSMA_OK;
+    if (cube) {
+        p.points = points->xs;
+    } else {
+        status = koksma__torus_cells_init(&p.cells, points, 2 * p.r);
+    }
     p.blocks = calloc(n_blocks, sizeof *p.blocks);
     if (!status && !p.blocks) {
         status = koksma__fail_memory(n_blocks * sizeof *p.blocks);
@@ -101,9 +143,9 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
             koksma__sum_add(&sum, p.blocks[b].total);
             koksma__sum_add(&sum, p.blocks[b].lost);
         }
-        koksma__sum_add(&total, koksma__disk_overlap(law, p.r, 0) / n);
+        koksma__sum_add(&total, (cube ? koksma__ball_overlap(law, p.r, 0) : koksma__disk_overlap(law, p.r, 0)) / n);
         koksma__sum_add(&total, 2 * koksma__sum_value(&sum) / n / n);
-        koksma__sum_add(&total, -koksma__disk_square(law, p.r));
+        koksma__sum_add(&total, -(cube ? koksma__ball_square(law, p.r) : koksma__disk_square(law, p.r)));
         out->square = koksma__not_below_0(koksma__sum_value(&total));
         out->value = sqrt(out->square);
     }
@@ -114,18 +156,18 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 
 static const koksma_param params[] = {
     {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
-    {"law", "fixed radius, radius uniform, or area uniform", 0, 0, 2, koksma__disk_laws, true},
+    {"law", "fixed radius, radius uniform, or area (volume) uniform", 0, 0, 2, koksma__disk_laws, true},
     {0},
 };
 
 const koksma_measure koksma__measure_l2_disk = {
     .name = "l2-disk",
-    .title = "L2 discrepancy of disks on the torus (root mean square over disks)",
+    .title = "L2 discrepancy of disks or balls on the torus (root mean square over them)",
     .cite = "mitchell1992",
-    .cost = "n^2; n * points within 2r for r <= 1/8",
+    .cost = "n^2; in 2D n * points within 2r for r <= 1/8",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .params = params,
     .eval = eval,
 };

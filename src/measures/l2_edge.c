@@ -10,8 +10,10 @@
  * C = (2 + sqrt 2 + 5 asinh 1)/30; for the paper's lines, with a >= b the larger and smaller of |dx| and |dy|,
  * sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 - 1/9. P is in closed form (measures/parts/lines.c).
  * Source: Mitchell 1992, section 5; the pairwise form as in Alexander 1990.
- * Known exactly: random points, E(L^2) = C/(2n). It is the same whichever side is counted.
- * Limits: the terms are near 0.26 and cancel; with compensated sums the square is good to about 1e-16.
+ * In 3 dimensions the same of planes through the unit cube, isotropic only: sigma = |x - y|/3, and C is a third of
+ * the mean distance of two points of the cube (Robbins 1978), .6617... (measures/parts/planes.c). Known exactly:
+ * random points, E(L^2) = C/(2n). It is the same whichever side is counted. Limits: the terms are near 0.26 and
+ * cancel; with compensated sums the square is good to about 1e-16.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,15 +24,38 @@
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "measures/parts/lines.h"
+#include "measures/parts/planes.h"
 
 enum { ROWS_PER_BLOCK = 64 };
 
 typedef struct job {
     koksma__line_law law;
     size_t n;
+    const double *points; /* in 3 dimensions */
     double *x, *y;
     koksma__sum *pairs, *potentials;
 } job;
+
+static koksma_status sum_rows_of_cube(void *context, size_t block)
+{
+    const job *j = context;
+    koksma__sum pairs = {0}, potentials = {0};
+    const size_t first = block * ROWS_PER_BLOCK;
+    const size_t end = first + ROWS_PER_BLOCK < j->n ? first + ROWS_PER_BLOCK : j->n;
+    for (size_t i = first; i < end; i++) {
+        const double *p = j->points + 3 * i;
+        koksma__sum row = {0};
+        for (size_t k = 0; k < i; k++) {
+            const double *q = j->points + 3 * k, x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+            koksma__sum_add(&row, sqrt(x * x + y * y + z * z));
+        }
+        koksma__sum_add(&pairs, koksma__sum_value(&row) / 3);
+        koksma__sum_add(&potentials, koksma__plane_potential(p));
+    }
+    j->pairs[block] = pairs;
+    j->potentials[block] = potentials;
+    return KOKSMA_OK;
+}
 
 static koksma_status sum_rows(void *context, size_t block)
 {
@@ -55,7 +80,7 @@ static koksma_status sum_rows(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-static double finish(const job *j, size_t n_blocks)
+static double finish(const job *j, size_t n_blocks, double constant)
 {
     const double n = (double)j->n;
     koksma__sum pairs = {0}, potentials = {0}, square = {0};
@@ -66,7 +91,7 @@ static double finish(const job *j, size_t n_blocks)
     }
     koksma__sum_add(&square, koksma__sum_value(&potentials) / n);
     koksma__sum_add(&square, -koksma__sum_value(&pairs) / n / n);
-    koksma__sum_add(&square, -koksma__line_constant(j->law) / 2);
+    koksma__sum_add(&square, -constant / 2);
     return koksma__not_below_0(koksma__sum_value(&square));
 }
 
@@ -74,20 +99,25 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
 {
     const size_t n = points->n, n_blocks = (n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
     const size_t bytes = 2 * n * sizeof(double) + 2 * n_blocks * sizeof(koksma__sum);
-    job j = {.law = (koksma__line_law)args->params[0], .n = n, .pairs = malloc(bytes)};
+    const bool cube = points->dim == 3;
+    const koksma__line_law law = (koksma__line_law)args->params[0];
+    if (cube && law != KOKSMA__LINES_ISOTROPIC) {
+        return koksma__fail_law_of_plane("l2-edge");
+    }
+    job j = {.law = law, .n = n, .points = points->xs, .pairs = malloc(bytes)};
     if (!j.pairs) {
         return koksma__fail_memory(bytes);
     }
     j.potentials = j.pairs + n_blocks;
     j.x = (double *)(j.potentials + n_blocks);
     j.y = j.x + n;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && !cube; i++) {
         j.x[i] = points->xs[2 * i];
         j.y[i] = points->xs[2 * i + 1];
     }
-    const koksma_status status = koksma__parallel(args->run, n_blocks, sum_rows, &j);
+    const koksma_status status = koksma__parallel(args->run, n_blocks, cube ? sum_rows_of_cube : sum_rows, &j);
     if (!status) {
-        out->square = finish(&j, n_blocks);
+        out->square = finish(&j, n_blocks, cube ? koksma__plane_constant() : koksma__line_constant(law));
         out->value = sqrt(out->square);
     }
     free(j.pairs);
@@ -101,12 +131,12 @@ static const koksma_param params[] = {
 
 const koksma_measure koksma__measure_l2_edge = {
     .name = "l2-edge",
-    .title = "L2 discrepancy of half-planes (root mean square over random lines)",
-    .cite = "mitchell1992 alexander1990",
+    .title = "L2 discrepancy of half-planes or half-spaces (root mean square over random lines or planes)",
+    .cite = "mitchell1992 alexander1990 robbins1978",
     .cost = "n^2",
     .family = KOKSMA_FAMILY_EDGES,
     .min_dim = 2,
-    .max_dim = 2,
+    .max_dim = 3,
     .params = params,
     .eval = eval,
 };

@@ -105,7 +105,7 @@ static void draw_witness(const plot *p, const koksma_witness *w)
                 koksma__canvas_circle(p->canvas, x, y, w->hi[0] * p->side, 1.2, mark);
             }
         }
-    } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
+    } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 2) {
         const double a = w->lo[0], b = w->lo[1], norm = hypot(a, b), reach = 2;
         const double x = a * w->hi[0] / (norm * norm), y = b * w->hi[0] / (norm * norm);
         /* the half-plane: a band as wide as `reach`, inwards from the line */

@@ -13,14 +13,22 @@
 #include "study/answers.h"
 #include "study/slope_words.h"
 
-/* No pattern falls faster than n^power (log n)^logs in the plane. */
+/* No pattern falls faster than n^power (log n)^logs in dim dimensions. */
 static const struct {
     const char *measure, *who;
+    int dim;
     double power, logs;
 } bounds[] = {
-    {"star", "Schmidt 1972", -1, 1},      {"l2-star", "Roth 1954", -1, 0.5},       {"extreme", "Schmidt 1972", -1, 1},
-    {"edge", "Alexander 1990", -0.75, 0}, {"l2-edge", "Alexander 1990", -0.75, 0}, {"disk", "Beck 1987", -0.75, 0},
-    {"l2-disk", "Beck 1987", -0.75, 0},
+    {"star", "Schmidt 1972", 2, -1, 1},
+    {"l2-star", "Roth 1954", 2, -1, 0.5},
+    {"extreme", "Schmidt 1972", 2, -1, 1},
+    {"edge", "Alexander 1990", 2, -0.75, 0},
+    {"edge", "Alexander 1990", 3, -2.0 / 3, 0},
+    {"l2-edge", "Alexander 1990", 2, -0.75, 0},
+    {"l2-edge", "Alexander 1990", 3, -2.0 / 3, 0},
+    {"disk", "Beck 1987", 2, -0.75, 0},
+    {"l2-disk", "Beck 1987", 2, -0.75, 0},
+    {"l2-disk", "Beck 1987", 3, -2.0 / 3, 0},
 };
 
 /* The means of one pattern over the sizes, with room for all of them: those above 0, and all. */
@@ -94,7 +102,8 @@ static const char *bound_of(const subject *s, const curve *like, curve *out)
     snprintf(measure, sizeof measure, "%.*s", (int)strcspn(s->measure ? s->measure : "", ":"),
              s->measure ? s->measure : "");
     for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
-        if (!s->image && !s->warp[0] && s->discrepancy->dim == 2 && !strcmp(bounds[b].measure, measure) && like->n) {
+        if (!s->image && !s->warp[0] && s->discrepancy->dim == bounds[b].dim && !strcmp(bounds[b].measure, measure) &&
+            like->n) {
             out->n = like->n;
             for (size_t i = 0; i < like->n; i++) {
                 const double n = out->x[i] = like->x[i];

@@ -114,6 +114,7 @@ static const answer answers[KOKSMA__ASK_KINDS] = {
     [KOKSMA__ASK_EQUAL] = koksma__answer_equal,
     [KOKSMA__ASK_OPTIONS] = koksma__answer_options,
     [KOKSMA__ASK_TABLE] = koksma__answer_table,
+    [KOKSMA__ASK_INEQUALITY] = koksma__answer_inequality,
 };
 
 /* What each kind takes. */
@@ -123,6 +124,7 @@ static const char *const needs[KOKSMA__ASK_KINDS] = {
     [KOKSMA__ASK_EQUAL] = "a block of images with 16 samples a pixel and another number of them",
     [KOKSMA__ASK_OPTIONS] = "a block of images with two combinations of options, or of points with two warps",
     [KOKSMA__ASK_TABLE] = "a block of points or of images",
+    [KOKSMA__ASK_INEQUALITY] = "a block of up to 4096 points in 1 or 2 dimensions",
 };
 
 static koksma_status topic_init(const koksma__plan *plan, const char *id, koksma__topic *topic)
@@ -187,12 +189,15 @@ static koksma_status ask(koksma_study *study, koksma__html *html, const koksma__
     return status;
 }
 
-/* A plan that asks nothing gets what its blocks can answer. */
+/* A plan that asks nothing gets what its blocks can answer; Koksma's inequality is not of their rows. */
 static koksma_status ask_all(koksma_study *study, koksma__html *html, size_t part)
 {
     static const char *const titles[KOKSMA__ASK_KINDS] = {"Which measure orders the patterns as the error does?",
-                                                          "How fast does it fall?", "How many samples are as good?",
-                                                          "What do the options change?", "Means"};
+                                                          "How fast does it fall?",
+                                                          "How many samples are as good?",
+                                                          "What do the options change?",
+                                                          "Means",
+                                                          "Koksma's inequality"};
     static const koksma__question_kind order[] = {KOKSMA__ASK_TABLE, KOKSMA__ASK_CORRELATION, KOKSMA__ASK_SLOPES,
                                                   KOKSMA__ASK_EQUAL, KOKSMA__ASK_OPTIONS};
     const koksma__plan *plan = &study->plan;

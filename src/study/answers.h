@@ -27,6 +27,7 @@ koksma_status koksma__answer_slopes(koksma_study *study, koksma__html *html, con
 koksma_status koksma__answer_equal(koksma_study *study, koksma__html *html, const koksma__topic *topic);
 koksma_status koksma__answer_options(koksma_study *study, koksma__html *html, const koksma__topic *topic);
 koksma_status koksma__answer_table(koksma_study *study, koksma__html *html, const koksma__topic *topic);
+koksma_status koksma__answer_inequality(koksma_study *study, koksma__html *html, const koksma__topic *topic);
 
 /* Results of one point of a block; `results` (may be NULL) is the caller's. Of an image against the last reference.
  */

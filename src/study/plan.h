@@ -107,6 +107,7 @@ typedef enum koksma__question_kind {
     KOKSMA__ASK_EQUAL,       /* how many samples of each pattern equal 16 of the first */
     KOKSMA__ASK_OPTIONS,     /* what options, or warps, change */
     KOKSMA__ASK_TABLE,       /* means, sorted */
+    KOKSMA__ASK_INEQUALITY,  /* errors of functions of known variation beside Koksma's bound */
     KOKSMA__ASK_KINDS
 } koksma__question_kind;
 

@@ -4,7 +4,8 @@
 
 #include "study/plan_parts.h"
 
-static const char *const kinds[KOKSMA__ASK_KINDS] = {"correlation", "slopes", "equal", "options", "table"};
+static const char *const kinds[KOKSMA__ASK_KINDS] = {"correlation", "slopes", "equal",
+                                                     "options",     "table",  "inequality"};
 
 static koksma_status parse_group(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
@@ -29,7 +30,8 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
     status = status ? status : koksma__json_get_text(node, "kind", true, &kind);
     for (int k = 0; !status; k++) {
         if (k == KOKSMA__ASK_KINDS) {
-            return koksma__json_fail(node, "kind '%s': it takes correlation, slopes, equal, options or table", kind);
+            return koksma__json_fail(
+                node, "kind '%s': it takes correlation, slopes, equal, options, table or inequality", kind);
         }
         if (!strcmp(kinds[k], kind)) {
             q->kind = (koksma__question_kind)k;
@@ -37,11 +39,13 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
         }
     }
     const bool needs_images = q->kind == KOKSMA__ASK_CORRELATION || q->kind == KOKSMA__ASK_EQUAL;
-    if (!status && ((needs_images && !q->images) || (q->kind == KOKSMA__ASK_CORRELATION && !q->discrepancies) ||
-                    (!q->images && !q->discrepancies))) {
+    const bool needs_sets = q->kind == KOKSMA__ASK_CORRELATION || q->kind == KOKSMA__ASK_INEQUALITY;
+    if (!status &&
+        ((needs_images && !q->images) || (needs_sets && !q->discrepancies) || (!q->images && !q->discrepancies))) {
         status = koksma__json_fail(node, "a question of kind %s needs %s", kind,
                                    q->kind == KOKSMA__ASK_CORRELATION ? "discrepancies and images"
                                    : needs_images                     ? "images"
+                                   : needs_sets                       ? "discrepancies"
                                                                       : "discrepancies or images");
     }
     if (!status && q->kind != KOKSMA__ASK_CORRELATION && koksma__json_has(node, "groups")) {

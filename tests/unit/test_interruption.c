@@ -37,7 +37,8 @@ static void every_measure_asks(void **state)
         const koksma_measure *m = koksma_measure_at(i);
         const int last = m->max_dim < 4 ? m->max_dim : 4;
         for (int dim = m->min_dim; dim <= last; dim++) {
-            koksma_points p = cluster(!strcmp(m->name, "extreme") && dim > 2 ? 64 : N, dim);
+            koksma_points p =
+                cluster((!strcmp(m->name, "extreme") || !strcmp(m->name, "edge")) && dim > 2 ? 64 : N, dim);
             koksma_spec spec;
             koksma_value v;
             int asked = 0;

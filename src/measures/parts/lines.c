@@ -4,8 +4,15 @@
 #include <math.h>
 
 #include "core/random.h"
+#include "core/status.h"
 
 const char *const koksma__line_laws[] = {"isotropic", "mitchell", NULL};
+
+koksma_status koksma__fail_law_of_plane(const char *measure)
+{
+    return koksma__fail(KOKSMA_ARGUMENT,
+                        "%s: law=mitchell is of lines in the plane; law=isotropic takes 3 dimensions", measure);
+}
 
 /* The triangle that a line cuts off at c/a and c/b from a corner. */
 static double triangle(double a, double b, double c)

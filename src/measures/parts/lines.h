@@ -15,6 +15,9 @@ typedef enum koksma__line_law { KOKSMA__LINES_ISOTROPIC, KOKSMA__LINES_MITCHELL 
 
 extern const char *const koksma__line_laws[]; /* the words for a parameter */
 
+/* The error of MITCHELL in 3 dimensions: it is a law of lines only. */
+koksma_status koksma__fail_law_of_plane(const char *measure);
+
 /* The area of the square where a x + b y <= c. */
 double koksma__area_below(double a, double b, double c);
 

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Koksma's inequality over a table of functions: their integrals and variations by definition, then the theorem. */
+#include "sets.h"
+#include "study/integrands.h"
+
+/* The largest sum of differences over grids of m cells, ends included: Hardy and Krause's variation anchored at 1 is
+   what it goes to. offset moves the inner lines, so that steps are between lines. */
+static double variation_on_grid(const koksma__integrand *f, int m)
+{
+    double lines[513], total = 0;
+    for (int i = 0; i <= m; i++) {
+        lines[i] = i == 0 ? 0 : i == m ? 1 : (i + 0.013) / m;
+    }
+    for (int axis = 0; axis < f->dim; axis++) { /* the sides where the other coordinate is 1 */
+        for (int i = 0; i < m; i++) {
+            double a[2] = {1, 1}, b[2] = {1, 1};
+            a[axis] = lines[i];
+            b[axis] = lines[i + 1];
+            total += fabs(f->at(b) - f->at(a));
+        }
+    }
+    for (int c = 0; f->dim == 2 && c < m * m; c++) {
+        const double *x = lines + c % m, *y = lines + c / m;
+        total += fabs(f->at((double[2]){x[1], y[1]}) - f->at((double[2]){x[0], y[1]}) -
+                      f->at((double[2]){x[1], y[0]}) + f->at((double[2]){x[0], y[0]}));
+    }
+    return total;
+}
+
+static void variations_are_sums_of_differences(void **state)
+{
+    (void)state;
+    for (size_t i = 0; koksma__integrand_at(i); i++) {
+        const koksma__integrand *f = koksma__integrand_at(i);
+        const double coarse = variation_on_grid(f, 128), fine = variation_on_grid(f, 512);
+        if (isinf(f->variation)) {
+            if (!(fine > 3 * coarse)) {
+                fail_msg("%s: %g with 128 lines, %g with 512", f->name, coarse, fine);
+            }
+            continue;
+        }
+        if (!(fine <= f->variation * (1 + 1e-12) && fine >= f->variation * (1 - 1e-4))) {
+            fail_msg("%s: variation %.10g, on a grid %.10g", f->name, f->variation, fine);
+        }
+        assert_true(coarse <= f->variation * (1 + 1e-12));
+    }
+}
+
+/* The midpoint rule on a fine grid; steps cost it no more than a row of cells along each edge. */
+static void integrals_and_ranges_hold(void **state)
+{
+    (void)state;
+    enum { SIDE = 1000 };
+    for (size_t i = 0; koksma__integrand_at(i); i++) {
+        const koksma__integrand *f = koksma__integrand_at(i);
+        double sum = 0, low = HUGE_VAL, high = -HUGE_VAL;
+        for (int c = 0; c < SIDE * SIDE; c++) {
+            const double y = f->at((double[2]){(c % SIDE + 0.5) / SIDE, (c / SIDE + 0.5) / SIDE});
+            sum += y / (SIDE * SIDE);
+            low = fmin(low, y);
+            high = fmax(high, y);
+        }
+        if (!(fabs(sum - f->integral) <= 5e-4 && high - low <= f->range && high - low >= 0.98 * f->range)) {
+            fail_msg("%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->integral, sum, high - low,
+                     f->range);
+        }
+    }
+}
+
+static void check_inequality(const koksma_points *points, const char *pattern, double *closest)
+{
+    const double star = test_measure("star", points).value;
+    for (size_t i = 0; koksma__integrand_at(i); i++) {
+        const koksma__integrand *f = koksma__integrand_at(i);
+        double sum = 0;
+        for (size_t k = 0; k < points->n && f->dim == points->dim; k++) {
+            sum += f->at(points->xs + k * (size_t)points->dim) / (double)points->n;
+        }
+        const double error = fabs(sum - f->integral), bound = f->variation * star;
+        if (f->dim == points->dim && !(error <= bound + 1e-13)) {
+            fail_msg("%s over %zu points of %s: error %.10g, V(f) D* %.10g", f->name, points->n, pattern, error,
+                     bound);
+        }
+        if (f->dim == points->dim && isfinite(bound)) {
+            *closest = fmax(*closest, error / bound);
+        }
+    }
+}
+
+/* Every function over every pattern that takes the number and the dimension, and over sets with ties and sides. */
+static void the_theorem_holds(void **state)
+{
+    (void)state;
+    double closest[3] = {0};
+    size_t sets = 0;
+    for (size_t i = 0; koksma_pattern_at(i); i++) {
+        const koksma_pattern *p = koksma_pattern_at(i);
+        for (int dim = 1; dim <= 2; dim++) {
+            for (size_t n = 1; n <= 256 && !p->takes_path; n *= 4) {
+                koksma_spec spec;
+                koksma_points points;
+                assert_ok(koksma_pattern_spec(p->name, &spec));
+                assert_ok(koksma_points_init(&points, n, dim));
+                if (dim >= p->min_dim && dim <= p->max_dim && !koksma_generate(&spec, n, NULL, &points)) {
+                    check_inequality(&points, p->name, &closest[dim]);
+                    sets++;
+                }
+                koksma_points_fini(&points);
+            }
+        }
+    }
+    for (int s = 0; s < 40 * SETS_KINDS; s++) {
+        koksma_points points = sets_points(1 + (size_t)s % 17, 1 + s % 2, s % SETS_KINDS, (uint64_t)s);
+        check_inequality(&points, "a small set", &closest[points.dim]);
+        koksma_points_fini(&points);
+    }
+    assert_true(sets > 150);
+    assert_true(closest[1] > 0.9 && closest[2] > 0.5); /* sharp enough that a smaller V would fail */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(variations_are_sums_of_differences),
+        cmocka_unit_test(integrals_and_ranges_hold),
+        cmocka_unit_test(the_theorem_holds),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
