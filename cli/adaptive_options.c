@@ -116,12 +116,22 @@ koksma_status cli_adaptive_strata(cli_adaptive *adaptive)
     if (!adaptive->strata_path) {
         return KOKSMA_OK;
     }
-    snprintf(caption, sizeof caption, "pixel %d,%d: %zu strata, use %s", strata->x, strata->y, strata->n,
-             strata->use);
+    koksma_strata_panel panels[KOKSMA_MAX_SPACES];
+    for (size_t i = 0; i < strata->n_spaces; i++) {
+        const koksma_space *space = &strata->spaces[i];
+        panels[i] = (koksma_strata_panel){.strata = space->strata,
+                                          .n = space->n,
+                                          .splits = space->splits,
+                                          .n_splits = space->n_splits,
+                                          .caption = space->name};
+    }
+    snprintf(caption, sizeof caption, "pixel %d,%d: %zu strata, use %s", strata->x, strata->y, strata->spaces[0].n,
+             strata->spaces[0].name);
+    panels[0].caption = caption;
     koksma_status status = koksma_plot_format_of(adaptive->strata_path, &format);
-    status = status ? status : koksma_plot_strata(strata->list, strata->n, 0, caption, format, &bytes, &size);
+    status = status ? status : koksma_plot_strata(panels, strata->n_spaces, 0, format, &bytes, &size);
     status = status ? status : koksma_plot_write(adaptive->strata_path, bytes, size);
     free(bytes);
-    free(adaptive->strata.list);
+    koksma_strata_fini(&adaptive->strata);
     return status;
 }

@@ -10,7 +10,9 @@
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
     {0, "adaptive", "METHOD", "after SPP samples more where needed: see 'koksma list adaptive'"},                    \
         {0, "budget", "SPP", "of --adaptive: samples a pixel in the mean, at most (default: no limit)"},             \
-        {0, "strata", "X,Y:FILE", "of --adaptive: picture of how pixel X,Y was split, .svg, .pdf or .png"},          \
+        {0, "strata", "X,Y:FILE",                                                                                    \
+         "of --adaptive: picture of how pixel X,Y was split in each space; with --probe,\n"                          \
+         "needed splits are circled and needless ones black; .svg, .pdf or .png"},                                   \
         {0, "probe", "K", "of --adaptive: K samples that count for nothing tell needless splits (default: 0)"},      \
     {                                                                                                                \
         0, "counts", "FILE", "picture of the samples of each pixel; .png: over the largest"                          \

@@ -31,13 +31,26 @@ typedef struct koksma_adaptive {
 KOKSMA_API const koksma_adaptive *koksma_adaptive_at(size_t i);
 KOKSMA_API const koksma_adaptive *koksma_adaptive_find(const char *name);
 
+enum { KOKSMA_MAX_SPACES = 16 };
+
+/* The strata of one pixel in the square of one use. */
+typedef struct koksma_space {
+    char name[48];          /* of the use: "pixel", "light 2", "lobe, vertex 2" */
+    size_t n, n_splits;     /* equal in all spaces of the pixel, as are the orders of the lists */
+    koksma_stratum *strata; /* values are luminances. In a use that is not split, parts of a stratum have its cell,
+                               and their mean */
+    koksma_split *splits;   /* the coarsest first; none without probes, which find the needless ones. With reuse=fresh
+                               they are where the deciding samples were */
+} koksma_space;
+
 /* The subdivision of one pixel, for a picture of it (koksma_plot_strata). */
 typedef struct koksma_strata {
     int x, y;             /* which pixel: set before */
-    const char *use;      /* in whose square they lie */
-    size_t n;             /* of list, which the caller frees */
-    koksma_stratum *list; /* values are luminances */
+    size_t n_spaces;      /* of all uses but those whose cells overlap: of one number, in aligned strata */
+    koksma_space *spaces; /* first that in which neighbours were compared; koksma_strata_fini frees them */
 } koksma_strata;
+
+KOKSMA_API void koksma_strata_fini(koksma_strata *strata);
 
 typedef struct koksma_adaptive_options {
     const koksma_adaptive *method;

@@ -86,9 +86,27 @@ typedef struct koksma_stratum {
     int level;                  /* splits that made it */
 } koksma_stratum;
 
-/* Draws strata, y down, in their values' greys with their samples. size is the side; 0: 320. caption: NULL for none.
-   Errors: ARGUMENT (a size or format that can't be), UNSUPPORTED, MEMORY, SYSTEM. */
-KOKSMA_API koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double size, const char *caption,
+/* A square that was split in four. */
+typedef struct koksma_split {
+    double x, y, width, height; /* from the upper left corner */
+    int level;                  /* splits that made it */
+    bool needless;              /* its values are alike, so that it need not have been split */
+} koksma_split;
+
+/* One of several subdivided squares side by side. */
+typedef struct koksma_strata_panel {
+    const koksma_stratum *strata;
+    size_t n;
+    const koksma_split *splits; /* marked as needed or needless */
+    size_t n_splits;            /* 0: none is marked */
+    const char *caption;        /* below, NULL: none */
+} koksma_strata_panel;
+
+/* Draws subdivided squares of the given side (0: 320) in a row, y down: strata in their values' greys, with their
+   samples. Where splits are marked, what was split needlessly is black, what had to be split is circled, and the
+   range of the panel's values goes from mid-grey to white. Errors: ARGUMENT (a size or format that can't be, no
+   panels), UNSUPPORTED, MEMORY, SYSTEM. */
+KOKSMA_API koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, double size,
                                             koksma_plot_format format, unsigned char **bytes, size_t *n_bytes);
 
 /* Writes bytes to a file whole or not at all; "-" is standard output. Errors: IO. */

@@ -1,38 +1,111 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991. */
+/*
+ * Subdivided squares, as in figures 5.35 and 5.36 of Shirley 1991: boxes filled with their values' greys, dots where
+ * the samples are, and over them the splits: black where a split was needless, a circle where it was needed. Circles
+ * are drawn last, so that a needed split inside a needless one is seen.
+ */
+#include <math.h>
+
 #include "core/status.h"
 #include "plot/canvas.h"
 
-static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1, 1}, ink = {0.1, 0.1, 0.12, 1};
+static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1, 1}, ink = {0.1, 0.1, 0.12, 1},
+                            black = {0, 0, 0, 1}, ring = {0, 0.5, 0.2, 1};
 
 enum { MARGIN = 6, CAPTION = 18 };
 
-koksma_status koksma_plot_strata(const koksma_stratum *strata, size_t n, double size, const char *caption,
-                                 koksma_plot_format format, unsigned char **bytes, size_t *n_bytes)
+/* The darkest value where black is a mark. */
+#define MARKED_GREY 0.45
+
+typedef struct square {
+    koksma__canvas *canvas;
+    double x, y, side;
+} square;
+
+static void add_box(const square *q, double x, double y, double width, double height, double thickness,
+                    koksma__colour colour)
+{
+    koksma__canvas_box(q->canvas, q->x + x * q->side, q->y + y * q->side, width * q->side, height * q->side,
+                       thickness, colour);
+}
+
+/* From black at 0 to white at 1; where black is a mark, the values' own range from mid-grey on. */
+static void add_values(const square *q, const koksma_strata_panel *panel)
+{
+    const bool marked = panel->n_splits > 0;
+    double low = marked && panel->n ? panel->strata[0].value : 0, high = marked ? low : 1;
+    for (size_t i = 0; marked && i < panel->n; i++) {
+        low = fmin(low, panel->strata[i].value);
+        high = fmax(high, panel->strata[i].value);
+    }
+    for (size_t i = 0; i < panel->n; i++) {
+        const koksma_stratum *s = &panel->strata[i];
+        const double share = high > low ? (s->value - low) / (high - low) : 1;
+        const double value = share > 1 ? 1 : share > 0 ? share : 0; /* NaN is 0 */
+        const double grey = marked ? MARKED_GREY + (1 - MARKED_GREY) * value : value;
+        add_box(q, s->x, s->y, s->width, s->height, 0, (koksma__colour){grey, grey, grey, 1});
+    }
+}
+
+static void add_needless(const square *q, const koksma_strata_panel *panel)
+{
+    for (size_t i = 0; i < panel->n_splits; i++) {
+        const koksma_split *s = &panel->splits[i];
+        if (s->needless) {
+            add_box(q, s->x, s->y, s->width, s->height, 0, black);
+        }
+    }
+}
+
+static void add_needed(const square *q, const koksma_strata_panel *panel)
+{
+    for (size_t i = 0; i < panel->n_splits; i++) {
+        const koksma_split *s = &panel->splits[i];
+        const double width = s->width < s->height ? s->width : s->height, radius = 0.5 * width * q->side;
+        if (!s->needless) {
+            koksma__canvas_circle(q->canvas, q->x + (s->x + s->width / 2) * q->side,
+                                  q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3, s->level ? 1 : 2,
+                                  ring);
+        }
+    }
+}
+
+static void add_panel(const square *q, const koksma_strata_panel *panel)
+{
+    add_values(q, panel);
+    add_needless(q, panel);
+    for (size_t i = 0; i < panel->n; i++) {
+        const koksma_stratum *s = &panel->strata[i];
+        add_box(q, s->x, s->y, s->width, s->height, 0.6, line);
+        koksma__canvas_circle(q->canvas, q->x + s->at[0] * q->side, q->y + s->at[1] * q->side, s->level ? 1.5 : 2.2,
+                              0, dot);
+    }
+    add_needed(q, panel);
+    if (panel->caption) {
+        koksma__canvas_text(q->canvas, q->x + q->side / 2, q->y + q->side + MARGIN + 8, 11, 0.5, panel->caption, ink);
+    }
+}
+
+koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, double size, koksma_plot_format format,
+                                 unsigned char **bytes, size_t *n_bytes)
 {
     double whole;
-    const koksma_status sized = koksma__canvas_size(format, size, 320, &whole);
-    if (sized) {
-        return sized;
+    bool captions = false;
+    koksma_status status = koksma__canvas_size(format, size, 320, &whole);
+    if (!status && n < 1) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "no strata to draw");
     }
-    const double side = whole - 2 * MARGIN;
-    koksma__canvas *canvas;
-    const koksma_status opened = koksma__canvas_open(format, whole, whole + (caption ? CAPTION : 0), &canvas);
-    if (opened) {
-        return opened;
+    if (status) {
+        return status;
     }
-    for (size_t i = 0; i < n; i++) {
-        const koksma_stratum *s = &strata[i];
-        const double grey = s->value > 1 ? 1 : s->value > 0 ? s->value : 0; /* NaN is black */
-        const koksma__colour colour = {grey, grey, grey, 1};
-        const double x = MARGIN + s->x * side, y = MARGIN + s->y * side;
-        koksma__canvas_box(canvas, x, y, s->width * side, s->height * side, 0, colour);
-        koksma__canvas_box(canvas, x, y, s->width * side, s->height * side, 0.6, line);
-        koksma__canvas_circle(canvas, MARGIN + s->at[0] * side, MARGIN + s->at[1] * side, s->level ? 1.5 : 2.2, 0,
-                              dot);
+    for (size_t p = 0; p < n; p++) {
+        captions = captions || panels[p].caption;
     }
-    if (caption) {
-        koksma__canvas_text(canvas, whole / 2, whole + 8, 11, 0.5, caption, ink);
+    square q = {.x = MARGIN, .y = MARGIN, .side = whole - 2 * MARGIN};
+    status = koksma__canvas_open(format, (double)n * whole, whole + (captions ? CAPTION : 0), &q.canvas);
+    for (size_t p = 0; !status && p < n; p++) {
+        add_panel(&q, &panels[p]);
+        q.x += whole;
     }
-    return koksma__canvas_close(canvas, bytes, n_bytes);
+    return status ? status : koksma__canvas_close(q.canvas, bytes, n_bytes);
 }

@@ -89,15 +89,17 @@ typedef struct koksma__table {
 /* A figure: the points of a pattern, a rendered scene, or random lines. */
 typedef struct koksma__figure {
     char *id, *title, *pattern, *scene;
-    char *variant;       /* of a scene: variants.h */
-    char *adaptive;      /* a method of adaptive sampling, or NULL */
-    char *warp;          /* of points: the map that they are shown through, or NULL */
-    char *printed;       /* what the paper's text says of it, shown beside ours; or NULL */
-    long long n;         /* points, or samples per pixel */
-    long long detail[4]; /* x, y, width and height of what is shown; width 0: all */
-    long long strata[2]; /* the pixel whose strata are shown; -1: none */
-    bool cells;          /* draw the cells or rows and columns in */
-    bool lines, dual;    /* random lines; as points (slope, intercept) */
+    char *variant;        /* of a scene: variants.h */
+    char *adaptive;       /* a method of adaptive sampling, or NULL */
+    char *warp;           /* of points: the map that they are shown through, or NULL */
+    char *printed;        /* what the paper's text says of it, shown beside ours; or NULL */
+    long long n;          /* points, or samples per pixel */
+    long long detail[4];  /* x, y, width and height of what is shown; width 0: all */
+    long long strata[2];  /* the pixel whose strata are shown; -1: none */
+    koksma__texts spaces; /* of strata: names of those that are shown; none: all */
+    double exposure;      /* of a scene: the shown values are this times the image's */
+    bool cells;           /* draw the cells or rows and columns in */
+    bool lines, dual;     /* random lines; as points (slope, intercept) */
 } koksma__figure;
 
 /* Something that the report answers from blocks of the plan. */

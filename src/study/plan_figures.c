@@ -12,6 +12,8 @@
 #include "study/variants.h"
 
 enum { MAX_N = 1 << 20 };
+#define MIN_EXPOSURE 1e-3
+#define MAX_EXPOSURE 1e3
 
 static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long *out)
 {
@@ -59,6 +61,12 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (f->strata[0] >= 0 && !f->adaptive) {
         return koksma__json_fail(node, "strata go with an adaptive method");
     }
+    if (f->spaces.n && f->strata[0] < 0) {
+        return koksma__json_fail(node, "spaces go with strata");
+    }
+    if (f->exposure != 1 && (!f->scene || f->strata[0] >= 0)) {
+        return koksma__json_fail(node, "exposure goes with the picture of a scene");
+    }
     return KOKSMA_OK;
 }
 
@@ -81,13 +89,14 @@ static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
 
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id",      "title",    "pattern", "scene",
-                                       "n",       "cells",   "adaptive", "strata",  "detail",
-                                       "warp",    "options", "lines",    "printed", NULL};
+    static const char *const keys[] = {"comment", "id",       "title",  "pattern",  "scene", "n",
+                                       "cells",   "adaptive", "strata", "detail",   "warp",  "options",
+                                       "lines",   "printed",  "spaces", "exposure", NULL};
     koksma__figure *f = item;
     koksma__texts variants = {0};
     (void)trials;
     f->strata[0] = f->strata[1] = -1;
+    f->exposure = 1;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, true, &f->id);
     status = status ? status : koksma__plan_text(node, "title", true, &f->title);
@@ -107,6 +116,11 @@ koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__p
     if (!status && koksma__json_has(node, "detail")) {
         status = get_wholes(node, "detail", 4, f->detail);
     }
+    if (!status && koksma__json_has(node, "spaces")) {
+        status = koksma__plan_texts(node, "spaces", &f->spaces);
+    }
+    status =
+        status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
     status = status ? status : koksma__variants_parse(node, &variants);
     if (!status && variants.n != 1) {
         status = koksma__json_fail(node, "a figure has one word an option");

@@ -175,6 +175,7 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->figures[i].adaptive);
         free(p->figures[i].warp);
         free(p->figures[i].printed);
+        koksma__texts_fini(&p->figures[i].spaces);
     }
     for (size_t i = 0; i < p->n_questions; i++) {
         free(p->questions[i].id);

@@ -46,30 +46,58 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
     return status;
 }
 
-static koksma_status add_strata(koksma__html *h, const koksma__figure *f, koksma_strata *strata)
+static koksma_status add_space(koksma__html *h, const koksma__figure *f, const koksma_space *space)
 {
     unsigned char *svg;
     size_t size;
-    char caption[64];
-    snprintf(caption, sizeof caption, "%zu strata of %s", strata->n, strata->use ? strata->use : "the pixel");
-    const koksma_status status =
-        koksma_plot_strata(strata->list, strata->n, POINTS_WIDTH, caption, KOKSMA_PLOT_SVG, &svg, &size);
+    char text[96];
+    koksma__snprintf(text, sizeof text, "%zu strata in the space: %s", space->n, space->name);
+    const koksma_strata_panel panel = {.strata = space->strata,
+                                       .n = space->n,
+                                       .splits = space->splits,
+                                       .n_splits = space->n_splits,
+                                       .caption = text};
+    const koksma_status status = koksma_plot_strata(&panel, 1, POINTS_WIDTH, KOKSMA_PLOT_SVG, &svg, &size);
     if (!status) {
         koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
         free(svg);
     }
-    free(strata->list);
     return status;
 }
 
-/* The part of an image that the figure shows, the larger the smaller it is. */
+static const koksma_space *find_space(const koksma_strata *strata, const char *name)
+{
+    for (size_t i = 0; i < strata->n_spaces; i++) {
+        if (!strcmp(strata->spaces[i].name, name)) {
+            return &strata->spaces[i];
+        }
+    }
+    return NULL;
+}
+
+/* One picture a space, side by side where there is room. */
+static koksma_status add_strata(koksma__html *h, const koksma__figure *f, koksma_strata *strata)
+{
+    koksma_status status = KOKSMA_OK;
+    koksma__html_add(h, "<div class=\"spaces\">\n");
+    for (size_t i = 0; !status && i < (f->spaces.n ? f->spaces.n : strata->n_spaces); i++) {
+        const koksma_space *space = f->spaces.n ? find_space(strata, f->spaces.at[i]) : &strata->spaces[i];
+        status =
+            space ? add_space(h, f, space)
+                  : koksma__fail(KOKSMA_ARGUMENT, "figure %s: no space '%s' in %s", f->id, f->spaces.at[i], f->scene);
+    }
+    koksma__html_add(h, "</div>\n");
+    koksma_strata_fini(strata);
+    return status;
+}
+
+/* The part of an image that the figure shows, the larger the smaller it is, and the brighter by its exposure. */
 static koksma_status add_part(koksma__html *h, const koksma__figure *f, const koksma_image *image)
 {
     koksma_image part;
-    const int x = (int)f->detail[0], y = (int)f->detail[1], width = (int)f->detail[2], height = (int)f->detail[3];
-    if (!width) {
-        return koksma__html_image(h, image, SCENE_SCALE, f->title);
-    }
+    const bool whole = !f->detail[2];
+    const int x = (int)f->detail[0], y = (int)f->detail[1], width = whole ? image->width : (int)f->detail[2],
+              height = whole ? image->height : (int)f->detail[3];
     if (x + width > image->width || y + height > image->height) {
         return koksma__fail(KOKSMA_ARGUMENT, "figure %s: its detail lies beyond the image", f->id);
     }
@@ -77,11 +105,12 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
     if (status) {
         return status;
     }
-    const size_t channels = (size_t)image->channels;
+    const size_t channels = (size_t)image->channels, row_size = (size_t)width * channels;
     for (int row = 0; row < height; row++) {
-        memcpy(part.pixels + (size_t)row * (size_t)width * channels,
-               image->pixels + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * channels,
-               (size_t)width * channels * sizeof *part.pixels);
+        const float *from = image->pixels + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * channels;
+        for (size_t k = 0; k < row_size; k++) {
+            part.pixels[(size_t)row * row_size + k] = (float)f->exposure * from[k];
+        }
     }
     status = koksma__html_image(h, &part, SCENE_SCALE * image->width / width, f->title);
     koksma_image_fini(&part);
@@ -174,6 +203,9 @@ koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, co
         koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
         koksma__html_text(html, f->title);
         koksma__html_text(html, note);
+        if (f->exposure != 1) {
+            koksma__html_add(html, ". Shown %g times as bright as rendered", f->exposure);
+        }
         if (f->printed) {
             koksma__html_add(html, ". In the text: ");
             koksma__html_text(html, f->printed);

@@ -254,18 +254,27 @@ static void shown_strata_are_a_partition(void **state)
         koksma_layers layers;
         adaptive.strata = &strata;
         assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL));
-        double area = 0, sum = 0;
-        for (size_t i = 0; i < strata.n; i++) {
-            const koksma_stratum *s = &strata.list[i];
-            area += s->width * s->height;
-            sum += s->width * s->height * s->value;
-            assert_true(s->at[0] >= s->x - 1e-7 && s->at[0] <= s->x + s->width + 1e-7);
-            assert_true(s->at[1] >= s->y - 1e-7 && s->at[1] <= s->y + s->height + 1e-7);
+        for (size_t k = 0; k < strata.n_spaces; k++) {
+            const koksma_space *space = &strata.spaces[k];
+            const bool whole = k > 0 && !strncmp(forms[f], "selective", 9); /* only the first is split there */
+            double area = 0, sum = 0;
+            for (size_t i = 0; i < space->n; i++) {
+                const koksma_stratum *s = &space->strata[i];
+                area += s->width * s->height;
+                sum += s->width * s->height * s->value;
+                assert_true(s->at[0] >= s->x - 1e-7 && s->at[0] <= s->x + s->width + 1e-7);
+                assert_true(s->at[1] >= s->y - 1e-7 && s->at[1] <= s->y + s->height + 1e-7);
+                assert_int_equal(s->level > 0 && whole, 0);
+            }
+            assert_true(space->n > 16 && space->n_splits == 0);
+            if (!whole) {
+                assert_near(area, 1, 1e-12);
+                assert_near(sum, (double)layers.image.pixels[15 * WIDTH + 12], 1e-6);
+            }
         }
-        assert_true(strata.n > 16);
-        assert_near(area, 1, 1e-12);
-        assert_near(sum, (double)layers.image.pixels[15 * WIDTH + 12], 1e-6);
-        free(strata.list);
+        assert_string_equal(strata.spaces[1].name, f < 2 ? "lens" : strata.spaces[1].name);
+        assert_true(strata.n_spaces >= 3);
+        koksma_strata_fini(&strata);
         koksma_layers_fini(&layers);
     }
     koksma_scene_close(scene);

@@ -47,7 +47,41 @@ static void points_of_the_unit_square(void **state)
     size_t size;
     const koksma_panel nothing = {0};
     assert_int_equal(koksma_plot_panels(&nothing, 1, 0, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
-    assert_int_equal(koksma_plot_strata(NULL, 0, -1, NULL, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_plot_strata(NULL, 0, -1, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+}
+
+static int count(const char *text, const char *what)
+{
+    int n = 0;
+    for (; (text = strstr(text, what)); text++) {
+        n++;
+    }
+    return n;
+}
+
+/* Needless splits are black boxes and needed ones circles; without splits there is neither. */
+static void splits_are_marked(void **state)
+{
+    (void)state;
+    static const char black[] = "rgb(0%,0%,0%)", green[] = "rgb(0%,50%,20%)";
+    const koksma_stratum strata[] = {{0, 0, 0.5, 1, {0.2, 0.2}, 0.3, 0}, {0.5, 0, 0.5, 1, {0.7, 0.2}, 0.9, 0}};
+    const koksma_split splits[] = {{0, 0, 0.5, 1, 0, true}, {0.5, 0, 0.5, 1, 0, false}, {0.5, 0, 0.1, 0.1, 1, false}};
+    const koksma_strata_panel panels[] = {{strata, 2, splits, 3, "a"}, {strata, 2, NULL, 0, NULL}};
+    for (size_t first = 0; first < 2; first++) {
+        unsigned char *bytes;
+        size_t size;
+        assert_ok(koksma_plot_strata(panels + first, 2 - first, 0, KOKSMA_PLOT_SVG, &bytes, &size));
+        char *text = calloc(size + 1, 1);
+        assert_non_null(text);
+        for (size_t i = 0, n = 0; i < size; i++) { /* versions of cairo put spaces into colours, or none */
+            text[n] = (char)bytes[i];
+            n += bytes[i] != ' ';
+        }
+        assert_int_equal(count(text, black), first ? 0 : 1);
+        assert_int_equal(count(text, green), first ? 0 : 2);
+        free(text);
+        free(bytes);
+    }
 }
 
 static void charts_without_labels(void **state)
@@ -71,6 +105,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sizes_and_grids),
         cmocka_unit_test(points_of_the_unit_square),
+        cmocka_unit_test(splits_are_marked),
         cmocka_unit_test(charts_without_labels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

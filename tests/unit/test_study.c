@@ -123,6 +123,29 @@ static void wrong_groups(void **state)
                    "plan 'p': line 3: questions[0].groups: only a question of kind correlation takes it");
 }
 
+static const koksma__figure *figure_of(const koksma__plan *plan, const char *id)
+{
+    size_t i = 0;
+    while (i < plan->n_figures && strcmp(plan->figures[i].id, id) != 0) {
+        i++;
+    }
+    assert_true(i < plan->n_figures);
+    return &plan->figures[i];
+}
+
+/* A detail is cut from the very picture that the figure shows: all that makes the picture, and its seed, is equal. */
+static void detail_is_of_the_figure(const koksma__plan *plan, const char *id, const char *detail)
+{
+    const koksma__figure *whole = figure_of(plan, id), *part = figure_of(plan, detail);
+    assert_true(part->detail[2] > 0 && !whole->detail[2]);
+    assert_string_equal(whole->scene, part->scene);
+    assert_string_equal(whole->pattern, part->pattern);
+    assert_string_equal(whole->variant, part->variant);
+    assert_int_equal(whole->n, part->n);
+    assert_null(whole->adaptive);
+    assert_null(part->adaptive);
+}
+
 static void shipped_plans_parse(void **state)
 {
     (void)state;
@@ -135,6 +158,7 @@ static void shipped_plans_parse(void **state)
     assert_ok(koksma__plan_parse("shirley1991", text, size, &seven, &plan));
     assert_int_equal(plan.n_tables, 7);
     assert_int_equal(plan.images[0].trials, 7);
+    detail_is_of_the_figure(&plan, "5.37", "5.38");
     koksma__plan_fini(&plan);
     for (size_t i = 0; koksma_plan_name_at(i); i++) {
         text = koksma__plan_shipped(koksma_plan_name_at(i), &size);

@@ -16,7 +16,7 @@
 #include "render/adaptive/adaptive_strata.h"
 #include "render/vector3.h"
 
-enum { BELOW = KOKSMA__STRATA_REUSE + 1, MAX_USES = 16, LIGHTS = 4 };
+enum { BELOW = KOKSMA__STRATA_REUSE + 1 };
 
 static const koksma_param params[] = {
     KOKSMA__STRATA_PARAMS,
@@ -33,27 +33,6 @@ static koksma_status open(koksma__adaptive *run)
         s->below = run->options->params[BELOW];
     }
     return status;
-}
-
-static int list_uses(const koksma__use_list *there, uint32_t list[MAX_USES])
-{
-    int n = 0;
-    list[n++] = KOKSMA__USE_PIXEL;
-    if (there->lens) {
-        list[n++] = KOKSMA__USE_LENS;
-    }
-    if (there->time) {
-        list[n++] = KOKSMA__USE_TIME;
-    }
-    for (uint32_t v = 0; v < 2 && (int)v < there->vertices; v++) {
-        for (uint32_t l = 0; l < LIGHTS && (int)l < there->lights; l++) {
-            list[n++] = v * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LIGHT + l;
-        }
-        if (there->vertices > 1) {
-            list[n++] = v * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE;
-        }
-    }
-    return n;
 }
 
 static double square(float a, float b)
@@ -97,10 +76,11 @@ static bool find_base(koksma__adaptive *run, size_t pixel, uint32_t *permutation
     const koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
     const uint32_t n = s->m * s->m;
-    uint32_t uses[MAX_USES];
+    uint32_t uses[KOKSMA_MAX_SPACES];
     double least = s->below;
     bool found = false;
-    for (int u = list_uses(&run->frame->uses, uses) - 1; u >= 0; u--) { /* of equals the pixel wins, which is first */
+    for (int u = koksma__list_spaces(&run->frame->uses, uses) - 1; u >= 0;
+         u--) { /* of equals the pixel wins, which is first */
         koksma__use_cells cells;
         koksma__use_cells_init(run, pixel, uses[u], permutation, &cells);
         for (uint32_t i = 0; i < n; i++) {

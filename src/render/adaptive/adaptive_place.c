@@ -14,6 +14,7 @@
  * whatever the tree.
  */
 #include <math.h>
+#include <string.h>
 
 #include "core/random.h"
 #include "render/adaptive/adaptive_strata.h"
@@ -122,6 +123,14 @@ void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base
     walk(s, base, NULL, stratum, false, &at, NULL);
     cell[0] = at.cell[0];
     cell[1] = at.cell[1];
+}
+
+void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
+                             const koksma__stratum *stratum, uint32_t stage, uint32_t cell[2])
+{
+    spot at_base, at;
+    walk(s, base, use, stratum, stage == KOKSMA__STAGE_LAST, &at_base, &at);
+    memcpy(cell, use->use == base->use ? at_base.cell : at.cell, sizeof at.cell);
 }
 
 int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum)

@@ -253,7 +253,7 @@ static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const f
     const koksma__strata *s = run->state;
     const int channels = run->frame->channels;
     for (uint32_t i = 0; i < tree->n; i++) {
-        const koksma__stratum *stratum = &tree->strata[i];
+        koksma__stratum *stratum = &tree->strata[i];
         bool alike = stratum->marked;
         for (int k = 0; stratum->marked && k < channels; k++) {
             float lo = stratum->value[k], hi = lo;
@@ -264,6 +264,7 @@ static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const f
             alike &= hi - lo <= s->threshold;
         }
         tree->needless += alike;
+        stratum->needless |= (uint8_t)(alike << stratum->level);
         rgb += stratum->marked ? run->options->probes * channels : 0;
     }
 }

@@ -37,11 +37,12 @@ enum { KOKSMA__MAX_LEVELS = 8, KOKSMA__MAX_STRATA_SIDE = 512 };
 enum { KOKSMA__STAGE_TREE, KOKSMA__STAGE_LAST, KOKSMA__STAGE_PROBE };
 
 typedef struct koksma__stratum {
-    uint32_t number; /* of the m x m at first */
-    uint16_t digits; /* which quarter at each split, the first split highest; quarters are those of the base use */
-    uint8_t level;   /* splits */
-    bool pending;    /* its sample is to be drawn */
-    bool marked;     /* to be split */
+    uint32_t number;  /* of the m x m at first */
+    uint16_t digits;  /* which quarter at each split, the first split highest; quarters are those of the base use */
+    uint8_t level;    /* splits */
+    uint8_t needless; /* bit k: split k of those that made it was needless */
+    bool pending;     /* its sample is to be drawn */
+    bool marked;      /* to be split */
     float value[3], weight;
 } koksma__stratum;
 
@@ -79,12 +80,19 @@ void koksma__use_cells_init(const koksma__adaptive *run, size_t pixel, uint32_t 
 void koksma__stratum_cell(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum,
                           uint32_t cell[2]);
 
+/* The same in another use, in units of the level that its cells have; stage: which pairing of the parts. */
+void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
+                             const koksma__stratum *stratum, uint32_t stage, uint32_t cell[2]);
+
 /* In which quarter of its base cell the sample of a stratum lies. */
 int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum);
 
 /* The place in [0,1)^2 of a stratum's sample in a use. */
 void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                            const koksma__stratum *stratum, uint32_t stage, float place[2]);
+
+/* The uses of two numbers or one, of the first two vertices: which of them there are. */
+int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_SPACES]);
 
 /* ---- The method (adaptive_strata.c) ----------------------------------------------------------------------- */
 
