@@ -68,17 +68,29 @@ static void print_coherence(const koksma_rank_row *row)
     fprintf(stderr, ")");
 }
 
+static bool saves_in_bands(const koksma_rank_row *row, const koksma_rank_row *best)
+{
+    return row->coherence.coherent && row->mean < best->mean;
+}
+
 /* Those in bands that leave less error than row `best`: how much the first of them saves, and the others' names. */
 static void advise_against(const koksma_rank_options *options, const koksma_rank_row *rows, size_t n, size_t best)
 {
-    size_t count = 0;
+    size_t count = 0, done = 0;
+    for (size_t i = 0; i < n; i++) {
+        count += saves_in_bands(&rows[i], &rows[best]);
+    }
     for (size_t i = 0; i < n; i++) {
         const koksma_rank_row *row = &rows[i];
-        if (!row->coherence.coherent || !(row->mean < rows[best].mean)) {
+        if (!saves_in_bands(row, &rows[best])) {
             continue;
         }
-        if (count++) {
-            fprintf(stderr, "%s%s", count == 2 ? ", and so does " : ", ", options->patterns[row->pattern]);
+        if (done++) {
+            fprintf(stderr, "%s%s",
+                    done == 2      ? count == 2 ? ", and so does " : ", and so do "
+                    : done < count ? ", "
+                                   : " and ",
+                    options->patterns[row->pattern]);
             continue;
         }
         const double none = NAN, low = i ? none : 1 - 1 / (1 + rows[best].behind_low),

@@ -406,7 +406,7 @@ static koksma_ranking rank_small(const koksma_rank_options *options, int threads
 
 /* Wherever the time limit cuts the work, on any number of threads: the same best pattern or none, the same decisions
    or none, and always rows. */
-static void cut_everywhere(koksma_rank_options options)
+static void cut_everywhere(koksma_rank_options options, double step)
 {
     koksma_rank_row whole[3], rows[3];
     const koksma_ranking all = rank_small(&options, 1, whole);
@@ -414,7 +414,7 @@ static void cut_everywhere(koksma_rank_options options)
     assert_true(all.settled && all.complete && !all.cut_short && all.n == 3);
     assert_true(all.checks[0].state && all.checks[1].state);
     koksma__set_clock(ticking);
-    for (double limit = 1; limit < 1e6; limit *= 1.5) {
+    for (double limit = 1; limit < 1e6; limit *= step) {
         for (int threads = 1; threads <= 2; threads++) {
             options.time_limit_s = limit;
             const koksma_ranking r = rank_small(&options, threads, rows);
@@ -452,10 +452,10 @@ static void time_limits_only_cut(void **state)
     (void)state;
     static const char *const patterns[] = {"zaremba", "jittered", "random"};
     koksma_rank_options options = small();
-    cut_everywhere(options);
+    cut_everywhere(options, 1.5);
     options.scene = "checker-45";
     options.patterns = patterns;
-    cut_everywhere(options);
+    cut_everywhere(options, 4);
 }
 
 static bool stop_at_200(void *context, double fraction)
