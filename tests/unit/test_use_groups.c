@@ -269,6 +269,7 @@ typedef struct moments {
 static moments over_seeds(const koksma_scene *scene, koksma_render_options options, const char *method)
 {
     enum { SEEDS = 40, PIXELS = 12 * 12 };
+    static const koksma_run alone = {.threads = 1}; /* pictures are too small for more */
     double sum = 0, squares = 0, pixel_sum[PIXELS] = {0}, pixel_squares[PIXELS] = {0};
     moments m = {0};
     options.width = options.height = 12;
@@ -279,9 +280,9 @@ static moments over_seeds(const koksma_scene *scene, koksma_render_options optio
         if (method) {
             assert_ok(koksma_adaptive_parse(method, &adaptive));
             adaptive.budget = 8 * options.spp;
-            assert_ok(koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL));
+            assert_ok(koksma_render_adaptive(scene, &options, &adaptive, &alone, &layers, NULL));
         } else {
-            assert_ok(koksma_render(scene, &options, NULL, &layers.image));
+            assert_ok(koksma_render(scene, &options, &alone, &layers.image));
         }
         for (int p = 0; p < PIXELS; p++) {
             const double v = (double)layers.image.pixels[p];
