@@ -122,8 +122,10 @@ typedef struct plot_kind {
 } plot_kind;
 
 static const plot_kind kinds[] = {
-    {"points", plot_points},     {"power", plot_power}, {"radial", plot_radial},
-    {"anisotropy", plot_radial}, {"pairs", plot_pairs}, {"convergence", plot_convergence},
+    {"points", plot_points},  {"power", plot_power},
+    {"radial", plot_radial},  {"anisotropy", plot_radial},
+    {"pairs", plot_pairs},    {"convergence", plot_convergence},
+    {"filter", plot_filters}, {"filter-response", plot_filters},
 };
 
 static const plot_kind *find_kind(const char *name)
@@ -180,11 +182,13 @@ static int run(const cli_arguments *arguments)
     const plot_kind *kind = find_kind(j.curve);
     if (!kind) {
         return cli_usage_error(
-            arguments, "--curve %s: it takes points, power, radial, anisotropy, pairs or convergence", j.curve);
+            arguments,
+            "--curve %s: it takes points, power, radial, anisotropy, pairs, convergence, filter or filter-response",
+            j.curve);
     }
     if (!cli_options_fit(arguments, options_of_kinds, j.curve, "--curve ") ||
         !cli_whole(arguments, "size", 0, 16, 8192, &j.size) || !cli_curves_begin(arguments, &j.curves) ||
-        !cli_sources_check(arguments, 0, trials_of_all(&j), 0)) {
+        (kind->plot != plot_filters && !cli_sources_check(arguments, 0, trials_of_all(&j), 0))) {
         return CLI_USAGE;
     }
     const char *warp = cli_text(arguments, "warp", NULL);
@@ -197,7 +201,8 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
-    {'c', "curve", "points|power|radial|anisotropy|pairs|convergence", "what is drawn (default: points)"},
+    {'c', "curve", "points|power|radial|anisotropy|pairs|convergence|filter|filter-response",
+     "what is drawn (default: points)"},
     {0, "size", "S", "side or width of a picture in points or pixels (default: 320, charts 480)"},
     {0, "columns", "C", "points: draw C columns of cells"},
     {0, "rows", "R", "points: draw R rows of cells"},
@@ -223,7 +228,9 @@ const cli_command cli_command_plot = {
         "Points and power spectra of several sources are drawn side by side, curves in one chart. power leaves out\n"
         "the frequency 0. radial and pairs show the level 1 of random points. convergence is the mean over trials\n"
         "against n on logarithmic axes, with the fitted slope and its standard error, and dashed the slopes that\n"
-        "theory gives for the pattern, or else the best that any points can have. A file's sizes are its prefixes.",
+        "theory gives for the pattern, or else the best that any points can have. A file's sizes are its prefixes.\n"
+        "filter and filter-response take names of pixel filters for sources; leakage is the part of the squared\n"
+        "response beyond half a cycle a pixel.",
     .options = options,
     .run = run,
 };

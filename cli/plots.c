@@ -34,7 +34,7 @@ int plot_panels(const plot_job *j, const koksma_panel *panels, size_t n)
     return write_picture(j, status, bytes, n_bytes);
 }
 
-static int draw_chart(const plot_job *j, koksma_chart *chart)
+int plot_chart(const plot_job *j, koksma_chart *chart)
 {
     unsigned char *bytes = NULL;
     size_t n_bytes = 0;
@@ -111,7 +111,7 @@ int plot_radial(plot_job *j)
                               .n_curves = s.n,
                               .has_level = true,
                               .level = anisotropy ? -10 * log10((double)j->curves.trials) : 1};
-        code = draw_chart(j, &chart);
+        code = plot_chart(j, &chart);
     }
     free(rings);
     close_store(&s);
@@ -143,7 +143,7 @@ int plot_pairs(plot_job *j)
                               .n_curves = s.n,
                               .has_level = true,
                               .level = 1};
-        code = draw_chart(j, &chart);
+        code = plot_chart(j, &chart);
     }
     free(tallies);
     close_store(&s);
@@ -315,7 +315,7 @@ int plot_convergence(plot_job *j)
         }
         koksma_chart chart = {
             .x_label = "n", .y_label = y_label, .log_x = true, .log_y = true, .curves = s.curves, .n_curves = s.n};
-        code = draw_chart(j, &chart);
+        code = plot_chart(j, &chart);
     }
     close_store(&s);
     return code;

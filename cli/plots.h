@@ -21,6 +21,9 @@ typedef struct plot_job {
 int plot_radial(plot_job *j); /* the mean over rings, or the anisotropy */
 int plot_pairs(plot_job *j);
 int plot_convergence(plot_job *j);
+int plot_filters(plot_job *j); /* the operands are filters: their frequency responses, or they themselves */
+
+int plot_chart(const plot_job *j, koksma_chart *chart);
 
 int plot_panels(const plot_job *j, const koksma_panel *panels, size_t n);
 

@@ -131,6 +131,13 @@ typedef struct koksma_filter {
 KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
 KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
+/* The Fourier transform of f along an axis over its value at 0: what is left of a wave of that many cycles a pixel. */
+KOKSMA_API double koksma_filter_response(const koksma_filter *filter, double frequency);
+
+/* The part of the integral of the squared response that is beyond half a cycle a pixel, the most that pixels can
+   show: 0 is the ideal filter. */
+KOKSMA_API double koksma_filter_leakage(const koksma_filter *filter);
+
 typedef struct koksma_render_options {
     koksma_spec pattern;                 /* of every use that has none of its own */
     koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where it is not all zero */

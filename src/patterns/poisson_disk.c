@@ -6,6 +6,10 @@
  *     x_i = the first of u_1, u_2, .. uniform in [0,1)^dim with |u - x_j| >= d for all j < i
  *
  * Source: Shirley 1991, section 5.5.4 (dart throwing in the square, d = 0.1 and 0.2 for 16 points); Cook 1986.
+ * Without torus=1 points crowd at the sides, where darts have fewer neighbours: 16 points with d = 0.2 have a density
+ * of 1.40 in the outer tenths of a coordinate and of .9 inside. A mean over the square is biased by that, and in
+ * `checker` it costs the lead over jittered samples. The paper's rule is the default; torus=1 is the one to use.
+ *
  * The set is that of the first n darts that fit. After 3,000 rejections in a row the set is begun anew, and after
  * 200 of these beginnings the search is given up: the error then says what is the largest d that any n points
  * can keep. Dart throwing itself jams at about 0.77 of that on the torus. In the plane, a grid of cells finds the
@@ -158,13 +162,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static const koksma_param params[] = {
     {"d", "smallest distance between two points", 0.1, 0, 8, NULL, false},
-    {"torus", "1: distances go around the sides of the square", 0, 0, 1, NULL, true},
+    {"torus", "1: distances go around the sides; else points crowd there", 0, 0, 1, NULL, true},
     {0},
 };
 
 const koksma_pattern koksma__pattern_poisson_disk = {
     .name = "poisson-disk",
-    .title = "dart throwing with a smallest distance",
+    .title = "dart throwing with a smallest distance; torus=1 for an even density",
     .cite = "cook1986 shirley1991",
     .min_dim = 1,
     .max_dim = 8,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* hermite: f = 1 - 3 x^2 + 2 |x|^3: separable, symmetric, of width 2, never negative, and a partition of unity, which
-   are the properties that Shirley (1991, section 5.2) asks of a pixel filter; among those the one of least degree
-   without slopes at 0 and 1. His own formula is another. */
+/* hermite: f = 1 - 3 x^2 + 2 |x|^3, the cubic of Mitchell & Netravali (1988) with B = C = 0, which interpolates as
+   Hermite's cubic with slopes of 0 does. Separable, symmetric, of width 2, never negative, and a partition of unity,
+   which is what Shirley (1991, section 5.2) asks of a pixel filter; the formula of his own filter is not known here.
+ */
 #include <math.h>
 
 #include "render/filters/filters.h"
@@ -14,8 +15,8 @@ static double value(double x)
 
 const koksma_filter koksma__filter_hermite = {
     .name = "hermite",
-    .title = "the smooth step of width 2",
-    .cite = "shirley1991",
+    .title = "the cubic with B = C = 0: a smooth step of width 2",
+    .cite = "mitchell1988",
     .radius = 1,
     .value = value,
 };

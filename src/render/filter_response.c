@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What a filter lets through: its frequency response, and how much of what it lets through is beyond Nyquist's
+ * frequency. With f even and zero from `radius` on,
+ *
+ *     H(w) = integral f(x) cos(2 pi w x) dx / integral f,        leakage = 1 - integral over |w| < 1/2 of H^2 /
+ * integral H^2
+ *
+ * and by Parseval's theorem integral H^2 = integral f^2 / (integral f)^2. Integrals are by two-point Gauss rules over
+ * cells of the half line, none of whose points is an edge of the filter.
+ */
+#include <math.h>
+
+#include "render/filters/filters.h"
+
+enum { CELLS = 4096, BANDS = 64 };
+
+static const double gauss = 0.28867513459481287; /* half of 1 / sqrt(3) */
+
+/* f, f cos(2 pi w x) and f^2 over the half line. */
+typedef struct sums {
+    double f, wave, square;
+} sums;
+
+static sums integrate(const koksma_filter *filter, double frequency)
+{
+    const double h = filter->radius / CELLS;
+    sums s = {0, 0, 0};
+    for (int i = 0; i < CELLS; i++) {
+        for (int side = -1; side <= 1; side += 2) {
+            const double x = h * (i + 0.5 + side * gauss), f = filter->value(x);
+            s.f += f;
+            s.wave += f * cos(2 * M_PI * frequency * x);
+            s.square += f * f;
+        }
+    }
+    s.f *= h / 2;
+    s.wave *= h / 2;
+    s.square *= h / 2;
+    return s;
+}
+
+double koksma_filter_response(const koksma_filter *filter, double frequency)
+{
+    const sums s = integrate(filter, frequency);
+    return s.wave / s.f;
+}
+
+double koksma_filter_leakage(const koksma_filter *filter)
+{
+    const sums s = integrate(filter, 0);
+    const double all = s.square / (2 * s.f * s.f); /* over both halves: 2 square / (2 f)^2 */
+    double passed = 0;
+    for (int i = 0; i < BANDS; i++) {
+        for (int side = -1; side <= 1; side += 2) {
+            const double h = koksma_filter_response(filter, 0.5 / BANDS * (i + 0.5 + side * gauss));
+            passed += h * h * (0.5 / BANDS); /* of both halves of the line, two points a band */
+        }
+    }
+    return 1 - passed / all;
+}
