@@ -37,11 +37,13 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
     return sampler->most;
 }
 
-static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, int dim, double *xs)
+static const koksma_run alone = {.threads = 1};
+
+static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, int dim, const koksma_run *run,
+                              double *xs)
 {
-    static const koksma_run alone = {.threads = 1};
     koksma_points points = {n, dim, xs};
-    return koksma_generate(spec, seed, &alone, &points);
+    return koksma_generate(spec, seed, run, &points);
 }
 
 /* Numbers to pairs, from the last so that it can be done in place. */
@@ -82,8 +84,9 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
     double *set = room->kept + n * (slot * (size_t)sampler->kept_dim + samples->kept_first[place->group]);
     if (*kept != key) {
         *kept = 0;
-        const koksma_status status = generate(&options->groups[place->group].pattern,
-                                              koksma__random_seed(options->seed, pixel, set_key), n, place->dim, set);
+        const koksma_status status =
+            generate(&options->groups[place->group].pattern, koksma__random_seed(options->seed, pixel, set_key), n,
+                     place->dim, room->run, set);
         if (status) {
             return status;
         }
@@ -106,7 +109,7 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
         status = take_from_group(sampler, pixel, use, room);
     } else {
         status = generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n, dims,
-                          room->xs);
+                          room->run, room->xs);
         if (!status && dims == 1) {
             widen(room->xs, n);
         }
@@ -172,7 +175,7 @@ static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel,
         room->kept_keys[slot] = 0;
         const koksma_status status =
             generate(&samples->options->pattern, koksma__random_seed(samples->options->seed, pixel, 0), n,
-                     sampler->kept_dim, set);
+                     sampler->kept_dim, room->run, set);
         if (status) {
             return status;
         }
@@ -225,7 +228,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
         return koksma__fail_memory(2 * n * sizeof *xs);
     }
     koksma_status status = koksma__check_single_use(spec);
-    status = status ? status : generate(spec, options->seed, n, dims, xs);
+    status = status ? status : generate(spec, options->seed, n, dims, &alone, xs);
     if (!status && koksma__spec_is_deterministic(spec)) {
         status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     }
@@ -282,7 +285,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     if (!xs) {
         return koksma__fail_memory(n * (size_t)dim * sizeof *xs);
     }
-    koksma_status status = generate(&group->pattern, options->seed, n, dim, xs);
+    koksma_status status = generate(&group->pattern, options->seed, n, dim, &alone, xs);
     for (int i = 0; !status && i < group->n_uses; i++) {
         const int u = group->uses[i];
         samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
@@ -329,7 +332,7 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
     if (!xs) {
         return status ? status : koksma__fail_memory(n * (size_t)dim * sizeof *xs);
     }
-    status = generate(&options->pattern, options->seed, n, dim, xs);
+    status = generate(&options->pattern, options->seed, n, dim, &alone, xs);
     free(xs);
     sampler->draw = draw_native;
     sampler->kept_dim = dim;

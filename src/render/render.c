@@ -63,6 +63,13 @@ static koksma_status look(job *j)
     return atomic_load(&j->stop) ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 
+/* The same for patterns, whose sets may take seconds each. */
+static bool goes_on(void *context, double fraction)
+{
+    (void)fraction;
+    return !look(context);
+}
+
 static koksma_status render_rows(void *context, size_t task)
 {
     job *j = context;
@@ -87,7 +94,7 @@ static koksma_status render_rows(void *context, size_t task)
             }
         }
     }
-    if (!status) {
+    if (!status || status == KOKSMA_INTERRUPTED) { /* what is rendered of an interrupted task is shown */
         koksma__film_close_task(f, &j->film, task);
     }
     atomic_fetch_add(&j->rays, r.values.rays);
@@ -98,7 +105,8 @@ static koksma_status render_rows(void *context, size_t task)
 
 static koksma_status render_image(job *j, const koksma_run *run, bool all_layers, koksma_layers *out)
 {
-    const koksma__frame *f = j->frame;
+    const koksma_run inner = {.threads = 1, .keep_going = goes_on, .context = j};
+    koksma__frame *f = j->frame;
     const size_t spp = (size_t)f->options->spp, width = (size_t)f->options->width;
     const size_t rows = SAMPLES_A_TASK / (width * spp);
     j->rows_a_task = rows ? (int)rows : 1;
@@ -106,10 +114,12 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->tasks = tasks;
     j->run = run;
     j->caller = pthread_self();
+    f->sampler.run = run && run->keep_going ? &inner : NULL;
     j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
     j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
+    f->sampler.run = NULL;
     if (!status || status == KOKSMA_INTERRUPTED) {
         const koksma_status finish = koksma__film_finish(f, &j->film, !status);
         status = status ? status : finish;

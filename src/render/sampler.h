@@ -33,12 +33,14 @@ typedef struct koksma__sample_room {
     uint32_t *words;                        /* KOKSMA__WORD_SLOTS parts, of the uses by turns */
     uint64_t word_keys[KOKSMA__WORD_SLOTS]; /* which pixels' and use's words are there */
     double *kept;
-    uint64_t *kept_keys; /* which set is in a slot; 0: none */
+    uint64_t *kept_keys;   /* which set is in a slot; 0: none */
+    const koksma_run *run; /* the sampler's, or one that always goes on */
 } koksma__sample_room;
 
 typedef struct koksma__sampler {
     void *made;
-    size_t most;       /* samples that a pixel can have */
+    const koksma_run *run; /* asked while a set is made, which may take seconds, by any thread; NULL: never */
+    size_t most;           /* samples that a pixel can have */
     int kept_dim;      /* coordinates of a sample that a room keeps, those of all groups, or of a native pattern */
     size_t kept_sets;  /* groups; a native pattern is one */
     size_t kept_slots; /* pixels: a pixel's sets are in slot pixel modulo kept_slots */

@@ -132,6 +132,7 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 
 koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler)
 {
+    static const koksma_run alone = {.threads = 1};
     const size_t n = sampler->most, counters = (n + 3) / 4;
     const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
@@ -141,6 +142,7 @@ koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__
         .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
         .kept = malloc((kept + 1) * sizeof *room->kept),
         .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
+        .run = sampler->run ? sampler->run : &alone,
     };
     if (!room->xs || !room->pairs || !room->words || !room->kept || !room->kept_keys) {
         koksma__sample_room_fini(room);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Groups of uses: sample i takes the coordinates of point i of one set, whatever is asked for before; the picture is
-   the same in the mean; texts, and what can't be. */
+   the same in the mean; texts, and what can't be. Long because all of it needs the same sets and scenes. */
 #include <koksma/adaptive.h>
 
 #include "core/random.h"
