@@ -136,7 +136,7 @@ static void sums_are_those_of_the_definition(void **state)
         }
         assert_ok(koksma__unit_sums_open(n, NULL, &sums));
         assert_ok(koksma__unit_sums_find(sums, NULL, product, values, &bound));
-        assert_true(bound < 1e-9);
+        assert_true(bound < 2e-12); /* else many are left open */
         for (size_t z = 1; z <= n / 2; z += n > 1000 && z > 50 ? 37 : 1) {
             if (common_divisor(z, n) != 1) {
                 assert_true(isinf(values[z]));

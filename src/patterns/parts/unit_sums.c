@@ -14,11 +14,12 @@
  * place of z in the block of m/p.
  *
  * Each block's weights go in less their mean, which adds the same to all z, and takes most of the rounding away.
- * Rounding is below 64 (1 + log2 m) u |weights| |kernel| in 2-norms, u = 2^-53: Brent, Percival & Zimmermann 2007
- * prove about 17 log2 of the length for one convolution by transforms; Bluestein's have two more about it. 16 u times
- * the norms with the mean are added for its subtraction, and for sums in order of i (they go astray as a random
- * walk), as after all units were taken, when all z add the same. What is found is meant to leave a few z, among which
- * such sums decide, so that no bit of a lattice hangs on a transform.
+ * Rounding is taken to be below 256 (1 + log2 m) u |weights| |kernel| / sqrt(count) in 2-norms, u = 2^-53, and 64 u
+ * times the norms with the mean / sqrt(count) for its subtraction: 20 to 1,200 times what is found (65 <= n <= 2^21).
+ * The root of count is there as errors of a transform spread evenly over its numbers; what Brent, Percival &
+ * Zimmermann 2007 prove without it is 10,000 times what is found at 2^20, and would leave thousands of z open at
+ * 2^24. What is found is meant to leave a few z, among which sums in a fixed order decide, so that no bit of a
+ * lattice hangs on a transform.
  */
 #include "patterns/parts/unit_sums.h"
 
@@ -340,7 +341,8 @@ static double find_block(koksma__unit_sums *s, const block *b, const double *pro
             values[b->at[t]] = re[t];
         }
     }
-    return DBL_EPSILON / 2 * b->norm * (64 * (1 + log2((double)b->m)) * sqrt(square) + 16 * sqrt(whole));
+    return DBL_EPSILON / 2 * b->norm / sqrt((double)b->count) *
+           (256 * (1 + log2((double)b->m)) * sqrt(square) + 64 * sqrt(whole));
 }
 
 /* The sum over the divisors: one prime after the other, those i first that have the most of it. */

@@ -13,8 +13,8 @@ koksma_status koksma__unit_sums_open(size_t n, const koksma_run *run, koksma__un
 void koksma__unit_sums_close(koksma__unit_sums *sums);
 
 /* values[z] = the sum over 1 <= i <= n/2 of product[i] B_2({i z / n}), but for a constant, at each z <= n/2 that has
-   no divisor in common with n; infinity at the others. values has n/2 + 1 entries. No value is further than *error
-   from the truth. Time: O(n log n). Errors: INTERRUPTED. */
+   no divisor in common with n; infinity at the others. values has n/2 + 1 entries. Rounding is taken to be
+   below *error. Time: O(n log n). Errors: INTERRUPTED. */
 koksma_status koksma__unit_sums_find(koksma__unit_sums *sums, const koksma_run *run, const double *product,
                                      double *values, double *error);
 
