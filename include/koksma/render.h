@@ -131,7 +131,8 @@ typedef struct koksma_filter {
 KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
 KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
-/* The Fourier transform of f along an axis over its value at 0: what is left of a wave of that many cycles a pixel. */
+/* The Fourier transform of f along an axis over its value at 0: what is left of a wave of that many cycles a pixel.
+ */
 KOKSMA_API double koksma_filter_response(const koksma_filter *filter, double frequency);
 
 /* The part of the integral of the squared response that is beyond half a cycle a pixel, the most that pixels can

@@ -269,7 +269,7 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
                                  unsigned char **bytes, size_t *n_bytes)
 {
     bool captions = false, scales = false;
-    double side;
+    double side = 0; /* gcc does not see that a failure leaves before it is used */
     const koksma_status sized = koksma__canvas_size(format, size, 320, &side);
     if (sized) {
         return sized;

@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <koksma/render.h>
 #include <koksma/spectrum.h>
 
 #include "sets.h"
@@ -162,13 +163,39 @@ static void a_file_that_is_stopped_is_as_before(void **state)
     koksma_points_fini(&p);
 }
 
+static bool stop_at_hundredth(void *context, double fraction)
+{
+    (void)fraction;
+    return ++*(int *)context < 100;
+}
+
+/* Patterns take seconds for a set of one pixel: they ask while they make it, on any thread but through the caller's.
+   A picture of four pixels is one task, and asked a few times before. */
+static void pictures_ask_within_a_set(void **state)
+{
+    (void)state;
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image = {0};
+    int asked = 0;
+    const koksma_run run = {.threads = 2, .keep_going = stop_at_hundredth, .context = &asked};
+    assert_ok(koksma_scene_open("ball", &scene));
+    koksma_render_options_init(&options, scene);
+    assert_ok(koksma_pattern_spec("gaussian-blue-noise:steps=1000", &options.pattern));
+    options.width = options.height = 2;
+    options.spp = 16;
+    assert_int_equal(koksma_render(scene, &options, &run, &image), KOKSMA_INTERRUPTED);
+    assert_true(asked >= 100 && asked < 200);
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_measure_asks),
-        cmocka_unit_test(questions_are_near),
-        cmocka_unit_test(one_false_stops),
-        cmocka_unit_test(a_file_that_is_stopped_is_as_before),
+        cmocka_unit_test(every_measure_asks),        cmocka_unit_test(questions_are_near),
+        cmocka_unit_test(one_false_stops),           cmocka_unit_test(a_file_that_is_stopped_is_as_before),
+        cmocka_unit_test(pictures_ask_within_a_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
