@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "render/intersect.h"
+#include "render/accel/intersect.h"
 
 #if !defined KOKSMA_EMBREE || !defined KOKSMA_ASSIMP
 

@@ -37,7 +37,7 @@ def small_tables(site):
              [(n, f"{r['what']}; radius {r['radius']}", r["source"], f"src/render/filters/filter_{n.replace('-', '_')}.c",
                render(f"filter-{n}", "checker", "--filter", n)) for r, n in of("filters", "filter")])
     sections(site, "adaptive", "Adaptive sampling", "where more samples go: koksma render --adaptive",
-             [(n, r["what"], r["source"], f"src/render/adaptive/adapt_{n.replace('-', '_')}.c",
+             [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
                counts(program, n, size)) for r, n in of("adaptive", "method")])
     sections(site, "warps", "Warps", "from the square to a lens, a triangle, a hemisphere: koksma measure --warp",
              [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])

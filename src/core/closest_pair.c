@@ -13,7 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "core/way.h"
+#include "core/torus.h"
 
 enum { PAIRS_AT_ONCE = 1 << 20 };
 

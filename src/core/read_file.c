@@ -57,3 +57,10 @@ koksma_status koksma__read_file(const char *path, size_t max, unsigned char **by
     fclose(stream);
     return status;
 }
+
+bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])
+{
+    const char *slash = strrchr(name, '/');
+    const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
+    return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
+}

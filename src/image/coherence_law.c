@@ -29,7 +29,7 @@
 
 #include <math.h>
 
-#include "core/quantiles.h"
+#include "stats/quantiles.h"
 
 enum { TERMS = 1000000, HALVINGS = 200 };
 

@@ -13,7 +13,7 @@
 #include <math.h>
 
 #include "measures/measures.h"
-#include "measures/parts/l2.h"
+#include "measures/shared/l2.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

@@ -11,7 +11,7 @@
  * circles of equal radius. Known exactly: one point 1; the m x m lattice with r < 1/(2m): 1/n.
  * Limits: a point closer than 4e-15 (as a squared distance) to a rim counts as on it, so that cocircular points count
  * together in spite of rounding; the value is good to 1e-14. All pairs are tried up to 64 points, above by branch and
- * bound (parts/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points where there is
+ * bound (shared/disk_cover.c): when that is cut short, by a time limit or after 2^28 looks at points where there is
  * none, the value is a lower bound, with an upper one beside it, and is not exact: so it
  * is for lattices of a few hundred points, and for the first 4,096 of sobol.
  */
@@ -21,8 +21,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "measures/parts/clock.h"
-#include "measures/parts/disk_pencil.h"
+#include "measures/shared/deadline.h"
+#include "measures/shared/disk_pencil.h"
 
 enum { PAIRS_TO = 64 };
 

@@ -13,8 +13,8 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "measures/parts/disk_laws.h"
-#include "measures/parts/sampled.h"
+#include "measures/shared/disk_laws.h"
+#include "measures/shared/sampled.h"
 
 enum { DISKS_PER_BLOCK = 256 };
 

@@ -12,18 +12,18 @@
  * a pivot, about which a line turns past the others in order of angle: O(n^2 log n). Known exactly: one point
  * (1/2,1/2) 1/2, (1/4,1/4) 7/8, (0,0) 1; m x m cell centres 1/(2m). Limits: order and ties of angles are exact,
  * also of clusters down to the smallest doubles; areas are rounded: errors of a few 1e-16. A time limit leaves half
- * of it to the pivots and what remains to bounds for intervals of directions (parts/edge_cover.c): the value is then
+ * of it to the pivots and what remains to bounds for intervals of directions (shared/edge_cover.c): the value is then
  * a lower bound, with an upper one beside it.
- * In 3 dimensions the same of half-spaces and the cube: planes through up to three points (parts/edge_space.c),
+ * In 3 dimensions the same of half-spaces and the cube: planes through up to three points (shared/edge_space.c),
  * O(n^4) and up to 1024 points. Known exactly: one point (u,v,w), all at most 1/3, 1 - 9uvw/2; at most 1/2, and w at
  * least 1/3, while 2u(1 + 6h) <= 1 + 12h^2 and the same of v, h = 1/2 - w: 1 - 2uv/(1 + 12h^2).
  */
 #include <math.h>
 
 #include "measures/measures.h"
-#include "measures/parts/edge_sweep.h"
-#include "measures/parts/lines.h"
-#include "measures/parts/planes.h"
+#include "measures/shared/edge_sweep.h"
+#include "measures/shared/lines.h"
+#include "measures/shared/planes.h"
 
 /* From (2x - ex, ey) to (ex, 2y - ey), e the corner next to p. */
 static void chords_of_square(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS])

@@ -16,9 +16,9 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/parts/lines.h"
-#include "measures/parts/planes.h"
-#include "measures/parts/sampled.h"
+#include "measures/shared/lines.h"
+#include "measures/shared/planes.h"
+#include "measures/shared/sampled.h"
 
 enum { LANES = 16, LINES_PER_BLOCK = 512 };
 

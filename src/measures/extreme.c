@@ -13,10 +13,10 @@
  * Limits: counts are exact, volumes are rounded products: errors of a few 1e-16. A time limit leaves bounds; in 3D
  * the upper one is 1.
  */
-#include "measures/parts/extreme.h"
+#include "measures/shared/extreme.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "measures/parts/extreme_grid.h"
+#include "measures/shared/extreme_grid.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

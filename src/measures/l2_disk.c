@@ -30,8 +30,8 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/parts/disk_laws.h"
-#include "measures/parts/torus_cells.h"
+#include "measures/shared/disk_laws.h"
+#include "measures/shared/torus_cells.h"
 
 enum { BLOCK = 64, MIN_COLUMNS = 4 };
 

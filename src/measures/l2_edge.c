@@ -8,10 +8,10 @@
  * separates x and y,  L^2 = (1/n) sum_i P(x_i) - (1/2n^2) sum_ij sigma(x_i, x_j) - C/2,
  * P(x) = int sigma(x, y) dy over the square, C = int P. For isotropic lines sigma = |x - y|/2 and
  * C = (2 + sqrt 2 + 5 asinh 1)/30; for the paper's lines, with a >= b the larger and smaller of |dx| and |dy|,
- * sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 - 1/9. P is in closed form (measures/parts/lines.c).
+ * sigma = ((a + b) ln(1 + b/a) + a - b)/2 and C = (8/15) ln 2 - 1/9. P is in closed form (measures/shared/lines.c).
  * Source: Mitchell 1992, section 5; the pairwise form as in Alexander 1990.
  * In 3 dimensions the same of planes through the unit cube, isotropic only: sigma = |x - y|/3, and C is a third of
- * the mean distance of two points of the cube (Robbins 1978), .6617... (measures/parts/planes.c). Known exactly:
+ * the mean distance of two points of the cube (Robbins 1978), .6617... (measures/shared/planes.c). Known exactly:
  * random points, E(L^2) = C/(2n). It is the same whichever side is counted. Limits: the terms are near 0.26 and
  * cancel; with compensated sums the square is good to about 1e-16.
  */
@@ -23,8 +23,8 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "measures/parts/lines.h"
-#include "measures/parts/planes.h"
+#include "measures/shared/lines.h"
+#include "measures/shared/planes.h"
 
 enum { ROWS_PER_BLOCK = 64 };
 

@@ -11,7 +11,7 @@
  * to 1e-11 of itself at 10^6 points; in more the square is good to about 1e-17 of its terms.
  */
 #include "measures/measures.h"
-#include "measures/parts/l2.h"
+#include "measures/shared/l2.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

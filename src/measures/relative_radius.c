@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "measures/measures.h"
-#include "measures/parts/neighbours.h"
+#include "measures/shared/neighbours.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

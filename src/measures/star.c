@@ -16,8 +16,8 @@
 
 #include "core/status.h"
 #include "measures/measures.h"
-#include "measures/parts/clock.h"
-#include "measures/parts/star.h"
+#include "measures/shared/deadline.h"
+#include "measures/shared/star.h"
 
 enum { FIRST_STEPS = 200, FIRST_RESTARTS = 1 };
 

@@ -4,15 +4,15 @@
  * finding the worst box is NP-hard.
  *
  * Formula: the largest |#{x_i in box}/n - volume| that threshold accepting finds over anchored boxes, see star.
- * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/parts/star_search.c says what is different. Known exactly: it
+ * Source: Gnewuch, Wahlstrom and Winzen 2012; measures/shared/star_search.c says what is different. Known exactly: it
  * never exceeds star but for the last bit. How often the default search reaches star was measured: in all of 360 sets
  * of 12 patterns, 64 to 2000 points in 2 to 5 dimensions and 50 to 200 in 6 to 8 (docs/findings/star-lower.md).
  * Limits: the witness, which is known up to 16 dimensions, proves the bound; how far below the supremum it is, is not
  * known: upper is 1.
  */
 #include "measures/measures.h"
-#include "measures/parts/clock.h"
-#include "measures/parts/star.h"
+#include "measures/shared/deadline.h"
+#include "measures/shared/star.h"
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {

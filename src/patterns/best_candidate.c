@@ -12,8 +12,8 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/torus_grid.h"
 
 enum { MAX_DIM = 8, LOOKS = 1 << 24 };
 

@@ -18,9 +18,9 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/cells.h"
-#include "patterns/parts/columns.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/cells.h"
+#include "patterns/shared/columns.h"
 
 enum { FEW = 256, BLOCK = 256 };
 

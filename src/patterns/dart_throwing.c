@@ -7,7 +7,7 @@
  *
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
- * thrown away and begun anew, at most 200 times. The law is that of uniform darts; parts/dart_cover.h tells how. For
+ * thrown away and begun anew, at most 200 times. The law is that of uniform darts; shared/dart_cover.h tells how. For
  * a small f, where most darts fit, the darts are thrown one by one at a grid of n cells: the cover's, which are
  * smaller than d, would be many for each point.
  */
@@ -17,10 +17,10 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/dart_cover.h"
-#include "patterns/parts/packing.h"
-#include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/dart_cover.h"
+#include "patterns/shared/packing.h"
+#include "patterns/shared/torus_grid.h"
 
 enum { RESTARTS = 200 };
 

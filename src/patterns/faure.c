@@ -13,10 +13,10 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/owen_sequence.h"
-#include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/owen_sequence.h"
+#include "patterns/shared/radical.h"
 
 enum { MAX_DIGITS = 32, FEW = 4096 };
 enum { NONE, OWEN };

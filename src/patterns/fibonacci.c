@@ -9,8 +9,8 @@
  * Known exactly: n = 13: D* = 0.165680473, L2 star = 0.065208186. `golden` is its form for any n.
  */
 #include "core/status.h"
-#include "patterns/parts/lattice.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/lattice.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -31,9 +31,9 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/fill.h"
-#include "patterns/parts/torus_rows.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/fill.h"
+#include "patterns/shared/torus_rows.h"
 
 enum { BLOCK = 1024, STIFF_STEPS = 128, LEAST_STEPS = 400, MOST_STEPS = 2000, PATIENCE = 200 };
 

@@ -12,10 +12,10 @@
 
 #include "core/elementary.h"
 #include "core/random.h"
-#include "patterns/parts/cells.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/cells.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/fill.h"
 
 typedef struct bell {
     double scale, erf_a; /* sqrt(2) sigma; erf of half a cell over it */

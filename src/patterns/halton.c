@@ -15,10 +15,10 @@
  * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.
  */
 #include "core/random.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/owen_digits.h"
-#include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/owen_digits.h"
+#include "patterns/shared/radical.h"
 
 enum { NONE, AFFINE, OWEN };
 

@@ -14,10 +14,10 @@
 
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/owen_hammersley.h"
-#include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/owen_hammersley.h"
+#include "patterns/shared/radical.h"
 
 enum { NONE, OWEN };
 

@@ -15,8 +15,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "patterns/parts/lattice.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/lattice.h"
 
 enum { MAX_DIM = 256, ALL = 2048, WORK = 1 << 22 };
 

@@ -16,11 +16,11 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/grow.h"
-#include "patterns/parts/owen_hammersley.h"
-#include "patterns/parts/sobol_table.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/grow.h"
+#include "patterns/shared/owen_hammersley.h"
+#include "patterns/shared/sobol_table.h"
 
 enum { NONE, OWEN };
 

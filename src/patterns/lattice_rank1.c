@@ -9,7 +9,7 @@
  * weight gamma = 3/(8 pi^2) = 0.038, with which it is the square of l2-wraparound over (4/3)^d. The points in fewer
  * dimensions are the first coordinates of those in more.
  * Source: Sloan & Reztsov 2002, with gamma = 1; all multipliers at once in O(n log n): Nuyens & Cools 2006 and 2006a,
- * as parts/unit_sums.c says; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013; l2-wraparound: Hickernell
+ * as shared/unit_sums.c says; weights: Sloan & Wozniakowski 1998, Dick, Kuo & Sloan 2013; l2-wraparound: Hickernell
  * 1998. With gamma = 1 the products of many coordinates outweigh all pairs: from some 8 dimensions on one multiplier
  * comes again and again (n = 4096: 1615), which lays the points on diagonals. Weights 1/k^2 for coordinate k are
  * customary where the first coordinates matter most; here none does, and with them multipliers repeat still (n = 256:
@@ -25,8 +25,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "patterns/parts/lattice.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/lattice.h"
 
 enum { MAX_DIM = 256 };
 

@@ -12,9 +12,9 @@
 
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/cells.h"
-#include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/cells.h"
+#include "patterns/shared/fill.h"
 
 enum { FEW = 256 };
 

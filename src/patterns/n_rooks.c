@@ -16,10 +16,10 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/cells.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/fill.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/cells.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/fill.h"
 
 enum { FEW = 256 };
 

@@ -19,8 +19,8 @@
 #include <koksma/sampler.h>
 
 #include "core/random.h"
-#include "patterns/parts/grow.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/grow.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

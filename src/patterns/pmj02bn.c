@@ -34,8 +34,8 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/grow.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/grow.h"
 
 enum { MOST_LEVELS = 10, SWEEPS = 2 };
 

@@ -22,9 +22,9 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/packing.h"
-#include "patterns/parts/torus_grid.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/packing.h"
+#include "patterns/shared/torus_grid.h"
 
 enum { REJECTIONS = 3000, RESTARTS = 200, FEW = 256, LOOKS = 1 << 24 };
 

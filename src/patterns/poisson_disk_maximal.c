@@ -16,8 +16,8 @@
 
 #include "core/random.h"
 #include "core/status.h"
-#include "patterns/parts/dart_cover.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/dart_cover.h"
 
 enum { TRIES = 100, SEARCHES = 8, MANY = 100000 };
 

@@ -4,7 +4,7 @@
  * uniform ones, in Yuksel's progressive order: half of the points is taken out again, then half of those left, and
  * so on; the point taken out last comes first.
  *
- * Source: Yuksel 2015, section on progressive sampling; parts/elimination.c has the formulas. The first n points of
+ * Source: Yuksel 2015, section on progressive sampling; shared/elimination.c has the formulas. The first n points of
  * a sequence do not depend on n, but they do on `length`: another length is another sequence. Generating takes the
  * time of the whole sequence: choose the length that you will use.
  */
@@ -12,8 +12,8 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "patterns/parts/elimination.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/elimination.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -19,8 +19,8 @@
 #include <koksma/sampler.h>
 
 #include "kernels/kernels.h"
-#include "patterns/parts/columns.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
 
 enum { MAX_DIM = 64 };
 

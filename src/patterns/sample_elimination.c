@@ -6,12 +6,12 @@
  *     weight of i = sum over j with d_ij < d_max of (1 - max(d_ij, d_min) / d_max)^8
  *     d_max = the distance of the densest packing of n points,  d_min = d_max (1 - factor^-1.5) 0.65
  *
- * Source: Yuksel 2015, in any dimension; parts/elimination.c has the formulas. The points come in the order in which
+ * Source: Yuksel 2015, in any dimension; shared/elimination.c has the formulas. The points come in the order in which
  * they were drawn; progressive-elimination orders them so that the first k are blue noise, too.
  * Relative radius at n = 1024 in the plane, mean of 10 sets: 0.696 at factor 5, 0.770 at factor 20.
  */
-#include "patterns/parts/elimination.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/elimination.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {

@@ -14,9 +14,9 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "patterns/parts/cells.h"
-#include "patterns/parts/jittered_time.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/cells.h"
+#include "patterns/shared/jittered_time.h"
 
 typedef struct scan {
     const koksma_points *out;

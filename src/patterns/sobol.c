@@ -26,10 +26,10 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/grow.h"
-#include "patterns/parts/sobol_table.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/grow.h"
+#include "patterns/shared/sobol_table.h"
 
 enum { ROWS = 16 }; /* the most dimensions of the kernel digital_rows */
 

@@ -15,10 +15,10 @@
  * is a permutation of the digits of each place, and has no effect on what is scrambled uniformly
  */
 #include "kernels/kernels.h"
-#include "patterns/parts/columns.h"
-#include "patterns/parts/owen_hammersley.h"
-#include "patterns/parts/radical.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/owen_hammersley.h"
+#include "patterns/shared/radical.h"
 
 enum { NONE, OWEN };
 

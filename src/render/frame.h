@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * One picture in the making. Pixels go in groups that fill KOKSMA__BLOCK lanes through one of two pipelines:
- * direct.c, all in lanes, for grey Lambert scenes under rectangles; and tracer.c, for everything. Both turn the
- * samples of a group into values; film.c turns values into pixels.
+ * lambert_lanes.c, all in lanes, for grey Lambert scenes under rectangles; and wavefront.c, for everything. Both turn
+ * the samples of a group into values; film.c turns values into pixels.
  */
 #ifndef KOKSMA_RENDER_FRAME_H
 #define KOKSMA_RENDER_FRAME_H
 
 #include <koksma/render.h>
 
+#include "render/accel/intersect.h"
 #include "render/filters/filters.h"
+#include "render/frustum_cull.h"
 #include "render/integrators/integrators.h"
-#include "render/intersect.h"
-#include "render/lights.h"
-#include "render/sampler.h"
-#include "render/sight.h"
+#include "render/lights/lights.h"
+#include "render/samples/sampler.h"
 
 typedef struct koksma__frame {
     const koksma_scene *scene;
@@ -76,7 +76,7 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
 
 extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
 
-/* Whether direct.c can draw this. */
+/* Whether lambert_lanes.c can draw this. */
 bool koksma__direct_can(const koksma__frame *frame);
 
 /* As many pixels from `first` on as fill a block, one at least, none from `end` on. */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 
 #define KOKSMA__PI_F 3.14159265358979f
 

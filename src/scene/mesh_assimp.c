@@ -44,7 +44,7 @@ koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 
 #include "core/hash.h"
 #include "core/read_file.h"
-#include "scene/mesh_file.h"
+#include "meshes/mesh_file.h"
 #include "scene/model_build.h"
 
 enum { MAX_DEPTH = 512 /* of nodes */ };

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/vector.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 bool koksma__camera_aim(const double eye[3], const double forward[3], const double up[3], double fov_rad,
                         koksma__camera *camera)

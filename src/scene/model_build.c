@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "core/vector.h"
 #include "image/formats.h"
-#include "scene/mesh_file.h"
+#include "meshes/mesh_file.h"
 #include "scene/model.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 koksma_status koksma__build_init(koksma__build *build, size_t n_materials, size_t n_meshes)
 {

@@ -6,11 +6,10 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "core/read_file.h"
 #include "core/status.h"
-#include "scene/json.h"
 #include "scene/scene.h"
-
-enum { KOKSMA__MAX_PATH = 4096 };
+#include "json/json.h"
 
 #define FAR 1e6    /* coordinates and lengths */
 #define TINY 1e-6  /* lengths that count as zero */
@@ -40,9 +39,6 @@ void koksma__scene_finish(koksma_scene *scene);
    Errors: MALFORMED (too many), MEMORY. */
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
-
-/* A path in the file `name` starts at the file's folder; false when it is too long. */
-bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH]);
 
 /* Makes the placement a luminaire. Errors: MALFORMED (too many, or it has no area where it stands). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);

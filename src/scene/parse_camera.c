@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The camera: a pinhole, or a thin lens (Potmesil & Chakravarty 1981; Cook, Porter & Carpenter 1984), and the time
    that its shutter is open. */
+#include "core/vector.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 static koksma_status parse_lens(const field *f, koksma__camera *camera)
 {

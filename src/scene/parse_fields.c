@@ -3,16 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/vector.h"
 #include "image/formats.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
-
-bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])
-{
-    const char *slash = strrchr(name, '/');
-    const int folder = *path == '/' || !slash ? 0 : (int)(slash - name) + 1;
-    return (size_t)snprintf(out, KOKSMA__MAX_PATH, "%.*s%s", folder, name, path) < KOKSMA__MAX_PATH;
-}
 
 const char *koksma__package_hint(const char *path)
 {

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/vector.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 static double luminance(const double rgb[3])
 {

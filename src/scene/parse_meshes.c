@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/mesh.h"
+#include "core/vector.h"
+#include "meshes/mesh.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 enum { MAX_PLACEMENTS = 1 << 16 };
 

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/room.h"
+#include "core/capacity.h"
+#include "core/vector.h"
 #include "scene/parse.h"
-#include "scene/vector.h"
 
 koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__shape **out)
 {

@@ -7,7 +7,7 @@
 #include <koksma/warp.h>
 #include <pthread.h>
 
-#include "scene/mesh.h"
+#include "meshes/mesh.h"
 
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 

@@ -4,7 +4,7 @@
  * With (a,b) = 2u - 1: if |a| > |b|, radius a and angle (pi/4)(b/a); else radius b and angle pi/2 - (pi/4)(a/b).
  * Source: Shirley & Chiu 1997. Known exactly: the centre stays, corners go to the diagonals of the circle.
  */
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 static void map(const double *u, double *x)

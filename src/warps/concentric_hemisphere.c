@@ -3,7 +3,7 @@
  * concentric-hemisphere: the concentric map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): uniform solid
  * angle. Source: Shirley & Chiu 1997.
  */
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 static void map(const double *u, double *x)

@@ -3,7 +3,7 @@
  * cosine-hemisphere: the concentric map to the disk, then straight up to z = sqrt(1 - r^2): density z/pi.
  * Source: Shirley & Chiu 1997; the lift is known as Malley's method.
  */
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 static void map(const double *u, double *x)

@@ -3,7 +3,7 @@
  * hemisphere: the polar map to the disk, then z = 1 - r^2 and radius r sqrt(2 - r^2): height 1 - u_0, angle 2 pi u_1,
  * uniform solid angle. Source: Shirley 1991; the lift is Lambert's equal-area projection.
  */
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 static void map(const double *u, double *x)

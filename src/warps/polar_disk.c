@@ -3,7 +3,7 @@
  * polar-disk: radius sqrt(u_0), angle 2 pi u_1; area is kept, distances are not: the square is cut open along one
  * radius and squeezed at the centre. Source: Shirley 1991, section 5.5, the contrast to its preferred disk map.
  */
-#include "warps/parts/disk_maps.h"
+#include "warps/shared/disk_maps.h"
 #include "warps/warps.h"
 
 static void map(const double *u, double *x)

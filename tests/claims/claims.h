@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "core/spec.h"
-#include "patterns/parts/packing.h"
-#include "patterns/parts/radical.h"
+#include "patterns/shared/packing.h"
+#include "patterns/shared/radical.h"
 #include "test.h"
 
 typedef void (*claim_check)(const koksma_spec *spec, const koksma_points *points, uint64_t seed);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/batch.h"
+#include "render/pipelines/batch.h"
 #include "scene/scene.h"
 #include "test.h"
 

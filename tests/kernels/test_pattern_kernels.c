@@ -4,7 +4,7 @@
 
 #include "core/random.h"
 #include "kernels/kernels.h"
-#include "patterns/parts/sobol_table.h"
+#include "patterns/shared/sobol_table.h"
 #include "test.h"
 
 enum { MAX = 300 };

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/sight.h"
+#include "render/frustum_cull.h"
 #include "scene/scene.h"
 #include "test.h"
 

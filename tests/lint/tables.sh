@@ -23,7 +23,7 @@ same() {
   rm -f "$folder"/*.s
 }
 same render/materials/materials.def src src/render/materials/material_table.c
-same render/uses.def src src/render/uses.c
+same render/samples/uses.def src src/render/samples/uses.c
 same koksma/status.def include src/core/status.c
 
 # Every other table is a list of names, a list of functions that structs call by name, or names and numbers that are

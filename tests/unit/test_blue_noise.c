@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "patterns/parts/elimination.h"
-#include "patterns/parts/packing.h"
+#include "patterns/shared/elimination.h"
+#include "patterns/shared/packing.h"
 #include "test.h"
 
 static double torus_distance2(const double *a, const double *b, int dim)

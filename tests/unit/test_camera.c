@@ -117,7 +117,7 @@ static void every_way_of_sampling_has_the_same_mean(void **state)
 }
 
 /* A constant picture stays constant, by every filter, drawn or splatted, in each pixel and by either pipeline (path:
-   tracer.c), also by patterns that have a point at 0, where most filters are 0; so it costs adaptive methods no
+   wavefront.c), also by patterns that have a point at 0, where most filters are 0; so it costs adaptive methods no
    second look. */
 static void filters_keep_a_constant(void **state)
 {

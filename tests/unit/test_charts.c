@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/report_chart.h"
+#include "study/report/report_chart.h"
 #include "test.h"
 
 /* The chart of two means at x = 1 and 2, 10 and `top`, with bars of low to high. */

@@ -4,7 +4,7 @@
 
 #include "render/rows.h"
 #include "rendering.h"
-#include "study/queue.h"
+#include "study/run/queue.h"
 
 static void rows_have_the_bits_of_the_whole(void **state)
 {

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
-#include "measures/parts/disk_laws.h"
-#include "measures/parts/edge_sweep.h"
-#include "measures/parts/lines.h"
-#include "measures/parts/orientation.h"
+#include "measures/shared/disk_laws.h"
+#include "measures/shared/edge_sweep.h"
+#include "measures/shared/lines.h"
+#include "measures/shared/orientation.h"
 #include "sets.h"
 
 #if defined(__SIZEOF_FLOAT128__)

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "render/lights.h"
+#include "render/lights/lights.h"
 #include "rendering.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };

@@ -5,7 +5,7 @@
 
 #include "core/clock.h"
 #include "kernels/kernels.h"
-#include "measures/parts/extreme.h"
+#include "measures/shared/extreme.h"
 #include "sets.h"
 
 static void plane_equals_plain_search(void **state)

@@ -9,7 +9,7 @@
 #include <koksma/render.h>
 
 #include "meshes.h"
-#include "scene/mesh_file.h"
+#include "meshes/mesh_file.h"
 #include "scene/model_build.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)

@@ -3,8 +3,8 @@
    points. */
 #include <string.h>
 
-#include "measures/parts/lines.h"
-#include "measures/parts/planes.h"
+#include "measures/shared/lines.h"
+#include "measures/shared/planes.h"
 #include "sets.h"
 
 enum { DIRECTIONS = 1500, STARTS = 6 };

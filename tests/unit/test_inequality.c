@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Koksma's inequality over a table of functions: their integrals and variations by definition, then the theorem. */
 #include "sets.h"
-#include "study/integrands.h"
+#include "study/report/integrands.h"
 
 /* The largest sum of differences over grids of m cells, ends included: Hardy and Krause's variation anchored at 1 is
    what it goes to. offset moves the inner lines, so that steps are between lines. */

@@ -4,7 +4,7 @@
    large n against 128-bit sums and a closed form; threads. */
 #include <string.h>
 
-#include "measures/parts/l2.h"
+#include "measures/shared/l2.h"
 #include "sets.h"
 
 #if defined(__SIZEOF_FLOAT128__)

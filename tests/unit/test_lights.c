@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What luminaires of every kind are thought to give, when one of them is chosen, against what they do give. */
-#include "render/batch.h"
-#include "render/lights.h"
+#include "render/lights/lights.h"
+#include "render/pipelines/batch.h"
 #include "rendering.h"
 
 /* A small disk overhead and another luminaire, which reflect the same: pi 10^-4 L / pi is intensity / pi, irradiance

@@ -3,7 +3,7 @@
  */
 #include <stdlib.h>
 
-#include "measures/parts/order.h"
+#include "measures/shared/order.h"
 #include "sets.h"
 
 typedef struct entry {

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "study/rank_regression.h"
-#include "study/rho_words.h"
+#include "stats/rank_regression.h"
+#include "study/report/rho_words.h"
 #include "test.h"
 
 static double uniform(uint64_t seed, uint64_t i)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* How a printed mean goes with ours: every verdict, z with half of the last printed digit, slopes of printed ends. */
-#include "study/tables.h"
+#include "study/report/published_tables.h"
 
 #include <math.h>
 

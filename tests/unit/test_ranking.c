@@ -8,10 +8,10 @@
 #include <koksma/study.h>
 
 #include "core/clock.h"
-#include "core/quantiles.h"
 #include "core/random.h"
-#include "study/ranking_decisions.h"
-#include "study/ranking_reference.h"
+#include "stats/quantiles.h"
+#include "study/ranking/ranking_decisions.h"
+#include "study/ranking/ranking_reference.h"
 #include "test.h"
 
 /* ---- Invented errors ------------------------------------------------------------------------------------ */

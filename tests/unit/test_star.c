@@ -5,7 +5,7 @@
 
 #include <koksma/series.h>
 
-#include "measures/parts/star.h"
+#include "measures/shared/star.h"
 #include "sets.h"
 
 static double radical_inverse(unsigned base, unsigned long i)

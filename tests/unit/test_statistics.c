@@ -4,9 +4,9 @@
 
 #include <koksma/series.h>
 
-#include "core/quantiles.h"
 #include "core/random.h"
-#include "study/statistics.h"
+#include "stats/quantiles.h"
+#include "stats/statistics.h"
 #include "test.h"
 
 /* A standard normal number (Box and Muller 1958). */

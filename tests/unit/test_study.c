@@ -7,11 +7,11 @@
 #include <koksma/series.h>
 #include <koksma/study.h>
 
-#include "study/plan.h"
-#include "study/rho_words.h"
-#include "study/statistics.h"
-#include "study/store.h"
-#include "study/study.h"
+#include "stats/statistics.h"
+#include "study/plan/plan.h"
+#include "study/report/rho_words.h"
+#include "study/run/study.h"
+#include "study/store/store.h"
 #include "test.h"
 
 static void summary_by_hand(void **state)

@@ -13,11 +13,11 @@
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "patterns/patterns.h"
-#include "render/adaptive/adaptive.h"
 #include "render/filters/filters.h"
 #include "render/integrators/integrators.h"
 #include "render/materials/materials.h"
-#include "render/sampler.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "render/samples/sampler.h"
 #include "warps/warps.h"
 
 /* ---- Tables that are lists ---------------------------------------------------------------------------------- */
@@ -67,7 +67,7 @@ static void names_are_those_of_files(void **state)
     expect_name(#line, koksma__adaptive_##line.name, &koksma__adaptive_##line,                                       \
                 koksma_adaptive_find(koksma__adaptive_##line.name));                                                 \
     n[5]++;
-#include "render/adaptive/adaptive.def"
+#include "render/samples/adaptive/adaptive.def"
 #define FORMAT(line)                                                                                                 \
     expect_name(#line, koksma__format_##line.name, NULL, NULL);                                                      \
     n[6]++;
@@ -200,7 +200,7 @@ static void every_kernel_is_there(void **state)
     }
     const koksma__batch_table *batch = koksma__batch();
 #define KERNEL(result, name, arguments) assert_true(batch->name != NULL);
-#include "render/batch.def"
+#include "render/pipelines/batch.def"
 #undef KERNEL
 }
 

@@ -4,7 +4,7 @@
 #include <koksma/adaptive.h>
 
 #include "core/random.h"
-#include "render/sampler.h"
+#include "render/samples/sampler.h"
 #include "rendering.h"
 
 enum { N = 16, SIDE = 4, MOST = 1024 };

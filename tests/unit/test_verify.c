@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "patterns/parts/packing.h"
+#include "patterns/shared/packing.h"
 #include "test.h"
 
 static const koksma_finding *find(const koksma_findings *all, const char *property, const char *subject)

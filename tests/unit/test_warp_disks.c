@@ -3,9 +3,9 @@
    caps, and the advantage of the concentric map. */
 #include <koksma/warp.h>
 
-#include "measures/parts/quadrature.h"
-#include "measures/parts/warp_disks.h"
-#include "measures/parts/warp_domains.h"
+#include "measures/shared/quadrature.h"
+#include "measures/shared/warp_disks.h"
+#include "measures/shared/warp_domains.h"
 #include "sets.h"
 
 static koksma_value warped(const char *warp, const char *measure, const koksma_points *points)

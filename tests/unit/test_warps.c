@@ -4,7 +4,7 @@
 
 #include <koksma/warp.h>
 
-#include "measures/parts/warp_domains.h"
+#include "measures/shared/warp_domains.h"
 #include "sets.h"
 
 enum { GRID = 256 };

@@ -20,7 +20,7 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "render/tracer.h"
+#include "render/pipelines/wavefront.h"
 #include "render/vector3.h"
 
 enum { RAYS = 256, COARSEST = 16, FINEST = 2, LEVELS = 64, BUCKETS = 1 << 16, MAX_RECORDS = 1 << 22 };

@@ -6,7 +6,7 @@
 
 struct koksma__frame;
 
-/* What an integrator does at a vertex; tracer.c does it. */
+/* What an integrator does at a vertex; wavefront.c does it. */
 typedef struct koksma__rules {
     unsigned followed; /* lobes whose ways are followed further; the others see luminaires only */
     bool areas;        /* luminaires are sampled all over; else from their centres */

@@ -1,0 +1,406 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* JSON files by jansson, with errors that name file, line and path. jansson keeps no lines of values: a small scanner
+   finds the line of a node again, once something is wrong with it. Long because reading, checking and finding lines
+   share what a node is. */
+#include "json/json.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+
+struct koksma__json {
+    json_t *root;
+    char *kind, *name, *text;
+    size_t size;
+};
+
+/* ---- From steps to a line: jansson keeps no positions, so the text is walked again when an error needs one -----
+ */
+
+typedef struct walker {
+    const char *at, *end;
+} walker;
+
+static void skip_space(walker *w)
+{
+    while (w->at < w->end && strchr(" \t\r\n", *w->at)) {
+        w->at++;
+    }
+}
+
+static void skip_string(walker *w)
+{
+    for (w->at++; w->at < w->end && *w->at != '"'; w->at++) {
+        w->at += *w->at == '\\';
+    }
+    w->at++;
+}
+
+/* Skips one value of a text that is known to be JSON. */
+static void skip_value(walker *w)
+{
+    int depth = 0;
+    skip_space(w);
+    do {
+        if (w->at < w->end && *w->at == '"') {
+            skip_string(w);
+        } else if (w->at < w->end && strchr("[{", *w->at)) {
+            depth++;
+            w->at++;
+        } else if (w->at < w->end && strchr("]}", *w->at)) {
+            depth--;
+            w->at++;
+        } else if (depth) {
+            w->at++;
+        } else {
+            while (w->at < w->end && !strchr(",]} \t\r\n", *w->at)) {
+                w->at++;
+            }
+        }
+    } while (depth && w->at < w->end);
+}
+
+/* Goes from the start of a list or object to that of its i-th item, or its member's value. */
+static bool enter(walker *w, size_t index)
+{
+    const bool object = w->at < w->end && *w->at == '{';
+    w->at++;
+    for (size_t i = 0; w->at < w->end; i++) {
+        skip_space(w);
+        if (object) {
+            skip_string(w);
+            skip_space(w);
+            w->at++; /* the colon */
+            skip_space(w);
+        }
+        if (i == index) {
+            return w->at < w->end;
+        }
+        skip_value(w);
+        skip_space(w);
+        w->at++; /* the comma */
+    }
+    return false;
+}
+
+/* Where the member of that key stands: jansson keeps them in the text's order. */
+static size_t number_of(const json_t *object, const char *key)
+{
+    size_t number = 0;
+    for (void *i = json_object_iter((json_t *)(uintptr_t)object); i && json_object_iter_key(i) != key;
+         i = json_object_iter_next((json_t *)(uintptr_t)object, i)) {
+        number++;
+    }
+    return number;
+}
+
+static size_t line_of(const koksma__json_node *node)
+{
+    const char *text = node->document->text;
+    const json_t *value = node->document->root;
+    walker w = {text, text + node->document->size};
+    skip_space(&w);
+    for (int i = 0; i < node->n_steps; i++) {
+        const koksma__json_step step = node->steps[i];
+        const walker before = w;
+        if (!enter(&w, step.key ? number_of(value, step.key) : step.item)) {
+            w = before;
+            break;
+        }
+        value = step.key ? json_object_get(value, step.key) : json_array_get(value, step.item);
+    }
+    size_t line = 1;
+    for (const char *c = text; c < w.at && c < w.end; c++) {
+        line += *c == '\n';
+    }
+    return line;
+}
+
+koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...)
+{
+    char reason[512];
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
+    const koksma__json *d = node->document;
+    return koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %zu: %s%s%s", d->kind, d->name, line_of(node), node->path,
+                        *node->path ? ": " : "", reason);
+}
+
+koksma_status koksma__json_fail_in(const koksma__json_node *node, koksma_status status)
+{
+    koksma__json_fail(node, "%s", koksma_error_text());
+    return koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM) ? status : KOKSMA_MALFORMED;
+}
+
+/* ---- Documents and nodes --------------------------------------------------------------------------------- */
+
+/* Reads the text when as much memory as its longest string could take, twice over, is there: jansson 2.14 doesn't
+   look whether it got the memory for a longer string, and writes on (lex_save() in its load.c). */
+static koksma_status read_text(koksma__json *d, json_error_t *error)
+{
+    const size_t room = 4 * d->size + 4096;
+    char *volatile there = malloc(room); /* volatile: compilers leave out what is only freed */
+    if (!there) {
+        return koksma__fail_memory(room);
+    }
+    memset(there, 1, room); /* addresses alone are cheap */
+    free(there);
+    d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, error);
+    return KOKSMA_OK;
+}
+
+/* Where memory runs out inside jansson it may call the text malformed. What it says is believed after a second
+   reading. */
+static koksma_status load(koksma__json *d)
+{
+    json_error_t error;
+    koksma_status status = read_text(d, &error);
+    status = status || d->root ? status : read_text(d, &error);
+    if (status) {
+        return status;
+    }
+    return d->root ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", d->kind, d->name,
+                                  error.line > 0 ? error.line : 1, error.text);
+}
+
+koksma_status koksma__json_open(const char *kind, const char *name, const char *text, size_t size, koksma__json **out)
+{
+    koksma__json *d = calloc(1, sizeof *d);
+    *out = NULL;
+    if (d) {
+        *d = (koksma__json){.kind = strdup(kind), .name = strdup(name), .text = malloc(size + 1), .size = size};
+    }
+    if (!d || !d->kind || !d->name || !d->text) {
+        koksma__json_close(d);
+        return koksma__fail_memory(size);
+    }
+    memcpy(d->text, text, size);
+    d->text[size] = '\0';
+    const koksma_status status = load(d);
+    if (status) {
+        koksma__json_close(d);
+        return status;
+    }
+    *out = d;
+    return KOKSMA_OK;
+}
+
+void koksma__json_close(koksma__json *document)
+{
+    if (document) {
+        json_decref(document->root);
+        free(document->kind);
+        free(document->name);
+        free(document->text);
+        free(document);
+    }
+}
+
+koksma__json_node koksma__json_root(const koksma__json *document)
+{
+    return (koksma__json_node){.document = document, .value = document->root};
+}
+
+koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
+{
+    if (!json_is_object((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes an object, {…}");
+    }
+    const char *key;
+    json_t *value;
+    json_object_foreach((json_t *)(uintptr_t)node->value, key, value)
+    {
+        int i = 0;
+        while (keys[i] && strcmp(keys[i], key) != 0) {
+            i++;
+        }
+        if (!keys[i]) {
+            koksma__json_node member = *node;
+            if (koksma__json_member(node, key, &member)) {
+                return KOKSMA_MALFORMED;
+            }
+            return koksma__json_fail(&member, "unknown field");
+        }
+    }
+    return KOKSMA_OK;
+}
+
+bool koksma__json_is_array(const koksma__json_node *node)
+{
+    return json_is_array((const json_t *)node->value);
+}
+
+bool koksma__json_is_text(const koksma__json_node *node)
+{
+    return json_is_string((const json_t *)node->value);
+}
+
+bool koksma__json_is_object_at(const koksma__json_node *node, const char *key)
+{
+    return json_is_object(json_object_get(node->value, key));
+}
+
+bool koksma__json_has(const koksma__json_node *node, const char *key)
+{
+    return json_object_get(node->value, key) != NULL;
+}
+
+/* The node below the parent; its path is still the caller's to write. */
+static koksma__json_node below(const koksma__json_node *parent, const json_t *value, const char *key, size_t item)
+{
+    koksma__json_node out = *parent;
+    out.value = value;
+    if (out.n_steps < KOKSMA__JSON_STEPS) {
+        out.steps[out.n_steps++] = (koksma__json_step){key, item};
+    }
+    return out;
+}
+
+koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
+{
+    const json_t *value = json_object_get(node->value, key);
+    if (!json_is_object((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes an object, {…}");
+    }
+    if (!value) {
+        return koksma__json_fail(node, "field '%s' is missing", key);
+    }
+    const koksma__json_node parent = *node;
+    void *here = json_object_iter_at((json_t *)(uintptr_t)parent.value, key);
+    *out = below(&parent, value, json_object_iter_key(here), 0);
+    snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", key);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length)
+{
+    if (!json_is_array((const json_t *)node->value)) {
+        return koksma__json_fail(node, "it takes a list, […]");
+    }
+    *length = json_array_size(node->value);
+    return *length <= max ? KOKSMA_OK : koksma__json_fail(node, "%zu items, and at most %zu are taken", *length, max);
+}
+
+koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i)
+{
+    koksma__json_node out = below(node, json_array_get(node->value, i), NULL, i);
+    snprintf(out.path, sizeof out.path, "%.100s[%zu]", node->path, i);
+    return out;
+}
+
+koksma_status koksma__json_number(const koksma__json_node *node, double min, double max, double *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_number(value)) {
+        return koksma__json_fail(node, "it takes a number");
+    }
+    *out = json_number_value(value);
+    if (!(*out >= min && *out <= max)) {
+        return koksma__json_fail(node, "%.9g is not in %.9g to %.9g", *out, min, max);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_integer(value)) {
+        return koksma__json_fail(node, "it takes a whole number");
+    }
+    *out = json_integer_value(value);
+    if (*out < min || *out > max) {
+        return koksma__json_fail(node, "%lld is not in %lld to %lld", *out, min, max);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_flag(const koksma__json_node *node, bool *out)
+{
+    const json_t *value = node->value;
+    if (!json_is_boolean(value)) {
+        return koksma__json_fail(node, "it takes true or false");
+    }
+    *out = json_is_true(value);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
+{
+    *out = json_string_value(node->value);
+    return *out ? KOKSMA_OK : koksma__json_fail(node, "it takes a text, \"…\"");
+}
+
+koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out)
+{
+    size_t length = 0;
+    koksma_status status = koksma__json_length(node, SIZE_MAX, &length);
+    if (!status && length != n) {
+        status = koksma__json_fail(node, "it takes %zu numbers and has %zu items", n, length);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(node, i);
+        status = koksma__json_number(&item, min, max, &out[i]);
+    }
+    return status;
+}
+
+/* ---- Members --------------------------------------------------------------------------------------------- */
+
+/* Whether there is something to read: an absent member that is not needed is fine. */
+static bool absent(const koksma__json_node *node, const char *key, bool needed, koksma__json_node *member,
+                   koksma_status *status)
+{
+    *status = KOKSMA_OK;
+    if (!needed && !koksma__json_has(node, key)) {
+        return true;
+    }
+    *status = koksma__json_member(node, key, member);
+    return *status != KOKSMA_OK;
+}
+
+koksma_status koksma__json_get_number(const koksma__json_node *node, const char *key, bool needed, double min,
+                                      double max, double *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_number(&member, min, max, out);
+}
+
+koksma_status koksma__json_get_whole(const koksma__json_node *node, const char *key, bool needed, long long min,
+                                     long long max, long long *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_whole(&member, min, max, out);
+}
+
+koksma_status koksma__json_get_flag(const koksma__json_node *node, const char *key, bool needed, bool *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_flag(&member, out);
+}
+
+koksma_status koksma__json_get_text(const koksma__json_node *node, const char *key, bool needed, const char **out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_text(&member, out);
+}
+
+koksma_status koksma__json_get_numbers(const koksma__json_node *node, const char *key, bool needed, double min,
+                                       double max, size_t n, double *out)
+{
+    koksma__json_node member;
+    koksma_status status;
+    return absent(node, key, needed, &member, &status) ? status : koksma__json_numbers(&member, min, max, n, out);
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/shared/disk_laws.h"
+
+#include <math.h>
+
+#include "core/random.h"
+
+const char *const koksma__disk_laws[] = {"fixed", "radius", "area", NULL};
+
+double koksma__disk_radius(koksma__disk_law law, double r)
+{
+    return r > 0 ? r : law == KOKSMA__DISKS_FIXED ? 0.25 : 0.5;
+}
+
+double koksma__disk_overlap(koksma__disk_law law, double r, double distance2)
+{
+    const double h = sqrt(distance2) / 2;
+    if (h >= r) {
+        return 0;
+    }
+    const double s = sqrt((r - h) * (r + h)), angle = atan2(s, h);
+    if (law == KOKSMA__DISKS_FIXED) {
+        return 2 * r * r * angle - 2 * h * s;
+    }
+    if (law == KOKSMA__DISKS_AREA) {
+        return (r * r * r * r * angle - 5 * h * s * s * s / 3 - h * h * h * s) / (r * r);
+    }
+    const double logarithm = h > 0 ? h * h * h * log((r + s) / h) : 0;
+    return (2 * r * r * r * angle - 4 * h * r * s + 2 * logarithm) / (3 * r);
+}
+
+double koksma__disk_square(koksma__disk_law law, double r)
+{
+    static const double divisors[] = {1, 5, 3};
+    return M_PI * M_PI * r * r * r * r / divisors[law];
+}
+
+/* With h half of the distance and t = r - h, two balls of radius h + s share (2 pi / 3) (2 s + 3 h) s^2. */
+double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
+{
+    const double h = sqrt(distance2) / 2, t = r - h;
+    if (t <= 0) {
+        return 0;
+    }
+    if (law == KOKSMA__DISKS_FIXED) {
+        return 2 * M_PI / 3 * (2 * t + 3 * h) * t * t;
+    }
+    if (law == KOKSMA__DISKS_AREA) {
+        const double sum = ((t / 3 + 7 * h / 5) * t + 2 * h * h) * t + h * h * h;
+        return 2 * M_PI / (r * r * r) * t * t * t * sum;
+    }
+    return M_PI * t * t * t * (r + h) / (3 * r);
+}
+
+double koksma__ball_square(koksma__disk_law law, double r)
+{
+    static const double divisors[] = {1, 7, 3};
+    const double volume = 4 * M_PI / 3 * r * r * r;
+    return volume * volume / divisors[law];
+}
+
+void koksma__random_disk(koksma__disk_law law, double r, uint64_t seed, uint64_t index, int dim, double centre[3],
+                         double *radius2)
+{
+    double u[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 2, centre);
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 3, u);
+    centre[2] = u[1];
+    *radius2 = r * r;
+    if (law == KOKSMA__DISKS_RADIUS) {
+        *radius2 *= u[0] * u[0];
+    } else if (law == KOKSMA__DISKS_AREA) {
+        *radius2 *= dim == 3 ? cbrt(u[0] * u[0]) : u[0];
+    }
+}

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Bounds for the discrepancy of half-planes. Turning a line by up to eta moves it, within rho of a centre, by no more
+ * than s = 2 rho sin(eta/2): a half-plane of a turned direction holds no point that the one of the middle direction,
+ * moved out by s, does not, and no less mass than the one moved in by s. So over all lines of an interval of
+ * directions,
+ *
+ *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
+ *
+ * which the points in order of one direction give. Intervals whose bound is above what is known are cut in half.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "measures/shared/deadline.h"
+#include "measures/shared/edge_sweep.h"
+#include "measures/shared/order.h"
+
+enum { FIRST_CUTS = 32, MAX_CUTS = 1 << 20 };
+
+static const double finest = 1e-9; /* smooth maxima leave width^-1/2 intervals open */
+
+/* Directions within half a width of the middle, and the bound of their lines. */
+typedef struct cut {
+    double middle, bound;
+    koksma__edge_line line; /* the best one found in the middle direction */
+} cut;
+
+typedef struct cover {
+    const koksma__domain *domain;
+    size_t n;
+    const double *xs;
+    double width, deadline_s;
+    cut *cuts;
+} cover;
+
+/* The mass below the line of unit normal (a, b) at distance c of the origin. */
+static double mass_below(const cover *v, double a, double b, double c)
+{
+    return v->domain->area_below_through(a, b, (double[2]){a * c, b * c});
+}
+
+/* t: the points' distances along (a, b), in order; at: their indices. */
+static void bound_cut(const cover *v, cut *now, double a, double b, const double *t, const uint32_t *at)
+{
+    const double n = (double)v->n, slack = 4 * v->domain->radius * sin(v->width / 4) + 1e-14;
+    double bounds[2] = {-1, -1};
+    size_t best[2] = {0, 0}; /* excess, deficit */
+    for (size_t r = 0; r < v->n; r++) {
+        const double c = t[at[r]];
+        const double excess = (double)(r + 1) / n - mass_below(v, a, b, c - slack);
+        const double deficit = mass_below(v, a, b, c + slack) - (double)r / n;
+        best[0] = excess > bounds[0] ? r : best[0];
+        best[1] = deficit > bounds[1] ? r : best[1];
+        bounds[0] = fmax(bounds[0], excess);
+        bounds[1] = fmax(bounds[1], deficit);
+    }
+    now->bound = fmin(now->bound, fmax(bounds[0], bounds[1]) + 1e-14);
+    for (int open = 0; open < 2; open++) {
+        size_t from = best[open], end = from + 1;
+        const double c = t[at[from]];
+        for (; from > 0 && t[at[from - 1]] == c; from--) {
+        }
+        for (; end < v->n && t[at[end]] == c; end++) {
+        }
+        const double mass = v->domain->area_below_through(a, b, v->xs + 2 * (size_t)at[from]);
+        const double value = open ? mass - (double)from / n : (double)end / n - mass;
+        if (value > now->line.value) {
+            now->line = (koksma__edge_line){value, a, b, c, mass, open ? from : end, !open};
+        }
+    }
+}
+
+static koksma_status look_along(void *context, size_t block)
+{
+    const cover *v = context;
+    cut *now = &v->cuts[block];
+    const size_t bytes = v->n * (2 * sizeof(double) + sizeof(uint32_t));
+    const double a = cos(now->middle), b = sin(now->middle);
+    double *t = koksma__now_s() < v->deadline_s ? malloc(bytes) : NULL, low = INFINITY, high = -INFINITY;
+    if (!t) {
+        return KOKSMA_OK; /* the bound of the interval that was cut still holds */
+    }
+    double *scaled = t + v->n;
+    uint32_t *order = (uint32_t *)(scaled + v->n);
+    for (size_t i = 0; i < v->n; i++) {
+        t[i] = a * v->xs[2 * i] + b * v->xs[2 * i + 1];
+        low = fmin(low, t[i]);
+        high = fmax(high, t[i]);
+    }
+    for (size_t i = 0; i < v->n; i++) {
+        scaled[i] = (t[i] - low) / (high > low ? high - low : 1);
+    }
+    static const koksma_run alone = {.threads = 1};
+    const koksma_status status = koksma__order(&alone, v->n, scaled, 1, order);
+    if (!status) {
+        bound_cut(v, now, a, b, t, order);
+    }
+    free(t);
+    return status;
+}
+
+/* The cuts that may hold more than `lower`, each as its two halves, into `to`; how many there are then. */
+static size_t halve(const cover *v, size_t count, double lower, cut *to)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (int half = -1; half <= 1 && v->cuts[i].bound > lower; half += 2) {
+            to[kept] = v->cuts[i];
+            to[kept].line.value = -1;
+            to[kept++].middle += half * v->width / 4;
+        }
+    }
+    return kept;
+}
+
+/* Rounds of cutting, until the deadline or until nothing is left that is wide. */
+static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
+{
+    size_t count = FIRST_CUTS;
+    for (size_t i = 0; i < count; i++) {
+        v->cuts[i] = (cut){.middle = ((double)i + 0.5) * M_PI / FIRST_CUTS, .bound = 1, .line.value = -1};
+    }
+    for (v->width = M_PI / FIRST_CUTS;; v->width /= 2) {
+        const koksma_status status = koksma__parallel(run, count, look_along, v);
+        if (status) {
+            return status;
+        }
+        *upper = best->value;
+        for (size_t i = 0; i < count; i++) {
+            *best = v->cuts[i].line.value > best->value ? v->cuts[i].line : *best;
+            *upper = fmax(*upper, fmax(v->cuts[i].bound, best->value));
+        }
+        size_t open = 0;
+        for (size_t i = 0; i < count; i++) {
+            open += v->cuts[i].bound > best->value;
+        }
+        if (open == 0 || open > MAX_CUTS / 2 || v->width < finest || koksma__now_s() >= v->deadline_s) {
+            *upper = open == 0 ? best->value : *upper;
+            return KOKSMA_OK;
+        }
+        cut *const halves = malloc(2 * open * sizeof *halves);
+        if (!halves) {
+            return koksma__fail_memory(2 * open * sizeof *halves);
+        }
+        count = halve(v, count, best->value, halves);
+        free(v->cuts);
+        v->cuts = halves;
+    }
+}
+
+koksma_status koksma__edge_cover(const koksma__domain *domain, size_t n, const double *xs, const koksma_run *run,
+                                 double deadline_s, koksma__edge_line *best, double *upper)
+{
+    cover v = {.domain = domain, .n = n, .xs = xs, .deadline_s = deadline_s};
+    v.cuts = malloc(FIRST_CUTS * sizeof *v.cuts);
+    if (!v.cuts) {
+        return koksma__fail_memory(FIRST_CUTS * sizeof *v.cuts);
+    }
+    const koksma_status status = refine(&v, run, best, upper);
+    free(v.cuts);
+    return status;
+}

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * edge in 3 dimensions. A deficit of an open half-space is the excess of the closed one that is left, so the supremum
+ * is that of #/n - volume over closed half-spaces, and belongs to the half-space of least volume that holds some
+ * subset of the points. Its plane goes through three points; or through two, with the centroid of the plane's section
+ * of the cube on their line, for else turning about it makes the volume less; or through one, which is the centroid.
+ *
+ * The cube has a centre of symmetry. So (Meyer and Reisner 1991) the planes that cut off a volume v < 1/2 touch a
+ * convex body each, at the centroid of the section, and the bodies of larger v are inside those of smaller: only one
+ * of them touches a given line, or a given point. Hence while a plane turns about a line, the volume has one minimum
+ * and one maximum, opposite to each other, and nothing else where it is stationary: golden section finds it. About a
+ * point likewise: the least volume of the planes through a horizontal line through it has one minimum over the
+ * line's directions.
+ *
+ * Only for points on an axis of the cube are there many sections with one centroid, and volumes that stay while the
+ * plane turns: there some plane is also through another point, and a corner of the cube or a third point; or no other
+ * point is in the way, and the plane across the axis will do.
+ *
+ * n^3/6 planes, each with a pass over the points. A point counts as on a plane within 2e-15, which puts errors of a
+ * few 1e-15 into values. Normals of triples are computed with 106 bits: triples may be close to a line.
+ */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "measures/shared/deadline.h"
+#include "measures/shared/double_double.h"
+#include "measures/shared/planes.h"
+
+enum { MAX_N = 1024, ABOUT_LINE = 8, ABOUT_POINT = 64, STEPS = 72 };
+
+static const double on_plane = 2e-15;
+
+/* The closed half-space a . x <= c. */
+typedef struct half_space {
+    double value, a[3], c, volume;
+} half_space;
+
+typedef struct search {
+    size_t n;
+    const double *points;
+    double *coordinates[3];
+    half_space *best; /* one for each first point */
+    double deadline_s;
+    atomic_bool late;
+} search;
+
+/* The planes through p and normal to e cos(angle) + f sin(angle). */
+typedef struct fan {
+    const double *p;
+    double e[3], f[3];
+} fan;
+
+/* In the order in which whoever checks a witness computes it. */
+static double project(const double a[3], const double x[3])
+{
+    return a[0] * x[0] + a[1] * x[1] + a[2] * x[2];
+}
+
+/* Both sides of the plane through p with normal a. */
+static void consider(const search *s, half_space *best, const double normal[3], const double p[3])
+{
+    const double size = fmax(fabs(normal[0]), fmax(fabs(normal[1]), fabs(normal[2])));
+    if (!(size > 0)) {
+        return;
+    }
+    const double a[3] = {normal[0] / size, normal[1] / size, normal[2] / size};
+    const double c = project(a, p), low = c - on_plane, high = c + on_plane, n = (double)s->n;
+    const double *x = s->coordinates[0], *y = s->coordinates[1], *z = s->coordinates[2];
+    double below = 0, above = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const double here = a[0] * x[i] + a[1] * y[i] + a[2] * z[i];
+        below += here <= high ? 1.0 : 0.0;
+        above += here >= low ? 1.0 : 0.0;
+    }
+    const double volume = koksma__volume_below_through(a, p);
+    if (below / n - volume > best->value) {
+        *best = (half_space){below / n - volume, {a[0], a[1], a[2]}, c, volume};
+    }
+    if (above / n - (1 - volume) > best->value) {
+        *best = (half_space){above / n - (1 - volume), {-a[0], -a[1], -a[2]}, -c, 1 - volume};
+    }
+}
+
+static void normal_at(const fan *f, double angle, double normal[3])
+{
+    const double x = cos(angle), y = sin(angle);
+    for (int k = 0; k < 3; k++) {
+        normal[k] = x * f->e[k] + y * f->f[k];
+    }
+}
+
+/* The volume below a plane of the fan at an angle; of a point's fan the least volume of planes about the horizontal
+   line at that angle. *best gets the normal where that is not NULL. */
+typedef double (*turned)(const double *p, const void *context, double angle, double best[3]);
+
+static double golden(turned f, const double *p, const void *context, double low, double high)
+{
+    const double ratio = (sqrt(5.0) - 1) / 2;
+    double left = high - ratio * (high - low), right = low + ratio * (high - low);
+    double at_left = f(p, context, left, NULL), at_right = f(p, context, right, NULL);
+    for (int step = 0; step < STEPS; step++) {
+        if (at_left < at_right) {
+            high = right;
+            right = left;
+            at_right = at_left;
+            left = high - ratio * (high - low);
+            at_left = f(p, context, left, NULL);
+        } else {
+            low = left;
+            left = right;
+            at_left = at_right;
+            right = low + ratio * (high - low);
+            at_right = f(p, context, right, NULL);
+        }
+    }
+    return at_left < at_right ? left : right;
+}
+
+static double about_line(const double *p, const void *context, double angle, double best[3])
+{
+    double normal[3];
+    normal_at(context, angle, best ? best : normal);
+    return koksma__volume_below_through(best ? best : normal, p);
+}
+
+/* The angle where f is least. f has one minimum and one maximum in a period, so that the minimum is next to the least
+   of a number of samples. */
+static double least(turned f, const double *p, const void *context, double period, int samples)
+{
+    const double step = period / samples;
+    double angle = 0, value = HUGE_VAL;
+    for (int k = 0; k < samples; k++) {
+        const double here = f(p, context, k * step, NULL);
+        if (here < value) {
+            value = here;
+            angle = k * step;
+        }
+    }
+    const double before = golden(f, p, context, angle - step, angle),
+                 after = golden(f, p, context, angle, angle + step);
+    const double at_before = f(p, context, before, NULL), at_after = f(p, context, after, NULL);
+    angle = at_before < value ? before : angle;
+    value = at_before < value ? at_before : value;
+    return at_after < value ? after : angle;
+}
+
+static double least_about_line(const fan *f, double best[3])
+{
+    return about_line(f->p, f, least(about_line, f->p, f, 2 * M_PI, ABOUT_LINE), best);
+}
+
+static double about_point(const double *p, const void *context, double angle, double best[3])
+{
+    double normal[3];
+    (void)context;
+    const fan f = {p, {-sin(angle), cos(angle), 0}, {0, 0, 1}};
+    return least_about_line(&f, best ? best : normal);
+}
+
+static void try_point(const search *s, half_space *best, const double *p)
+{
+    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double normal[3];
+    for (int k = 0; k < 3; k++) { /* also the sides of the cube, if points are on them */
+        consider(s, best, axes[k], p);
+    }
+    about_point(p, NULL, least(about_point, p, NULL, M_PI, ABOUT_POINT), normal);
+    consider(s, best, normal, p);
+}
+
+/* (q - p) x (r - p) */
+static void normal_through(const double *p, const double *q, const double *r, double normal[3])
+{
+    koksma__dd u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = koksma__dd_sum(q[k], -p[k]);
+        v[k] = koksma__dd_sum(r[k], -p[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const int l = (k + 1) % 3, m = (k + 2) % 3;
+        const koksma__dd less = koksma__dd_mul(u[m], v[l]);
+        normal[k] = koksma__dd_add(koksma__dd_mul(u[l], v[m]), (koksma__dd){-less.hi, -less.lo}).hi;
+    }
+}
+
+/* Two unit vectors normal to q - p and to each other; false if the points are one. */
+static bool fan_about(const double *p, const double *q, fan *f)
+{
+    double u[3], size = 0;
+    for (int k = 0; k < 3; k++) {
+        u[k] = q[k] - p[k];
+        size = fmax(size, fabs(u[k]));
+    }
+    if (!(size > 0)) {
+        return false;
+    }
+    const double length = hypot(hypot(u[0] / size, u[1] / size), u[2] / size);
+    int least_axis = 0;
+    for (int k = 0; k < 3; k++) {
+        u[k] = u[k] / size / length;
+        least_axis = fabs(u[k]) < fabs(u[least_axis]) ? k : least_axis;
+    }
+    const int l = (least_axis + 1) % 3, m = (least_axis + 2) % 3;
+    const double across = hypot(u[l], u[m]);
+    *f = (fan){.p = p};
+    f->e[l] = -u[m] / across;
+    f->e[m] = u[l] / across;
+    for (int k = 0; k < 3; k++) {
+        f->f[k] = u[(k + 1) % 3] * f->e[(k + 2) % 3] - u[(k + 2) % 3] * f->e[(k + 1) % 3];
+    }
+    return true;
+}
+
+static void try_pair(const search *s, half_space *best, const double *p, const double *q)
+{
+    fan f;
+    double normal[3];
+    if (!fan_about(p, q, &f)) {
+        return;
+    }
+    least_about_line(&f, normal);
+    consider(s, best, normal, p);
+    for (int corner = 0; corner < 8; corner++) {
+        const double vertex[3] = {corner & 1, corner >> 1 & 1, corner >> 2};
+        normal_through(p, q, vertex, normal);
+        consider(s, best, normal, p);
+    }
+}
+
+/* The planes through point i and points after it. */
+static koksma_status try_first(void *context, size_t i)
+{
+    search *s = context;
+    half_space best = {.value = -1};
+    if (i > 0 && (atomic_load(&s->late) || koksma__now_s() > s->deadline_s)) {
+        atomic_store(&s->late, true);
+        s->best[i] = best;
+        return KOKSMA_OK;
+    }
+    const double *p = s->points + 3 * i;
+    try_point(s, &best, p);
+    for (size_t j = i + 1; j < s->n; j++) {
+        const double *q = s->points + 3 * j;
+        try_pair(s, &best, p, q);
+        for (size_t k = j + 1; k < s->n; k++) {
+            double normal[3];
+            normal_through(p, q, s->points + 3 * k, normal);
+            consider(s, &best, normal, p);
+        }
+    }
+    s->best[i] = best;
+    return KOKSMA_OK;
+}
+
+static void finish(const search *s, koksma_value *out)
+{
+    half_space best = {.value = -1};
+    for (size_t i = 0; i < s->n; i++) {
+        best = s->best[i].value > best.value ? s->best[i] : best;
+    }
+    koksma_witness w = {.kind = KOKSMA_WITNESS_HALF_PLANE,
+                        .dim = 3,
+                        .closed = true,
+                        .volume = best.volume,
+                        .lo = {best.a[0], best.a[1], best.a[2]},
+                        .hi = {-HUGE_VAL}};
+    for (size_t i = 0; i < s->n; i++) {
+        const double here = project(best.a, s->points + 3 * i);
+        if (here <= best.c + on_plane) {
+            w.hi[0] = fmax(w.hi[0], here);
+            w.count++;
+        }
+    }
+    const bool late = atomic_load(&s->late);
+    out->value = out->lower = best.value;
+    out->upper = late ? 1 : best.value; /* of planes that were not looked at nothing is known */
+    out->exact = !late;
+    out->witness = w;
+}
+
+koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out)
+{
+    const size_t n = points->n;
+    if (n > MAX_N) {
+        return koksma__fail(KOKSMA_N, "edge: n = %zu: up to %d points in 3D; l2-edge takes more", n, MAX_N);
+    }
+    search s = {.n = n, .points = points->xs, .deadline_s = koksma__deadline_s(run, 0.95)};
+    const size_t bytes = n * (sizeof *s.best + 3 * sizeof(double));
+    s.best = malloc(bytes);
+    if (!s.best) {
+        return koksma__fail_memory(bytes);
+    }
+    for (size_t k = 0; k < 3; k++) {
+        s.coordinates[k] = (double *)(s.best + n) + k * n;
+        for (size_t i = 0; i < n; i++) {
+            s.coordinates[k][i] = points->xs[3 * i + k];
+        }
+    }
+    const koksma_status status = koksma__parallel(run, n, try_first, &s);
+    if (!status) {
+        finish(&s, out);
+    }
+    free(s.best);
+    return status;
+}

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Boxes in one to three dimensions, one pair of sides after the other: O(n^(2d-1)). */
+#include "measures/shared/extreme.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "measures/shared/deadline.h"
+
+enum { MAX_N_3D = 128 };
+
+/* Boxes are chosen side by side from the last coordinate to the second; the points that are left at each depth are
+   kept sorted by the first, along which one pass finds the best interval. */
+typedef struct search {
+    size_t n;
+    int dim;
+    double *lists[3];  /* lists[k]: points that are left when coordinates above k are chosen; dim numbers each */
+    double *levels[3]; /* sorted coordinates of all points, without repeats; for deficits with 0 and 1 */
+    size_t n_levels[3];
+    double lo[3], hi[3];
+    const koksma_run *run;
+    double deadline_s;
+    bool stopped, late;
+    koksma_value *out;
+} search;
+
+static int compare_first(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void keep(search *s, double value, bool closed, size_t count, double volume)
+{
+    koksma_witness *w = &s->out->witness;
+    if (value <= s->out->value) {
+        return;
+    }
+    s->out->value = value;
+    *w = (koksma_witness){
+        .kind = KOKSMA_WITNESS_BOX, .dim = s->dim, .closed = closed, .count = count, .volume = volume};
+    memcpy(w->lo, s->lo, sizeof s->lo);
+    memcpy(w->hi, s->hi, sizeof s->hi);
+}
+
+/* The best closed interval of the first coordinate: over i <= j, (j+1-i)/n - width (z_j - z_i). */
+static void best_excess(search *s, const double *list, size_t count, double width)
+{
+    const double n = (double)s->n;
+    double low = 0, low_at = 0, best = s->out->value;
+    size_t low_index = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double z = list[i * (size_t)s->dim];
+        const double start = (double)i / n - width * z;
+        if (i == 0 || start < low) {
+            low = start;
+            low_at = z;
+            low_index = i;
+        }
+        if ((double)(i + 1) / n - width * z - low > best) {
+            s->lo[0] = low_at;
+            s->hi[0] = z;
+            const double volume = width * (z - low_at);
+            keep(s, (double)(i + 1 - low_index) / n - volume, true, i + 1 - low_index, volume);
+            best = s->out->value > best ? s->out->value : best;
+        }
+    }
+}
+
+/* The best open interval: over lo < hi among 0, the z's and 1, width (hi - lo) - #{lo < z < hi}/n. */
+static void best_deficit(search *s, const double *list, size_t count, double width)
+{
+    const double n = (double)s->n;
+    size_t i = 0;
+    while (i < count && list[i * (size_t)s->dim] <= 0) {
+        i++;
+    }
+    double low = -(double)i / n, low_at = 0, best = s->out->value; /* low = min of width lo - #{z <= lo}/n */
+    size_t low_index = i;
+    for (;;) {
+        const double z = i < count ? list[i * (size_t)s->dim] : 1;
+        if (width * z - (double)i / n - low > best) {
+            s->lo[0] = low_at;
+            s->hi[0] = z;
+            const double volume = width * (z - low_at);
+            keep(s, volume - (double)(i - low_index) / n, false, i - low_index, volume);
+            best = s->out->value > best ? s->out->value : best;
+        }
+        if (i >= count) {
+            return;
+        }
+        while (i < count && list[i * (size_t)s->dim] == z) {
+            i++;
+        }
+        if (width * z - (double)i / n < low) {
+            low = width * z - (double)i / n;
+            low_at = z;
+            low_index = i;
+        }
+    }
+}
+
+/* Chooses the sides of coordinates k, k-1, .. 1 for boxes of the given width so far. */
+static void choose(search *s, int k, size_t count, double width, bool closed)
+{
+    if (k == 0) {
+        (closed ? best_excess : best_deficit)(s, s->lists[0], count, width);
+        return;
+    }
+    const size_t dim = (size_t)s->dim;
+    const double *from = s->lists[k];
+    double *to = s->lists[k - 1];
+    for (size_t a = 0; a < s->n_levels[k] && !s->stopped && !s->late; a++) {
+        for (size_t b = closed ? a : a + 1; b < s->n_levels[k] && !s->stopped && !s->late; b++) {
+            if (k == s->dim - 1) {
+                s->stopped = !koksma__keep_going(s->run, (double)a / (double)s->n_levels[k]);
+                s->late = koksma__now_s() > s->deadline_s;
+            }
+            const double lo = s->levels[k][a], hi = s->levels[k][b];
+            size_t left = 0;
+            for (size_t i = 0; i < count; i++) {
+                const double z = from[i * dim + (size_t)k];
+                if (closed ? z >= lo && z <= hi : z > lo && z < hi) {
+                    memcpy(to + left * dim, from + i * dim, dim * sizeof *to);
+                    left++;
+                }
+            }
+            s->lo[k] = lo;
+            s->hi[k] = hi;
+            choose(s, k - 1, left, width * (hi - lo), closed);
+        }
+    }
+}
+
+static void fill_levels(search *s, bool closed)
+{
+    for (int k = 0; k < s->dim; k++) {
+        double *levels = s->levels[k];
+        size_t count = 0, kept = 0;
+        for (size_t i = 0; i < s->n; i++) {
+            levels[count++] = s->lists[s->dim - 1][i * (size_t)s->dim + (size_t)k];
+        }
+        if (!closed) {
+            levels[count++] = 0;
+            levels[count++] = 1;
+        }
+        qsort(levels, count, sizeof *levels, compare_first);
+        for (size_t i = 0; i < count; i++) {
+            if (i == 0 || levels[i] != levels[i - 1]) {
+                levels[kept++] = levels[i];
+            }
+        }
+        s->n_levels[k] = kept;
+    }
+}
+
+koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out)
+{
+    const size_t n = points->n, dim = (size_t)points->dim;
+    if (dim == 3 && n > MAX_N_3D) {
+        return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
+    }
+    if (!koksma__keep_going(run, 0)) {
+        return koksma__fail_interrupted();
+    }
+    search s = {.n = n, .dim = points->dim, .run = run, .deadline_s = koksma__deadline_s(run, 0.95), .out = out};
+    const size_t bytes = dim * (n * dim + n + 2) * sizeof(double);
+    double *memory = malloc(bytes);
+    if (!memory) {
+        return koksma__fail_memory(bytes);
+    }
+    for (size_t k = 0; k < dim; k++) {
+        s.lists[k] = memory + k * (n * dim + n + 2);
+        s.levels[k] = s.lists[k] + n * dim;
+    }
+    memcpy(s.lists[dim - 1], points->xs, n * dim * sizeof(double));
+    qsort(s.lists[dim - 1], n, dim * sizeof(double), compare_first);
+    out->value = -1;
+    for (size_t k = 0; k < dim; k++) {
+        s.hi[k] = 1;
+    }
+    keep(&s, 0, true, n, 1); /* the whole cube, to have a box in any case */
+    for (int closed = 0; closed < 2; closed++) {
+        fill_levels(&s, closed);
+        choose(&s, points->dim - 1, n, 1, closed);
+    }
+    free(memory);
+    if (s.late) { /* of what was not looked at nothing is known */
+        out->exact = false;
+        out->lower = out->value;
+        out->upper = 1;
+    }
+    return s.stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/shared/l2.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "kernels/kernels.h"
+#include "measures/shared/double_double.h"
+
+enum { SORT_FROM = 256, ROWS_PER_BLOCK = 128 };
+
+const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS] = {
+    /* 1 - max(u, v) */
+    [KOKSMA__L2_STAR] = {4, {9, -12, -12, 0}, {0.25, -0.5, 0, 0}, -0.5, 0, "l2-star"},
+    /* (1 - max(u, v)) min(u, v) */
+    [KOKSMA__L2_EXTREME] = {1, {3, 0, -12, 0}, {0.125, 0, -0.5, 0}, -0.5, 0.5, "l2-extreme"},
+    /* 1/2 - t + t^2, t = |u - v| */
+    [KOKSMA__L2_PERIODIC] = {4, {8, 0, 0, 0}, {0.25, 0, 0, 0}, -1, 1, "l2-periodic"},
+    /* 3/2 - t + t^2 */
+    [KOKSMA__L2_WRAPAROUND] = {16, {32, 0, 0, 0}, {0.75, 0, 0, 0}, -1, 1, "l2-wraparound"},
+    /* 2 - max(u, v) */
+    [KOKSMA__L2_MODIFIED] = {16, {33, -12, -12, 0}, {0.75, -0.5, 0, 0}, -0.5, 0, "l2-modified"},
+    /* 1 + |z_u|/2 + |z_v|/2 - t/2 */
+    [KOKSMA__L2_CENTERED] = {13, {24, 0, -12, 12}, {0.5, 0, 0, 0.5}, -0.5, 0, "l2-centered"},
+    /* 15/8 - |z_u|/4 - |z_v|/4 - 3t/4 + t^2/2 */
+    [KOKSMA__L2_MIXTURE] = {19, {40, 0, -6, -6}, {0.9375, 0, 0, -0.25}, -0.75, 0.5, "l2-mixture"},
+    /* 2 (1 - t) */
+    [KOKSMA__L2_SYMMETRIC] = {16, {36, 0, -48, 0}, {1, 0, 0, 0}, -2, 0, "l2-symmetric"},
+};
+
+double koksma__l2_polynomial(const double f[4], double u)
+{
+    const double z = u - 0.5;
+    return f[0] + f[1] * z + f[2] * z * z + f[3] * fabs(z);
+}
+
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z)
+{
+    koksma__dd sum = {f[0], 0};
+    if (f[1] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[1], z));
+    }
+    if (f[2] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_scale(koksma__dd_product(z, z), f[2]));
+    }
+    if (f[3] != 0) {
+        sum = koksma__dd_add(sum, koksma__dd_product(f[3], fabs(z)));
+    }
+    return sum;
+}
+
+/* prod_k a(x_k): rounded products would all err the same way for points on a grid. */
+koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim)
+{
+    koksma__dd product = {1, 0};
+    for (int k = 0; k < dim; k++) {
+        const koksma__dd a = koksma__l2_polynomial_dd(row->a24, x[k] - 0.5);
+        product = koksma__dd_mul(product, koksma__dd_divide(a, 24));
+    }
+    return product;
+}
+
+typedef struct pairs {
+    const koksma__l2_row *row;
+    size_t n;
+    int dim;
+    double *u, *g;     /* coordinate by coordinate */
+    koksma__sum *sums; /* one a block of rows */
+} pairs;
+
+static koksma_status sum_block(void *context, size_t block)
+{
+    const pairs *p = context;
+    const size_t first = block * ROWS_PER_BLOCK;
+    const size_t end = first + ROWS_PER_BLOCK < p->n ? first + ROWS_PER_BLOCK : p->n;
+    double sum[2];
+    koksma__kernels()->l2_pairs(first, end, p->n, p->dim, p->u, p->g, p->row->q, p->row->r, sum);
+    p->sums[block] = (koksma__sum){sum[0], sum[1]};
+    return KOKSMA_OK;
+}
+
+/* sum_i prod a(x_i) and sum_i prod K(x_i, x_i). */
+static void sum_points(const pairs *p, const koksma_points *points, koksma__dd *linear, koksma__sum *self)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        double k_ii = 1;
+        for (size_t k = 0; k < (size_t)p->dim; k++) {
+            const double x = points->xs[i * (size_t)p->dim + k];
+            p->u[k * p->n + i] = x;
+            p->g[k * p->n + i] = koksma__l2_polynomial(p->row->g, x);
+            k_ii *= 2 * p->g[k * p->n + i];
+        }
+        *linear = koksma__dd_add(*linear, koksma__l2_linear(p->row, points->xs + i * (size_t)p->dim, p->dim));
+        koksma__sum_add(self, k_ii);
+    }
+}
+
+/* The three terms cancel: they are brought together in 106 bits. */
+double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
+                          const koksma__sum *over_pairs)
+{
+    const double count = (double)n;
+    const koksma__dd c = koksma__dd_divide((koksma__dd){row->c12, 0}, 12);
+    koksma__dd total = c;
+    for (int k = 1; k < dim; k++) {
+        total = koksma__dd_mul(total, c);
+    }
+    const koksma__dd pair_sum = koksma__dd_quick_sum(over_pairs->total, over_pairs->lost);
+    total = koksma__dd_add(total, koksma__dd_divide(koksma__dd_scale(linear, -2), count));
+    return koksma__dd_add(total, koksma__dd_divide(koksma__dd_divide(pair_sum, count), count)).hi;
+}
+
+koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                  double *square)
+{
+    const size_t n = points->n, coordinates = n * (size_t)points->dim;
+    const size_t n_blocks = (n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
+    const size_t bytes = 2 * coordinates * sizeof(double) + n_blocks * sizeof(koksma__sum);
+    pairs p = {.row = row, .n = n, .dim = points->dim, .u = malloc(bytes)};
+    if (!p.u) {
+        return koksma__fail_memory(bytes);
+    }
+    p.g = p.u + coordinates;
+    p.sums = (koksma__sum *)(p.g + coordinates);
+    koksma__dd linear = {0, 0};
+    koksma__sum both = {0};
+    sum_points(&p, points, &linear, &both);
+    const koksma_status status = koksma__parallel(run, n_blocks, sum_block, &p);
+    for (size_t block = 0; block < n_blocks && !status; block++) {
+        koksma__sum_add(&both, 2 * p.sums[block].total);
+        koksma__sum_add(&both, 2 * p.sums[block].lost);
+    }
+    *square = koksma__l2_combine(row, points->dim, n, linear, &both);
+    free(p.u);
+    return status;
+}
+
+/* Dividing wins from these n on, by dimension and by the number of products of the kernel (measured with AVX-512
+   against the pairs' kernels); above the last its lists would take gigabytes. */
+static bool divides(const koksma__l2_row *row, const koksma_points *points)
+{
+    static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};
+    const int ranks = koksma__l2_ranks(row);
+    return points->dim >= 3 && points->dim <= KOKSMA__L2_DIVIDE_DIM &&
+           points->n >= from[points->dim - 3][ranks - 1] && points->n <= (size_t)1 << 24;
+}
+
+koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out)
+{
+    const koksma__l2_row *row = &koksma__l2_rows[kind];
+    const bool sort = points->dim <= 2 && points->n >= SORT_FROM && points->n < (size_t)1 << 28;
+    if (!sort && !divides(row, points)) {
+        return koksma__l2_value_by_pairs(row, points, run, out);
+    }
+    const koksma_status status =
+        (sort ? koksma__l2_by_sorting : koksma__l2_by_dividing)(row, points, run, &out->square);
+    out->square = koksma__not_below_0(out->square);
+    out->value = sqrt(out->square);
+    return status;
+}

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The L2 discrepancies. The square of each is
+ *
+ *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
+ *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du,
+ *
+ * the squared norm of (points - volume) under the kernel K. With z = u - 1/2 every K of the family is
+ *
+ *     K(u, v) = g(z_u) + g(z_v) + q |u - v| + r (u - v)^2,
+ *
+ * with g and a polynomials in z, z^2 and |z|, so that one table of numbers drives them all.
+ */
+#ifndef KOKSMA_MEASURES_SHARED_L2_H
+#define KOKSMA_MEASURES_SHARED_L2_H
+
+#include <koksma/koksma.h>
+
+#include "core/sum.h"
+#include "measures/shared/double_double.h"
+
+typedef enum koksma__l2_kind {
+    KOKSMA__L2_STAR,
+    KOKSMA__L2_EXTREME,
+    KOKSMA__L2_PERIODIC,
+    KOKSMA__L2_WRAPAROUND,
+    KOKSMA__L2_MODIFIED,
+    KOKSMA__L2_CENTERED,
+    KOKSMA__L2_MIXTURE,
+    KOKSMA__L2_SYMMETRIC,
+    KOKSMA__L2_KINDS
+} koksma__l2_kind;
+
+typedef struct koksma__l2_row {
+    double c12;    /* 12 c */
+    double a24[4]; /* 24 a(u) = a24[0] + a24[1] z + a24[2] z^2 + a24[3] |z| */
+    double g[4];   /* g(z) likewise */
+    double q, r;
+    const char *name; /* for errors */
+} koksma__l2_row;
+
+enum { KOKSMA__L2_DIVIDE_DIM = 4 };
+
+extern const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS];
+
+/* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
+double koksma__l2_polynomial(const double f[4], double u);
+koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 106 bits */
+
+/* prod_k a(x_k) in 106 bits. */
+koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim);
+
+/* The value and its square into out: O(n log n) for d <= 2 and n not small, O(n log^(d-1) n)
+   for d = 3 and 4 and n large, else O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
+koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
+
+/* The value by pairs, right also where terms of the square, or the square (which then is NaN), are beyond the range
+   of doubles. DIM: so is the value, or a product over the first coordinates of a point. */
+koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                        koksma_value *out);
+
+/* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
+   coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.
+ */
+koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                  double *square);
+koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                    double *square);
+/* The number of products that make up the kernel where the order of its arguments is known: 1 to 3. */
+int koksma__l2_ranks(const koksma__l2_row *row);
+/* In 3 to KOKSMA__L2_DIVIDE_DIM dimensions. */
+koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                     double *square);
+
+/* c^d - 2 linear / n + over_pairs / n^2. */
+double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
+                          const koksma__sum *over_pairs);
+
+#endif

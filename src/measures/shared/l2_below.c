@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which points are below which in both coordinates, without comparing: points in y order are dealt to the 2^k parts
+ * of their x order, and a binary tree over the parts holds for each node how many points have gone to its left half,
+ * and the sum of their y. A point adds itself where its way down turns left, and where it turns right meets all that
+ * were before it in y and are in a lower part. Within the parts the same is done again: a radix sort that counts
+ * inversions.
+ *
+ * Exact: y is cut in two so that sums of either half stay below 2^63, and products are added up in 128 bits.
+ */
+#include "measures/shared/l2_below.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+
+#ifdef __SIZEOF_INT128__ /* what else l2_sort.c does without */
+
+enum { MAX_BITS = 8, PARTS = 1 << MAX_BITS, LOW_BITS = 26, CHUNK = 1 << 15 };
+
+typedef koksma__int128 wide;
+typedef koksma__l2_point point;
+
+/* The sums of the lower bits of some points' y and of the rest, and how many they are. */
+typedef int64_t halves __attribute__((vector_size(16)));
+typedef struct node {
+    halves y;
+    int64_t count;
+} node;
+
+/* high 2^LOW_BITS + low */
+typedef struct total {
+    wide high, low;
+} total;
+
+typedef struct job {
+    size_t n, n_chunks;
+    int bits, rest; /* of the first digit, and below it */
+    point *points, *spare;
+    node (*starts)[PARTS]; /* by chunk: what has gone to each part; then what had gone before */
+    total *totals;         /* by chunk, then by part */
+} job;
+
+static void add(node *sum, const node *other)
+{
+    sum->y += other->y;
+    sum->count += other->count;
+}
+
+static node node_of(const point *p)
+{
+    return (node){{p->y & ((1 << LOW_BITS) - 1), p->y >> LOW_BITS}, 1};
+}
+
+/* Points to their parts by the digit at `rest`, from tree, one node after the other in each level from 1 on, and
+   `places` on. */
+static total deal(const point *points, size_t n, int bits, int rest, node *tree, uint32_t *places, point *to)
+{
+    static const halves masks[2] = {{0, 0}, {-1, -1}}; /* quicker to load than to make */
+    total sum = {0, 0};
+    for (size_t i = 0; i < n; i++) {
+        const point p = points[i];
+        const uint32_t part = p.at >> rest & ((1u << bits) - 1);
+        const node mine = node_of(&p);
+        halves below = {0, 0};
+        int64_t count = 0;
+        for (int level = bits - 1; level >= 0; level--) {
+            node *at = &tree[(1u << (bits - 1 - level)) | (part >> level >> 1)];
+            const unsigned right = part >> level & 1;
+            const halves is_right = masks[right], is_left = masks[!right];
+            below += at->y & is_right;
+            at->y += mine.y & is_left;
+            count += at->count & -(int64_t)right;
+            at->count += !right;
+        }
+        sum.low += (wide)p.x * (mine.y[0] * count - below[0]);
+        sum.high += (wide)p.x * (mine.y[1] * count - below[1]);
+        to[places[part]++] = p;
+    }
+    return sum;
+}
+
+/* All pairs of n points in y order that share all but `bits` of their places in x order. */
+static total solve(point *points, point *spare, size_t n, int bits)
+{
+    if (bits == 0) {
+        return (total){0, 0};
+    }
+    const int passes = (bits + MAX_BITS - 1) / MAX_BITS, rest = bits - (bits + passes - 1) / passes;
+    node tree[PARTS];
+    uint32_t places[PARTS];
+    memset(tree, 0, sizeof *tree << (bits - rest));
+    for (size_t part = 0; part < (size_t)1 << (bits - rest); part++) {
+        places[part] = (uint32_t)(part << rest);
+    }
+    total sum = deal(points, n, bits - rest, rest, tree, places, spare);
+    for (size_t first = 0; rest > 0 && first < n; first += (size_t)1 << rest) {
+        const size_t count = n - first < (size_t)1 << rest ? n - first : (size_t)1 << rest;
+        const total inside = solve(spare + first, points + first, count, rest);
+        sum.high += inside.high;
+        sum.low += inside.low;
+    }
+    return sum;
+}
+
+static size_t chunk_size(const job *j, size_t chunk)
+{
+    return j->n - chunk * CHUNK < CHUNK ? j->n - chunk * CHUNK : CHUNK;
+}
+
+static koksma_status count_chunk(void *context, size_t chunk)
+{
+    const job *j = context;
+    const point *points = j->points + chunk * CHUNK;
+    memset(j->starts[chunk], 0, sizeof j->starts[chunk]);
+    for (size_t i = 0; i < chunk_size(j, chunk); i++) {
+        const node mine = node_of(&points[i]);
+        add(&j->starts[chunk][points[i].at >> j->rest], &mine);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status deal_chunk(void *context, size_t chunk)
+{
+    const job *j = context;
+    const size_t parts = (size_t)1 << j->bits;
+    node tree[PARTS], sums[2 * PARTS];
+    uint32_t places[PARTS];
+    for (size_t part = 0; part < parts; part++) {
+        sums[parts + part] = j->starts[chunk][part];
+        places[part] = (uint32_t)((part << j->rest) + (size_t)sums[parts + part].count);
+    }
+    for (size_t v = parts - 1; v > 0; v--) {
+        tree[v] = sums[v] = sums[2 * v];
+        add(&sums[v], &sums[2 * v + 1]);
+    }
+    j->totals[chunk] =
+        deal(j->points + chunk * CHUNK, chunk_size(j, chunk), j->bits, j->rest, tree, places, j->spare);
+    return KOKSMA_OK;
+}
+
+static koksma_status solve_part(void *context, size_t part)
+{
+    const job *j = context;
+    const size_t first = part << j->rest;
+    j->totals[part] = (total){0, 0};
+    if (first < j->n) {
+        const size_t count = j->n - first < (size_t)1 << j->rest ? j->n - first : (size_t)1 << j->rest;
+        j->totals[part] = solve(j->spare + first, j->points + first, count, j->rest);
+    }
+    return KOKSMA_OK;
+}
+
+static void add_up(const total *totals, size_t count, koksma__dd *sum)
+{
+    for (size_t i = 0; i < count; i++) {
+        const koksma__dd high = koksma__dd_of_int(totals[i].high);
+        *sum = koksma__dd_add(*sum, koksma__dd_scale(high, 1 << LOW_BITS));
+        *sum = koksma__dd_add(*sum, koksma__dd_of_int(totals[i].low));
+    }
+}
+
+static koksma_status run_job(job *j, const koksma_run *run, koksma__dd *sum)
+{
+    koksma_status status = koksma__parallel(run, j->n_chunks, count_chunk, j);
+    for (size_t part = 0; part < PARTS && !status; part++) {
+        node before = {{0, 0}, 0};
+        for (size_t chunk = 0; chunk < j->n_chunks; chunk++) {
+            const node here = j->starts[chunk][part];
+            j->starts[chunk][part] = before;
+            add(&before, &here);
+        }
+    }
+    status = status ? status : koksma__parallel(run, j->n_chunks, deal_chunk, j);
+    if (!status) {
+        add_up(j->totals, j->n_chunks, sum);
+        status = j->rest > 0 ? koksma__parallel(run, (size_t)1 << j->bits, solve_part, j) : KOKSMA_OK;
+    }
+    if (!status && j->rest > 0) {
+        add_up(j->totals, (size_t)1 << j->bits, sum);
+    }
+    return status;
+}
+
+koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_point *points, koksma__l2_point *spare,
+                                   koksma__dd *sum)
+{
+    job j = {.n = n, .n_chunks = (n + CHUNK - 1) / CHUNK, .points = points, .spare = spare};
+    while (n > (size_t)1 << j.rest) {
+        j.rest++;
+    }
+    *sum = (koksma__dd){0, 0};
+    if (n <= CHUNK) {
+        const total all = solve(points, spare, n, j.rest);
+        add_up(&all, 1, sum);
+        return KOKSMA_OK;
+    }
+    j.bits = MAX_BITS;
+    j.rest -= MAX_BITS;
+    const size_t bytes = j.n_chunks * sizeof *j.starts + (j.n_chunks + PARTS) * sizeof *j.totals;
+    j.starts = malloc(bytes);
+    if (!j.starts) {
+        return koksma__fail_memory(bytes);
+    }
+    j.totals = (total *)(j.starts + j.n_chunks);
+    const koksma_status status = run_job(&j, run, sum);
+    free(j.starts);
+    return status;
+}
+
+#endif

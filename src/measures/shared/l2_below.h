@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_MEASURES_SHARED_L2_BELOW_H
+#define KOKSMA_MEASURES_SHARED_L2_BELOW_H
+
+#include <koksma/koksma.h>
+
+#include "measures/shared/double_double.h"
+
+/* A point of the plane in units that make its coordinates whole numbers, |x| and |y| <= 2^52. */
+typedef struct koksma__l2_point {
+    int64_t x, y;
+    uint32_t at; /* place in x order */
+} koksma__l2_point;
+
+/* sum_i x_i sum_j (y_i - y_j) over the points j before point i in x order and in y order. The n < 2^28 points come in
+   y order; they and as many in `spare` are overwritten. Errors: MEMORY, INTERRUPTED. */
+koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_point *points, koksma__l2_point *spare,
+                                   koksma__dd *sum);
+
+#endif

@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The L2 discrepancies in three and more dimensions by divide and conquer, O(n log^(d-1) n) (Heinrich 1996). For
+ * a <= b every kernel of the family is a sum of few products, sum_m A_m(a) B_m(b): with z = u - 1/2 and
+ * G = g + r z^2,
+ *
+ *     K(a, b) = (G(a) - q a) 1 + 1 (G(b) + q b) - 2 r a b,
+ *
+ * one product where G - q z is constant (star, modified) or where all of it is (a + s) (b - s) (extreme), two where
+ * r = 0, else three. Points are halved in order of a coordinate; pairs within a half are a smaller problem, and of
+ * pairs across the order is known: the products go into weights, and the next coordinate is dealt with likewise. At
+ * the last but one the halves come back sorted by the last one, and one pass with prefix sums does all pairs across.
+ *
+ * All sums are compensated. The weights are rounded products: independent errors of 1e-16 a point, which average out.
+ * The halves are the same on any number of threads, and their sums are added in a fixed order.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "measures/shared/double_double.h"
+#include "measures/shared/l2.h"
+#include "measures/shared/order.h"
+
+typedef koksma__dd dd;
+
+enum { MAX_DIM = KOKSMA__L2_DIVIDE_DIM, RANKS = 3, FEW = 24, PIECE = 1 << 13 };
+
+typedef struct item {
+    double z[MAX_DIM], g[MAX_DIM]; /* u - 1/2, and G */
+    double weight;
+    uint32_t left; /* the sides of a problem between two sets */
+    uint32_t upper;
+} item;
+
+typedef struct divider {
+    const koksma__l2_row *row;
+    int dim, ranks;
+    size_t n, width;
+    item *items, *spare; /* in order of the first coordinate, later of the second */
+    koksma__sum *sums;   /* one a block */
+} divider;
+
+/* What one thread works with: lists for problems that start at coordinate k, with as much room again to merge. */
+typedef struct worker {
+    const divider *d;
+    item *lists[MAX_DIM];
+    koksma__sum sum;
+} worker;
+
+static void find_factors(const divider *d, double z, double g, double a[RANKS], double b[RANKS])
+{
+    const double q = d->row->q, r = d->row->r;
+    if (d->ranks == 1 && r == 0) { /* G - q z is d->row->g[0] everywhere */
+        a[0] = 1;
+        b[0] = d->row->g[0] + g + q * z;
+    } else if (d->ranks == 1) { /* -2 r (a - q/2r) (b + q/2r) */
+        a[0] = -2 * r * z + q;
+        b[0] = z + q / (2 * r);
+    } else {
+        a[0] = g - q * z;
+        b[0] = 1;
+        a[1] = 1;
+        b[1] = g + q * z;
+        a[2] = -2 * r * z;
+        b[2] = z;
+    }
+}
+
+int koksma__l2_ranks(const koksma__l2_row *row)
+{
+    const double second = row->g[2] + row->r;
+    const bool linear = row->r == 0 && second == 0 && row->g[3] == 0 && row->g[1] == row->q;
+    const bool product =
+        row->r != 0 && second == 0 && row->g[1] == 0 && row->g[3] == 0 && 4 * row->r * row->g[0] == row->q * row->q;
+    return linear || product ? 1 : row->r == 0 ? 2 : 3;
+}
+
+/* prod over coordinates k and up of K. */
+static double kernel_from(const divider *d, int k, const item *u, const item *v)
+{
+    double product = 1;
+    for (; k < d->dim; k++) {
+        product *= u->g[k] + v->g[k] - 2 * d->row->r * u->z[k] * v->z[k] + d->row->q * fabs(u->z[k] - v->z[k]);
+    }
+    return product;
+}
+
+static void sort_few(item *items, size_t n, int k)
+{
+    for (size_t i = 1; i < n; i++) {
+        const item moving = items[i];
+        size_t j = i;
+        for (; j > 0 && items[j - 1].z[k] > moving.z[k]; j--) {
+            items[j] = items[j - 1];
+        }
+        items[j] = moving;
+    }
+}
+
+/* Merges two lists by coordinate k into `to`. */
+static void merge(const item *l, size_t n_l, const item *r, size_t n_r, int k, item *to)
+{
+    const item *const l_end = l + n_l, *const r_end = r + n_r;
+    while (l < l_end && r < r_end) {
+        *to++ = l->z[k] <= r->z[k] ? *l++ : *r++;
+    }
+    memcpy(to, l, (size_t)(l_end - l) * sizeof *to);
+    memcpy(to + (l_end - l), r, (size_t)(r_end - r) * sizeof *to);
+}
+
+static void add(koksma__sum *sum, double x)
+{
+    const dd s = koksma__dd_sum(sum->total, x);
+    sum->total = s.hi;
+    sum->lost += s.lo;
+}
+
+/* All pairs of left and right across the halves of coordinate k, items being in order of the last one, k + 1. */
+static void pass(worker *w, const item *items, size_t n, int k)
+{
+    const divider *d = w->d;
+    const int ranks = d->ranks;
+    koksma__sum before[4][RANKS][RANKS]; /* of left or right, lower or upper; by the ranks of k and of k + 1 */
+    memset(before, 0, sizeof before);
+    for (size_t i = 0; i < n; i++) {
+        double a[2][RANKS], b[2][RANKS], sum = 0;
+        const item *it = &items[i];
+        const unsigned kind = 2 * it->left + it->upper;
+        find_factors(d, it->z[k], it->g[k], a[0], b[0]);
+        find_factors(d, it->z[k + 1], it->g[k + 1], a[1], b[1]);
+        for (int m = 0; m < ranks; m++) {
+            const double weight = it->weight * (it->upper ? b : a)[0][m];
+            for (int l = 0; l < ranks; l++) {
+                const koksma__sum *other = &before[3 - kind][m][l];
+                sum += weight * b[1][l] * (other->total + other->lost);
+                add(&before[kind][m][l], weight * a[1][l]);
+            }
+        }
+        koksma__sum_add(&w->sum, sum);
+    }
+}
+
+static void between(worker *w, item *items, item *spare, size_t n, int k);
+
+/* The pairs across for one of the two known orders: left in the lower half and right in the upper, or the other way
+   round. Items are in order of coordinate k + 1, the next to be halved. */
+static void next_coordinate(worker *w, const item *items, size_t n, int k, bool left_is_lower)
+{
+    const divider *d = w->d;
+    for (int m = 0; m < d->ranks; m++) {
+        item *list = w->lists[k + 1];
+        size_t count = 0;
+        for (size_t i = 0; i < n; i++) {
+            if ((items[i].left != items[i].upper) == left_is_lower) {
+                double a[RANKS], b[RANKS];
+                find_factors(d, items[i].z[k], items[i].g[k], a, b);
+                list[count] = items[i];
+                list[count++].weight *= items[i].upper ? b[m] : a[m];
+            }
+        }
+        between(w, list, list + n, count, k + 1);
+    }
+}
+
+/* sum over left and right of the weights times the kernels of coordinates k and up. Items are in order of coordinate
+   k, and in that of k + 1 afterwards. */
+static void between(worker *w, item *items, item *spare, size_t n, int k)
+{
+    const divider *d = w->d;
+    if (n <= FEW) {
+        for (size_t i = 1; i < n; i++) {
+            double sum = 0;
+            for (size_t j = 0; j < i; j++) {
+                if (items[i].left != items[j].left) {
+                    sum += items[j].weight * kernel_from(d, k, &items[i], &items[j]);
+                }
+            }
+            koksma__sum_add(&w->sum, items[i].weight * sum);
+        }
+        sort_few(items, n, k + 1);
+        return;
+    }
+    const size_t half = n / 2;
+    between(w, items, spare, half, k);
+    between(w, items + half, spare + half, n - half, k);
+    for (size_t i = 0; i < n; i++) {
+        items[i].upper = i >= half;
+    }
+    merge(items, half, items + half, n - half, k + 1, spare);
+    memcpy(items, spare, n * sizeof *items);
+    if (k + 2 == d->dim) {
+        pass(w, items, n, k);
+    } else {
+        next_coordinate(w, items, n, k, true);
+        next_coordinate(w, items, n, k, false);
+    }
+}
+
+/* The pairs across two halves of the first coordinate, which are in order of the second; afterwards all are. */
+static void across(worker *w, item *items, size_t half, size_t n, item *to)
+{
+    for (size_t i = 0; i < n; i++) {
+        items[i].left = i < half;
+        items[i].upper = i >= half;
+        items[i].weight = 1;
+    }
+    merge(items, half, items + half, n - half, 1, to);
+    next_coordinate(w, to, n, 0, true);
+}
+
+static void within(worker *w, item *items, item *spare, size_t n)
+{
+    if (n <= FEW) {
+        for (size_t i = 1; i < n; i++) {
+            double sum = 0;
+            for (size_t j = 0; j < i; j++) {
+                sum += kernel_from(w->d, 0, &items[i], &items[j]);
+            }
+            koksma__sum_add(&w->sum, sum);
+        }
+        sort_few(items, n, 1);
+        return;
+    }
+    const size_t half = n / 2;
+    within(w, items, spare, half);
+    within(w, items + half, spare + half, n - half);
+    across(w, items, half, n, spare);
+    memcpy(items, spare, n * sizeof *items);
+}
+
+/* Lists for n items. Problems from coordinate k on need a list of their own, and room to merge. */
+static bool open_worker(const divider *d, size_t n, worker *w)
+{
+    const size_t lists = (size_t)d->dim - 2, bytes = 2 * lists * n * sizeof(item);
+    *w = (worker){.d = d};
+    w->lists[1] = malloc(bytes);
+    if (!w->lists[1]) {
+        koksma__fail_memory(bytes);
+        return false;
+    }
+    for (size_t k = 2; k <= lists; k++) {
+        w->lists[k] = w->lists[k - 1] + 2 * n;
+    }
+    return true;
+}
+
+static koksma_status piece(void *context, size_t block)
+{
+    const divider *d = context;
+    const size_t first = block * PIECE, count = d->n - first < PIECE ? d->n - first : PIECE;
+    worker w;
+    if (!open_worker(d, count, &w)) {
+        return KOKSMA_MEMORY;
+    }
+    within(&w, d->items + first, d->spare + first, count);
+    koksma__sum_add(&d->sums[block], w.sum.total);
+    koksma__sum_add(&d->sums[block], w.sum.lost);
+    free(w.lists[1]);
+    return KOKSMA_OK;
+}
+
+static koksma_status two_pieces(void *context, size_t block)
+{
+    const divider *d = context;
+    const size_t first = 2 * block * d->width, rest = d->n - first;
+    const size_t half = rest < d->width ? rest : d->width, count = rest < 2 * d->width ? rest : 2 * d->width;
+    worker w;
+    if (!open_worker(d, count, &w)) {
+        return KOKSMA_MEMORY;
+    }
+    across(&w, d->items + first, half, count, d->spare + first);
+    koksma__sum_add(&d->sums[block], w.sum.total);
+    koksma__sum_add(&d->sums[block], w.sum.lost);
+    free(w.lists[1]);
+    return KOKSMA_OK;
+}
+
+static koksma_status divide(divider *d, const koksma_run *run)
+{
+    koksma_status status = koksma__parallel(run, (d->n + PIECE - 1) / PIECE, piece, d);
+    for (d->width = PIECE; d->width < d->n && !status; d->width *= 2) {
+        status = koksma__parallel(run, (d->n + 2 * d->width - 1) / (2 * d->width), two_pieces, d);
+        item *const other = d->items;
+        d->items = d->spare;
+        d->spare = other;
+    }
+    return status;
+}
+
+/* Fills the items in order of the first coordinate; the sums over points alone. */
+static koksma_status prepare(divider *d, const koksma_points *points, const koksma_run *run, uint32_t *order,
+                             koksma__dd *linear, koksma__sum *self)
+{
+    const size_t dim = (size_t)points->dim;
+    const double big_g[4] = {d->row->g[0], d->row->g[1], d->row->g[2] + d->row->r, d->row->g[3]};
+    const koksma_status status = koksma__order(run, d->n, points->xs, dim, order);
+    for (size_t i = 0; i < d->n && !status; i++) {
+        const double *x = points->xs + order[i] * dim;
+        item *it = &d->items[i];
+        memset(it, 0, sizeof *it);
+        for (size_t k = 0; k < dim; k++) {
+            it->z[k] = x[k] - 0.5;
+            it->g[k] = koksma__l2_polynomial(big_g, x[k]);
+        }
+        *linear = koksma__dd_add(*linear, koksma__l2_linear(d->row, x, d->dim));
+        koksma__sum_add(self, kernel_from(d, 0, it, it));
+    }
+    return status;
+}
+
+koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                                     double *square)
+{
+    const size_t n = points->n, n_blocks = (n + PIECE - 1) / PIECE;
+    const size_t bytes = 2 * n * sizeof(item) + n_blocks * sizeof(koksma__sum) + n * sizeof(uint32_t);
+    divider d = {.row = row, .dim = points->dim, .ranks = koksma__l2_ranks(row), .n = n, .items = malloc(bytes)};
+    if (!d.items) {
+        return koksma__fail_memory(bytes);
+    }
+    void *const memory = d.items;
+    d.spare = d.items + n;
+    d.sums = (koksma__sum *)(d.spare + n);
+    memset(d.sums, 0, n_blocks * sizeof *d.sums);
+    koksma__dd linear = {0, 0};
+    koksma__sum both = {0};
+    koksma_status status = prepare(&d, points, run, (uint32_t *)(d.sums + n_blocks), &linear, &both);
+    status = status ? status : divide(&d, run);
+    for (size_t block = 0; block < n_blocks; block++) {
+        koksma__sum_add(&both, 2 * d.sums[block].total);
+        koksma__sum_add(&both, 2 * d.sums[block].lost);
+    }
+    *square = koksma__l2_combine(row, points->dim, n, linear, &both);
+    free(memory);
+    return status;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/shared/lines.h"
+
+#include <math.h>
+
+#include "core/random.h"
+#include "core/status.h"
+
+const char *const koksma__line_laws[] = {"isotropic", "mitchell", NULL};
+
+koksma_status koksma__fail_law_of_plane(const char *measure)
+{
+    return koksma__fail(KOKSMA_ARGUMENT,
+                        "%s: law=mitchell is of lines in the plane; law=isotropic takes 3 dimensions", measure);
+}
+
+/* The triangle that a line cuts off at c/a and c/b from a corner. */
+static double triangle(double a, double b, double c)
+{
+    return a * b > 0x1p-900 ? c * c / (2 * a * b) : c / a * (c / b) / 2;
+}
+
+/* a, b >= 0 with a >= b, 0 <= c <= a + b */
+static double corner_area(double a, double b, double c)
+{
+    if (c <= 0) {
+        return 0;
+    }
+    if (c <= b) {
+        return triangle(a, b, c);
+    }
+    return c <= a ? (c - b / 2) / a : c < a + b ? 1 - triangle(a, b, a + b - c) : 1;
+}
+
+static double positive_area(double a, double b, double c)
+{
+    return a >= b ? corner_area(a, b, c) : corner_area(b, a, c);
+}
+
+double koksma__area_below(double a, double b, double c)
+{
+    return positive_area(fabs(a), fabs(b), c + (a < 0 ? -a : 0) + (b < 0 ? -b : 0));
+}
+
+double koksma__area_below_through(double a, double b, const double p[2])
+{
+    if (fabs(a) < 0x1p-400 && fabs(b) < 0x1p-400) { /* the products below would lose digits */
+        a *= 0x1p600;
+        b *= 0x1p600;
+    }
+    const double x = a < 0 ? 1 - p[0] : p[0], y = b < 0 ? 1 - p[1] : p[1];
+    return positive_area(fabs(a), fabs(b), fabs(a) * x + fabs(b) * y);
+}
+
+double koksma__line_separates(koksma__line_law law, double dx, double dy)
+{
+    const double x = fabs(dx), y = fabs(dy);
+    if (law == KOKSMA__LINES_ISOTROPIC) {
+        return sqrt(x * x + y * y) / 2;
+    }
+    const double a = x > y ? x : y, b = x > y ? y : x;
+    return a > 0 ? ((a + b) * log1p(b / a) + a - b) / 2 : 0;
+}
+
+/* F(T) = the integral of sigma(1, t) over 0 < t < T */
+static double integral(koksma__line_law law, double t)
+{
+    if (law == KOKSMA__LINES_ISOTROPIC) {
+        return (t * hypot(1, t) + asinh(t)) / 4;
+    }
+    const double first = t < 1 ? t : 1, s = (1 + first) * (1 + first);
+    double sum = (s / 2 * log1p(first) - (s - 1) / 4 + first - first * first / 2) / 2;
+    if (t > 1) {
+        sum += ((1 + t) * (1 + t) / 2 * log1p(1 / t) + (log(t) + t) / 2 + t * t / 2 - t) / 2;
+        sum -= (2 * M_LN2 + 0.5 + 0.5 - 1) / 2;
+    }
+    return sum;
+}
+
+/* The integral of sigma over [0, a] x [0, b]. */
+static double rectangle(koksma__line_law law, double a, double b)
+{
+    if (a < 1e-90 || b < 1e-90) {
+        return 0;
+    }
+    return (a * a * a * integral(law, b / a) + b * b * b * integral(law, a / b)) / 3;
+}
+
+double koksma__line_potential(koksma__line_law law, const double p[2])
+{
+    const double x = p[0], y = p[1];
+    return (rectangle(law, x, y) + rectangle(law, 1 - x, 1 - y)) +
+           (rectangle(law, 1 - x, y) + rectangle(law, x, 1 - y));
+}
+
+double koksma__line_constant(koksma__line_law law)
+{
+    return law == KOKSMA__LINES_ISOTROPIC ? (2 + M_SQRT2 + 5 * asinh(1)) / 30 : 8 * M_LN2 / 15 - 1.0 / 9;
+}
+
+void koksma__random_line(koksma__line_law law, uint64_t seed, uint64_t index, double *a, double *b, double *c)
+{
+    double r[2], s[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 0, r);
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 1, s);
+    if (law == KOKSMA__LINES_ISOTROPIC) {
+        /* the normal's angle has density cos + sin, the width of the square */
+        const double angle = M_PI_4 + asin((2 * r[0] - 1) / M_SQRT2);
+        *a = cos(angle);
+        *b = r[1] < 0.5 ? sin(angle) : -sin(angle);
+        *c = s[0] * (*a + fabs(*b)) + (*b < 0 ? *b : 0);
+        return;
+    }
+    double run = r[1] - 0.5;
+    run = run == 0 ? 0x1p-54 : run;
+    const double m = (r[0] - 0.5) / run;
+    *a = -m;
+    *b = 1;
+    *c = m < 0 ? (1 - m) * s[0] : 1 - (1 + m) * s[0];
+}

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/shared/neighbours.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/spectrum.h>
+
+#include "core/closest_pair.h"
+#include "core/parallel.h"
+#include "core/points_io.h"
+#include "core/status.h"
+
+typedef struct grid {
+    size_t m;      /* cells a side, each at least r wide; 1 or 2: every cell is a neighbour */
+    size_t *first; /* points of cell c: first[c] .. first[c + 1] - 1 */
+    double *xs;    /* in order of the cells */
+} grid;
+
+static size_t cell_of(double x, size_t m)
+{
+    const size_t c = (size_t)(x * (double)m);
+    return c < m ? c : m - 1;
+}
+
+static koksma_status open_grid(const koksma_points *p, double r, grid *g)
+{
+    const size_t most = (size_t)sqrt((double)p->n) + 1, wanted = r > 0 ? (size_t)fmin(1 / r, 1e6) : most;
+    g->m = wanted < most ? wanted : most;
+    g->m = g->m > 0 ? g->m : 1;
+    const size_t cells = g->m * g->m, bytes = (cells + 2) * sizeof(size_t) + 2 * p->n * sizeof(double);
+    g->first = calloc(1, bytes);
+    if (!g->first) {
+        return koksma__fail_memory(bytes);
+    }
+    g->xs = (double *)(g->first + cells + 2);
+    for (size_t i = 0; i < p->n; i++) {
+        g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 2]++;
+    }
+    for (size_t c = 2; c < cells + 2; c++) {
+        g->first[c] += g->first[c - 1];
+    }
+    for (size_t i = 0; i < p->n; i++) {
+        const size_t at = g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 1]++;
+        memcpy(g->xs + 2 * at, p->xs + 2 * i, 2 * sizeof(double));
+    }
+    return KOKSMA_OK;
+}
+
+static double distance2(const double *a, const double *b, bool torus)
+{
+    double dx = fabs(a[0] - b[0]), dy = fabs(a[1] - b[1]);
+    if (torus) {
+        dx = dx < 1 - dx ? dx : 1 - dx;
+        dy = dy < 1 - dy ? dy : 1 - dy;
+    }
+    return dx * dx + dy * dy;
+}
+
+enum { PAIRS_PER_QUESTION = 1 << 16 };
+
+typedef struct visit {
+    const grid *g;
+    double r2;
+    bool torus;
+    const koksma_run *run;
+    koksma__near_pair_function f;
+    void *context;
+    size_t unasked; /* pairs since run was asked whether to go on */
+    bool stopped;   /* by run */
+} visit;
+
+/* Points of cell c with those of cell d that come later; false: no more are wanted. */
+static bool pairs_of_cells(visit *v, size_t c, size_t d)
+{
+    const grid *g = v->g;
+    for (size_t i = g->first[c]; i < g->first[c + 1]; i++) {
+        for (size_t j = d == c ? i + 1 : g->first[d]; j < g->first[d + 1]; j++) {
+            const double d2 = distance2(g->xs + 2 * i, g->xs + 2 * j, v->torus);
+            if (d2 < v->r2 && !v->f(v->context, d2)) {
+                return false;
+            }
+        }
+        v->unasked += 1 + g->first[d + 1] - g->first[d];
+        if (v->unasked > PAIRS_PER_QUESTION) {
+            v->unasked = 0;
+            v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->m * g->m));
+            if (v->stopped) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Points of cell c with those of the neighbours, each once, that do not come before. */
+static bool pairs_of_cell(visit *v, size_t c)
+{
+    const size_t m = v->g->m;
+    size_t seen[9], n_seen = 0;
+    bool wanted = true;
+    for (int k = 0; k < 9 && wanted; k++) {
+        const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
+        const size_t d = y * m + x;
+        bool is_new = d >= c;
+        for (size_t i = 0; i < n_seen; i++) {
+            is_new = is_new && seen[i] != d;
+        }
+        if (is_new) {
+            seen[n_seen++] = d;
+            wanted = pairs_of_cells(v, c, d);
+        }
+    }
+    return wanted;
+}
+
+static koksma_status visit_pairs(visit *v)
+{
+    for (size_t c = 0; c < v->g->m * v->g->m && pairs_of_cell(v, c); c++) {
+    }
+    return v->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
+}
+
+koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
+                                 koksma__near_pair_function f, void *context)
+{
+    grid g;
+    koksma_status status = open_grid(points, r, &g);
+    if (status) {
+        return status;
+    }
+    visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = f, .context = context};
+    status = visit_pairs(&v);
+    free(g.first);
+    return status;
+}
+
+/* No distance is below 0. */
+static bool keep_least(void *context, double d2)
+{
+    double *least = context;
+    *least = d2 < *least ? d2 : *least;
+    return *least > 0;
+}
+
+enum { CROWD = 64 };
+
+/* Whether the pairs within cells are few; those with the neighbours are then no more than nine times as many. */
+static bool is_spread(const grid *g, size_t n)
+{
+    double pairs = 0;
+    for (size_t c = 0; c < g->m * g->m; c++) {
+        const double count = (double)(g->first[c + 1] - g->first[c]);
+        pairs += count * count;
+    }
+    return pairs <= CROWD * (double)n;
+}
+
+/* Of crowded points the cells are of no help. Both ways square the same differences, so that the bits are equal. */
+static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
+                                   double *distance)
+{
+    grid g;
+    double least = HUGE_VAL;
+    koksma_status status = open_grid(points, r, &g);
+    if (status) {
+        return status;
+    }
+    const bool spread = is_spread(&g, points->n);
+    if (spread) {
+        visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = keep_least, .context = &least};
+        status = visit_pairs(&v);
+        *distance = sqrt(least);
+    }
+    free(g.first);
+    return spread ? status : koksma__closest_pair(points, torus, run, distance);
+}
+
+koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
+                                   double *distance)
+{
+    if (points->n < 2) {
+        return koksma__fail(KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
+    }
+    double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
+    if (points->n < 16) {
+        for (size_t i = 0; i < points->n; i++) {
+            for (size_t j = 0; j < i; j++) {
+                keep_least(&least, distance2(points->xs + 2 * i, points->xs + 2 * j, torus));
+            }
+        }
+    } else {
+        r = torus ? r : fmin(1.5 * r, 0.5);
+        return least_of_many(points, r, torus, run, distance);
+    }
+    *distance = sqrt(least);
+    return KOKSMA_OK;
+}
+
+typedef struct histogram {
+    double scale;
+    size_t bins;
+    double *counts;
+} histogram;
+
+static bool count_pair(void *context, double d2)
+{
+    const histogram *h = context;
+    const size_t bin = (size_t)(sqrt(d2) * h->scale);
+    h->counts[bin < h->bins ? bin : h->bins - 1] += 1;
+    return true;
+}
+
+koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, const koksma_run *run,
+                                      double *values)
+{
+    if (points->dim != 2) {
+        return koksma__fail(KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2", points->dim);
+    }
+    if (!(r_max > 0 && r_max <= 0.5) || bins == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins",
+                            r_max);
+    }
+    const koksma_status checked = koksma__points_check(points);
+    if (checked) {
+        return checked;
+    }
+    histogram h = {(double)bins / r_max, bins, values};
+    memset(values, 0, bins * sizeof *values);
+    const koksma_status status = koksma__near_pairs(points, r_max, true, run, count_pair, &h);
+    const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
+    for (size_t b = 0; b < bins && !status; b++) {
+        const double share = M_PI * width * width * (2 * (double)b + 1);
+        values[b] = pairs > 0 ? values[b] / (pairs * share) : (double)NAN;
+    }
+    return status;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Half-spaces and the unit cube.
+ *
+ * Volumes: turned so that 0 <= a <= b <= d and c is at most half of the way across, the half-space cuts off
+ * [c^3 - (c-a)^3 - (c-b)^3 - (c-d)^3 + (c-a-b)^3] / (6 a b d), each term where its base is positive. The terms cancel
+ * where a is small, so the first two are one polynomial, and each of the others has a base of at most a.
+ * The potential: r is homogeneous, so its integral over a box at the origin is a quarter of that of r times the
+ * distance of the plane over the three far faces; over a face it has a closed form. The mean distance of two points
+ * of the cube is that of Robbins 1978.
+ */
+#include "measures/shared/planes.h"
+
+#include <math.h>
+
+#include "core/random.h"
+
+/* 0 <= a <= b <= d, 0 <= c <= (a + b + d) / 2 */
+static double small_part(double a, double b, double d, double c)
+{
+    if (c <= a) {
+        return c > 0 ? c / a * (c / b) * (c / d) / 6 : 0;
+    }
+    if (c >= a + b && c <= d) {
+        return (c - (a + b) / 2) / d;
+    }
+    double part = ((c - a) / b * (c / d) + a / b * (a / d) / 3) / 2;
+    if (c > b) {
+        part -= (c - b) / a * ((c - b) / b) * ((c - b) / d) / 6;
+    }
+    if (c > d) {
+        part -= (c - d) / a * ((c - d) / b) * ((c - d) / d) / 6;
+    }
+    return part;
+}
+
+/* a >= 0 */
+static double positive_volume(double a, double b, double d, double c)
+{
+    double swap;
+    if (a > b) {
+        swap = a, a = b, b = swap;
+    }
+    if (b > d) {
+        swap = b, b = d, d = swap;
+    }
+    if (a > b) {
+        swap = a, a = b, b = swap;
+    }
+    const double whole = a + b + d;
+    return c <= whole / 2 ? small_part(a, b, d, c) : 1 - small_part(a, b, d, whole - c);
+}
+
+double koksma__volume_below(const double a[3], double c)
+{
+    for (int k = 0; k < 3; k++) {
+        c -= a[k] < 0 ? a[k] : 0;
+    }
+    return positive_volume(fabs(a[0]), fabs(a[1]), fabs(a[2]), c);
+}
+
+double koksma__volume_below_through(const double a[3], const double p[3])
+{
+    double c = 0;
+    for (int k = 0; k < 3; k++) {
+        c += a[k] < 0 ? -a[k] * (1 - p[k]) : a[k] * p[k];
+    }
+    return positive_volume(fabs(a[0]), fabs(a[1]), fabs(a[2]), c);
+}
+
+/* The integral of sqrt(a^2 + y^2 + z^2) over 0 < y < b, 0 < z < c. */
+static double face(double a, double b, double c)
+{
+    const double r = sqrt(a * a + b * b + c * c);
+    double sum = b * c * r / 3;
+    sum += b * (b * b + 3 * a * a) / 6 * asinh(c / hypot(a, b));
+    sum += c * (c * c + 3 * a * a) / 6 * asinh(b / hypot(a, c));
+    return sum - a * a * a / 3 * atan2(b * c, a * r);
+}
+
+static double box(double a, double b, double c)
+{
+    if (a < 1e-90 || b < 1e-90 || c < 1e-90) {
+        return 0;
+    }
+    return (a * face(a, b, c) + b * face(b, c, a) + c * face(c, a, b)) / 4;
+}
+
+double koksma__plane_potential(const double p[3])
+{
+    double sum = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        sum += box(corner & 1 ? 1 - p[0] : p[0], corner & 2 ? 1 - p[1] : p[1], corner & 4 ? 1 - p[2] : p[2]);
+    }
+    return sum / 3;
+}
+
+double koksma__plane_constant(void)
+{
+    const double root3 = sqrt(3.0);
+    return ((4 + 17 * M_SQRT2 - 6 * root3) / 105 + log(1 + M_SQRT2) / 5 + 2 * log(2 + root3) / 5 - M_PI / 15) / 3;
+}
+
+/* The normal's density is the width of the cube, |a1| + |a2| + |a3|: a mixture of three, one an axis. */
+void koksma__random_plane(uint64_t seed, uint64_t index, double a[3], double *c)
+{
+    double r[2], s[2];
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 4, r);
+    koksma__random_pair(seed, KOKSMA__PURPOSE_SEARCH, index, 5, s);
+    const double third = 3 * r[0];
+    const int axis = (int)third;
+    const double height2 = third - axis, across = sqrt(1 - height2), turn = 2 * M_PI * r[1];
+    a[axis] = sqrt(height2);
+    a[(axis + 1) % 3] = across * cos(turn);
+    a[(axis + 2) % 3] = across * sin(turn);
+    *c = s[0] * (fabs(a[0]) + fabs(a[1]) + fabs(a[2]));
+    for (int k = 0; k < 3; k++) {
+        *c += a[k] < 0 ? a[k] : 0;
+    }
+}

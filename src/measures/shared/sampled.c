@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "measures/shared/sampled.h"
+
+#include <math.h>
+
+#include "core/sum.h"
+
+/* Two passes: sums of squares of what is left when the mean is taken off lose no digits. */
+void koksma__sampled_root(const double *squares, size_t count, koksma_value *out)
+{
+    koksma__sum sum = {0}, spread = {0};
+    const double n = (double)count;
+    for (size_t i = 0; i < count; i++) {
+        koksma__sum_add(&sum, squares[i]);
+    }
+    out->square = koksma__sum_value(&sum) / n;
+    out->value = sqrt(out->square);
+    for (size_t i = 0; i < count; i++) {
+        koksma__sum_add(&spread, (squares[i] - out->square) * (squares[i] - out->square));
+    }
+    const double error = count > 1 ? sqrt(koksma__sum_value(&spread) / n / (n - 1)) : (double)NAN;
+    out->standard_error = out->value > 0 ? error / (2 * out->value) : error;
+    out->exact = false;
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Power spectra and what is read from them. Definitions: Ulichney 1987 for the radial mean and the anisotropy; Heck,
+   Schlomer and Deussen 2013 for the effective Nyquist frequency and the oscillation, as koksma/spectrum.h words them.
+   Means over sets and their errors are updated set by set (Welford 1962), so that equal sets have no error. */
+#include <math.h>
+#include <stdlib.h>
+
+#include <koksma/spectrum.h>
+
+#include "core/points_io.h"
+#include "core/status.h"
+#include "measures/shared/amplitudes.h"
+
+/* What the quality numbers are made with: see koksma/spectrum.h. */
+#define NYQUIST_SHARE 0.1
+#define SIGNAL_SHARE 0.5
+#define RISEN 0.98
+#define BAND 5.0
+
+static size_t side_of(int half)
+{
+    return 2 * (size_t)half + 1;
+}
+
+koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half)
+{
+    *spectrum = (koksma_spectrum){0};
+    if (half < 1 || half > KOKSMA_SPECTRUM_MAX_HALF) {
+        return koksma__fail(KOKSMA_ARGUMENT, "spectrum: half = %d: it takes 1 to %d", half, KOKSMA_SPECTRUM_MAX_HALF);
+    }
+    const size_t rows = (size_t)half + 1, count = rows * side_of(half);
+    const size_t bytes = rows * sizeof(koksma_tally) + count * sizeof(double);
+    spectrum->rings = calloc(1, bytes);
+    if (!spectrum->rings) {
+        return koksma__fail_memory(bytes);
+    }
+    spectrum->power = (double *)(spectrum->rings + rows);
+    spectrum->half = half;
+    return KOKSMA_OK;
+}
+
+void koksma_spectrum_fini(koksma_spectrum *spectrum)
+{
+    if (spectrum) {
+        free(spectrum->rings);
+        *spectrum = (koksma_spectrum){0};
+    }
+}
+
+/* Calls of f for each frequency of the rings 1 .. half once, of k and -k only one. */
+#define FOR_EACH_FREQUENCY(half, kx, ky, ring)                                                                       \
+    for (int ky = 0; ky <= (half); ky++)                                                                             \
+        for (int kx = ky ? -(half) : 1; kx <= (half); kx++)                                                          \
+            for (int ring = (int)floor(hypot(kx, ky) + 0.5), once_ = 1; once_ && ring <= (half); once_ = 0)
+
+static double power_at(int half, const double *power, int kx, int ky)
+{
+    return power[(size_t)ky * side_of(half) + (size_t)(half + kx)];
+}
+
+/* Ring means, and counts. */
+static void find_means(int half, const double *power, double *means, double *counts)
+{
+    FOR_EACH_FREQUENCY(half, kx, ky, ring)
+    {
+        means[ring] += power_at(half, power, kx, ky);
+        counts[ring] += 1;
+    }
+    for (int ring = 1; ring <= half; ring++) {
+        means[ring] /= counts[ring];
+    }
+}
+
+static koksma_status check_open(const koksma_spectrum *spectrum)
+{
+    return spectrum->power ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
+}
+
+koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
+                                  koksma_spectrum_method method, const koksma_run *run)
+{
+    const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
+    if (points->dim != 2) {
+        return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
+    }
+    koksma_status status = check_open(spectrum);
+    status = status ? status : koksma__points_check(points);
+    if (status) {
+        return status;
+    }
+    double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
+    if (!power) {
+        return koksma__fail_memory((count + 2 * rows) * sizeof *power);
+    }
+    status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(points, spectrum->half, run,
+                                                                                          power);
+    if (!status) {
+        spectrum->sets++;
+        const double sets = (double)spectrum->sets;
+        for (size_t i = 0; i < count; i++) {
+            spectrum->power[i] += (power[i] - spectrum->power[i]) / sets;
+        }
+        find_means(spectrum->half, power, means, means + rows);
+        for (size_t ring = 1; ring < rows; ring++) {
+            koksma_tally_add(&spectrum->rings[ring], means[ring]);
+        }
+        spectrum->points += ((double)points->n - spectrum->points) / sets;
+    }
+    free(power);
+    return status;
+}
+
+double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
+{
+    const int half = spectrum->half;
+    if (!spectrum->power || kx < -half || kx > half || ky < -half || ky > half) {
+        return NAN;
+    }
+    return power_at(half, spectrum->power, ky < 0 ? -kx : kx, abs(ky));
+}
+
+koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum)
+{
+    const int half = spectrum->half;
+    const size_t side = side_of(half);
+    const koksma_status status = check_open(spectrum);
+    if (status) {
+        return status;
+    }
+    double *grid = malloc(side * side * sizeof *grid);
+    if (!grid) {
+        return koksma__fail_memory(side * side * sizeof *grid);
+    }
+    for (int ky = -half; ky <= half; ky++) {
+        for (int kx = -half; kx <= half; kx++) {
+            grid[(size_t)(half + ky) * side + (size_t)(half + kx)] = koksma_spectrum_power(spectrum, kx, ky);
+        }
+    }
+    const koksma_points rows = {side, (int)side, grid};
+    const koksma_status written =
+        koksma__numbers_write(path, &rows, "power, rows of ky from below, columns of kx", NULL);
+    free(grid);
+    return written;
+}
+
+/* What FAST can tell from no power and from equal powers: amplitudes are good to AMPLITUDE n. */
+#define AMPLITUDE 1e-9
+
+static double anisotropy_db(double points, double power, double variance)
+{
+    const double rounding = 2 * AMPLITUDE * sqrt(points / power), relative = variance / (power * power);
+    if (!(power > AMPLITUDE * AMPLITUDE * points)) {
+        return NAN;
+    }
+    return relative > rounding * rounding ? 10 * log10(relative) : -(double)INFINITY;
+}
+
+koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
+{
+    const int half = spectrum->half;
+    const size_t rows = (size_t)half + 1;
+    double *means = calloc(3 * rows, sizeof *means), *counts = means + rows, *spreads = counts + rows;
+    if (!means) {
+        return koksma__fail_memory(3 * rows * sizeof *means);
+    }
+    find_means(half, spectrum->power, means, counts);
+    FOR_EACH_FREQUENCY(half, kx, ky, ring)
+    {
+        const double off = power_at(half, spectrum->power, kx, ky) - means[ring];
+        spreads[ring] += off * off;
+    }
+    for (int ring = 1; ring <= half; ring++) {
+        const koksma_tally *t = &spectrum->rings[ring];
+        const double variance = spreads[ring] / (counts[ring] - 1);
+        rings[ring - 1] = (koksma_ring){ring, t->mean, koksma_tally_error(t),
+                                        anisotropy_db(spectrum->points, means[ring], variance)};
+    }
+    free(means);
+    return KOKSMA_OK;
+}
+
+/* Of rings from the first that has risen to 1, up to BAND sqrt(n) beyond: a band that the size of the spectrum
+   doesn't change. */
+static double oscillation(const koksma_spectrum *s)
+{
+    int from = 1;
+    while (from <= s->half && s->rings[from].mean < RISEN) {
+        from++;
+    }
+    const double to = from + BAND * sqrt(s->points);
+    double waves = 0, area = 0;
+    for (int ring = from; ring <= s->half && ring <= to; ring++) {
+        const double off = s->rings[ring].mean - 1;
+        waves += ring * off * off;
+        area += ring;
+    }
+    return to <= s->half ? 10 * sqrt(waves / area) : (double)NAN;
+}
+
+void koksma_spectrum_quality(const koksma_spectrum *s, koksma_spectrum_quality_values *out)
+{
+    const double lattice = sqrt(s->points) / 2;
+    double energy = 0, area = 0;
+    int last = 0;
+    for (int ring = 1; ring <= s->half; ring++) {
+        energy += ring * s->rings[ring].mean;
+        area += ring;
+        if (energy <= NYQUIST_SHARE * area) {
+            last = ring;
+        } else if (ring >= lattice && energy > SIGNAL_SHARE * area) {
+            break;
+        }
+    }
+    *out = (koksma_spectrum_quality_values){last / 2.0, last / 2.0 / lattice, oscillation(s)};
+}

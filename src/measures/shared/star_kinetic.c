@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A kinetic segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b
+ * counts points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds to
+ * the lines of a range of ranks; x only grows. A node holds the winning line of its leaves, and until when it is
+ * known to win; `lazy` has not been added to its children yet. The lowest levels are blocks of leaves that are
+ * scanned. Wins are decided in doubles: at a near tie either line has the value to the last bits.
+ */
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "measures/shared/star.h"
+
+enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
+
+typedef struct node {
+    double k, b;  /* the winner */
+    double until; /* no other line overtakes up to here */
+    double lazy;
+} node;
+
+typedef struct tree {
+    size_t n_blocks; /* a power of two */
+    node *nodes;     /* 1 .. 2 n_blocks - 1; block i is node n_blocks + i */
+    double *k, *b;   /* leaves */
+    double x;
+} tree;
+
+typedef struct best_box {
+    double value;
+    size_t at;
+} best_box;
+
+/* The excesses and the deficits are walked side by side, and large sets in parts, each with a tree of its own. */
+typedef struct walks {
+    size_t n, n_blocks, parts;
+    const double *x, *y;
+    const uint32_t *rank;
+    const koksma_run *run;
+    pthread_t caller; /* who alone may ask run */
+    atomic_bool stopped;
+    best_box best[2][PARTS];
+} walks;
+
+static inline double at(double k, double b, double x)
+{
+    return b + k * x;
+}
+
+static void pull_block(tree *t, size_t v)
+{
+    node *const block = &t->nodes[v];
+    const double *k = t->k + (v - t->n_blocks) * BLOCK, *b = t->b + (v - t->n_blocks) * BLOCK;
+    double value = at(k[0], b[0], t->x), until = INFINITY;
+    int winner = 0;
+    for (int j = 1; j < BLOCK; j++) {
+        const double other = at(k[j], b[j], t->x);
+        const bool wins = other > value || (other == value && k[j] > k[winner]);
+        value = wins ? other : value;
+        winner = wins ? j : winner;
+    }
+    for (int j = 0; j < BLOCK; j++) {
+        const double rise = k[j] - k[winner];
+        const double crossing = (b[winner] - b[j]) / rise;
+        until = rise > 0 && crossing < until ? crossing : until;
+    }
+    *block = (node){k[winner], b[winner], until, 0};
+}
+
+static void pull(tree *t, size_t v)
+{
+    const node *l = &t->nodes[2 * v], *r = l + 1;
+    const double left = at(l->k, l->b, t->x), right = at(r->k, r->b, t->x);
+    const bool left_wins = left > right || (left == right && l->k >= r->k);
+    const node *w = left_wins ? l : r, *o = left_wins ? r : l;
+    double until = l->until < r->until ? l->until : r->until;
+    if (o->k > w->k) {
+        const double crossing = (w->b - o->b) / (o->k - w->k);
+        until = crossing < until ? crossing : until;
+    }
+    t->nodes[v] = (node){w->k, w->b, until, 0};
+}
+
+static void add_to_block(tree *t, size_t v, size_t first, size_t end, double amount)
+{
+    double *b = t->b + (v - t->n_blocks) * BLOCK;
+    for (size_t j = first; j < end; j++) {
+        b[j] += amount;
+    }
+}
+
+static void push(tree *t, size_t v)
+{
+    const double lazy = t->nodes[v].lazy;
+    if (lazy != 0) {
+        for (size_t child = 2 * v; child <= 2 * v + 1; child++) {
+            t->nodes[child].b += lazy;
+            t->nodes[child].lazy += lazy;
+        }
+        t->nodes[v].lazy = 0;
+    }
+}
+
+/* Brings node v to the present x. */
+static void advance(tree *t, size_t v)
+{
+    if (t->nodes[v].until > t->x) {
+        return;
+    }
+    if (v >= t->n_blocks) {
+        add_to_block(t, v, 0, BLOCK, t->nodes[v].lazy);
+        pull_block(t, v);
+        return;
+    }
+    push(t, v);
+    advance(t, 2 * v);
+    advance(t, 2 * v + 1);
+    pull(t, v);
+}
+
+/* Adds to all leaves from `from` on, and brings the nodes on the way to the present x. */
+static void add_from(tree *t, size_t from, double amount)
+{
+    size_t v = 1, half = t->n_blocks * BLOCK / 2, path[64], depth = 0;
+    while (v < t->n_blocks) {
+        push(t, v);
+        path[depth++] = v;
+        const bool right = from >= half;
+        const size_t other = 2 * v + !right;
+        if (right) {
+            from -= half;
+        } else {
+            t->nodes[other].b += amount;
+            t->nodes[other].lazy += amount;
+        }
+        advance(t, other);
+        v = 2 * v + right;
+        half /= 2;
+    }
+    add_to_block(t, v, 0, BLOCK, t->nodes[v].lazy);
+    add_to_block(t, v, from, BLOCK, amount);
+    pull_block(t, v);
+    while (depth > 0) {
+        pull(t, path[--depth]);
+    }
+}
+
+/* The lines after the first `from` points. */
+static void start(tree *t, const walks *w, size_t from, double sign)
+{
+    const size_t deficit = sign < 0, n_lines = w->n + deficit;
+    for (size_t j = 0; j < t->n_blocks * BLOCK; j++) {
+        t->k[j] = j < n_lines ? -sign * (double)w->n * w->y[j] : 0;
+        t->b[j] = j < n_lines ? 0 : -(double)INFINITY;
+    }
+    for (size_t i = 0; i < from; i++) {
+        t->b[w->rank[i] + deficit] += sign;
+    }
+    for (size_t j = 1; j < n_lines; j++) {
+        t->b[j] += t->b[j - 1];
+    }
+    t->x = from > 0 ? w->x[from] : 0;
+    for (size_t v = 2 * t->n_blocks - 1; v > 0; v--) {
+        if (v >= t->n_blocks) {
+            pull_block(t, v);
+        } else {
+            pull(t, v);
+        }
+    }
+}
+
+static bool keeps_going(walks *w, double fraction_done)
+{
+    if (pthread_equal(pthread_self(), w->caller) && !koksma__keep_going(w->run, fraction_done)) {
+        atomic_store(&w->stopped, true);
+    }
+    return !atomic_load(&w->stopped);
+}
+
+/* From point `from` to `end`. sign 1: excess, evaluated after each insertion; -1: deficit, before. */
+static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
+{
+    const size_t n = w->n;
+    *best = (best_box){-INFINITY, from};
+    start(t, w, from, sign);
+    for (size_t i = from; i < end; i++) {
+        if (i % CHECK_EVERY == 0 && !keeps_going(w, (double)i / (double)n)) {
+            return koksma__fail_interrupted();
+        }
+        t->x = i < n ? w->x[i] : 1;
+        if (sign > 0) {
+            add_from(t, w->rank[i], 1);
+        } else {
+            advance(t, 1);
+        }
+        const double value = at(t->nodes[1].k, t->nodes[1].b, t->x);
+        if (value > best->value) {
+            *best = (best_box){value, i};
+        }
+        if (sign < 0 && i < n) {
+            add_from(t, w->rank[i] + 1, -1);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status walk_one(void *context, size_t block)
+{
+    walks *w = context;
+    tree t = {.n_blocks = w->n_blocks};
+    const size_t part = block / 2, deficit = block % 2;
+    const size_t from = w->n * part / w->parts,
+                 end = w->n * (part + 1) / w->parts + (deficit && part + 1 == w->parts);
+    const size_t bytes = 2 * t.n_blocks * sizeof(node) + 2 * t.n_blocks * BLOCK * sizeof(double);
+    t.nodes = malloc(bytes);
+    if (!t.nodes) {
+        return koksma__fail_memory(bytes);
+    }
+    t.k = (double *)(t.nodes + 2 * t.n_blocks);
+    t.b = t.k + t.n_blocks * BLOCK;
+    const koksma_status status = walk(w, &t, from, end, deficit ? -1 : 1, &w->best[deficit][part]);
+    free(t.nodes);
+    return status;
+}
+
+koksma_status koksma__star_kinetic(size_t n, const double *x, const uint32_t *rank, const double *y,
+                                   const koksma_run *run, double best[2], size_t at_best[2])
+{
+    walks w = {.n = n,
+               .n_blocks = 1,
+               .parts = n < MANY ? 1 : PARTS,
+               .x = x,
+               .y = y,
+               .rank = rank,
+               .run = run,
+               .caller = pthread_self()};
+    while (w.n_blocks * BLOCK < n + 2) {
+        w.n_blocks *= 2;
+    }
+    const koksma_status status = koksma__parallel(run, 2 * w.parts, walk_one, &w);
+    for (int deficit = 0; deficit < 2 && !status; deficit++) {
+        best[deficit] = -INFINITY;
+        for (size_t part = 0; part < w.parts; part++) {
+            if (w.best[deficit][part].value > best[deficit]) {
+                best[deficit] = w.best[deficit][part].value;
+                at_best[deficit] = w.best[deficit][part].at;
+            }
+        }
+    }
+    return status;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "core/sum.h"
+#include "measures/shared/quadrature.h"
+#include "measures/shared/warp_disks.h"
+
+enum { BLOCK = 32 };
+
+typedef struct rows {
+    size_t n;
+    const double *xs;
+    bool cosine;
+    koksma__sum *pairs, *linear; /* by block */
+} rows;
+
+typedef struct ring {
+    double angle; /* of the point, from the pole */
+    bool cosine;
+} ring;
+
+/* The distance summed over the circle at angle b from the pole, by its length: a complete elliptic integral. */
+static double ring_distance(double b, const void *context)
+{
+    const ring *r = context;
+    const double far = sin((r->angle + b) / 2), near = fabs(sin((r->angle - b) / 2));
+    double first, second;
+    koksma__elliptic(far > 0 ? fmin(near / far, 1) : 1, &first, &second);
+    return 4 / M_PI * far * second * sin(b) * (r->cosine ? 2 * cos(b) : 1);
+}
+
+double koksma__cap_potential(const double *x, bool cosine)
+{
+    const ring r = {.angle = atan2(hypot(x[0], x[1]), x[2]), .cosine = cosine};
+    return koksma__integral(ring_distance, &r, 0, r.angle) + koksma__integral(ring_distance, &r, r.angle, M_PI / 2);
+}
+
+double koksma__cap_constant(bool cosine)
+{
+    return cosine ? 2048 / (675 * M_PI) : 32 / (9 * M_PI);
+}
+
+static koksma_status block(void *context, size_t index)
+{
+    rows *r = context;
+    for (size_t i = index * BLOCK; i < r->n && i < (index + 1) * BLOCK; i++) {
+        const double *x = r->xs + 3 * i;
+        koksma__sum_add(&r->linear[index], koksma__cap_potential(x, r->cosine));
+        for (size_t j = 0; j < i; j++) {
+            const double *y = r->xs + 3 * j, a = x[0] - y[0], b = x[1] - y[1], c = x[2] - y[2];
+            koksma__sum_add(&r->pairs[index], sqrt(a * a + b * b + c * c));
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__warp_caps(size_t n, const double *xs, bool cosine, const koksma_run *run, koksma_value *out)
+{
+    const size_t n_blocks = (n + BLOCK - 1) / BLOCK;
+    rows r = {.n = n, .xs = xs, .cosine = cosine, .pairs = calloc(2 * n_blocks, sizeof *r.pairs)};
+    if (!r.pairs) {
+        return koksma__fail_memory(2 * n_blocks * sizeof *r.pairs);
+    }
+    r.linear = r.pairs + n_blocks;
+    const koksma_status status = koksma__parallel(run, n_blocks, block, &r);
+    if (!status) {
+        const double count = (double)n;
+        koksma__sum total = {0};
+        for (size_t b = 0; b < n_blocks; b++) {
+            koksma__sum_add(&total, koksma__sum_value(&r.linear[b]) / count);
+            koksma__sum_add(&total, -koksma__sum_value(&r.pairs[b]) / count / count);
+        }
+        koksma__sum_add(&total, -koksma__cap_constant(cosine) / 2);
+        out->square = koksma__not_below_0(koksma__sum_value(&total) / 4);
+        out->value = sqrt(out->square);
+    }
+    free(r.pairs);
+    return status;
+}

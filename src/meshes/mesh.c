@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "meshes/mesh.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/status.h"
+#include "core/vector.h"
+
+#define FAR 1e6
+
+koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out)
+{
+    if (n_vertices > KOKSMA__MAX_VERTICES || n_triangles > KOKSMA__MAX_TRIANGLES) {
+        return koksma__fail(KOKSMA_MALFORMED, "%zu vertices and %zu triangles: a mesh has at most %zu of each",
+                            n_vertices, n_triangles, KOKSMA__MAX_TRIANGLES);
+    }
+    out->n_vertices = n_vertices;
+    out->n_triangles = n_triangles;
+    out->vertices = calloc(3 * n_vertices + 1, sizeof *out->vertices);
+    out->indices = calloc(3 * n_triangles + 1, sizeof *out->indices);
+    out->normals = normals ? calloc(3 * n_vertices + 1, sizeof *out->normals) : NULL;
+    out->uvs = uvs ? calloc(2 * n_vertices + 1, sizeof *out->uvs) : NULL;
+    if (!out->vertices || !out->indices || (normals && !out->normals) || (uvs && !out->uvs)) {
+        return koksma__fail_memory((8 * n_vertices + 3 * n_triangles) * sizeof(float));
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__mesh_fini(koksma__mesh *mesh)
+{
+    free(mesh->vertices);
+    free(mesh->normals);
+    free(mesh->uvs);
+    free(mesh->indices);
+    *mesh = (koksma__mesh){0};
+}
+
+/* Twice the area of triangle t, along its normal. */
+static void twice_area(const koksma__mesh *m, size_t t, double out[3])
+{
+    double corners[3][3], a[3], b[3];
+    for (size_t c = 0; c < 3; c++) {
+        for (size_t k = 0; k < 3; k++) {
+            corners[c][k] = (double)m->vertices[3 * m->indices[3 * t + c] + k];
+        }
+    }
+    koksma__subtract(corners[1], corners[0], a);
+    koksma__subtract(corners[2], corners[0], b);
+    koksma__cross(a, b, out);
+}
+
+static koksma_status check_vertices(koksma__mesh *m)
+{
+    for (size_t k = 0; k < 3; k++) {
+        m->low[k] = INFINITY;
+        m->high[k] = -INFINITY;
+    }
+    for (size_t i = 0; i < 3 * m->n_vertices; i++) {
+        const double x = (double)m->vertices[i];
+        if (!(fabs(x) <= FAR)) {
+            return koksma__fail(KOKSMA_MALFORMED, "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i / 3,
+                                x);
+        }
+        m->low[i % 3] = fmin(m->low[i % 3], x);
+        m->high[i % 3] = fmax(m->high[i % 3], x);
+    }
+    for (size_t i = 0; m->uvs && i < 2 * m->n_vertices; i++) {
+        if (!(fabs((double)m->uvs[i]) <= FAR)) {
+            return koksma__fail(KOKSMA_MALFORMED, "vertex %zu has a texture coordinate of %g", i / 2,
+                                (double)m->uvs[i]);
+        }
+    }
+    for (size_t i = 0; m->normals && i < m->n_vertices; i++) {
+        float *n = m->normals + 3 * i;
+        double v[3] = {(double)n[0], (double)n[1], (double)n[2]};
+        const bool whole = isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && koksma__normalise(v);
+        for (size_t k = 0; k < 3; k++) {
+            n[k] = whole ? (float)v[k] : 0; /* none: the triangle's own is taken */
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__mesh_check(koksma__mesh *m)
+{
+    if (!m->n_triangles) {
+        return koksma__fail(KOKSMA_MALFORMED, "no triangles");
+    }
+    const koksma_status status = check_vertices(m);
+    for (size_t i = 0; !status && i < 3 * m->n_triangles; i++) {
+        if (m->indices[i] >= m->n_vertices) {
+            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names a vertex that is not there: there are %zu",
+                                i / 3, m->n_vertices);
+        }
+    }
+    m->n_degenerate = 0;
+    for (size_t t = 0; !status && t < m->n_triangles; t++) {
+        double area[3];
+        twice_area(m, t, area);
+        m->n_degenerate += !(koksma__dot(area, area) > 0);
+    }
+    if (!status && m->n_degenerate == m->n_triangles) {
+        return koksma__fail(KOKSMA_MALFORMED, "no triangle has any area");
+    }
+    return status;
+}
+
+/* For each vertex the first one at the same place: files repeat vertices where textures have seams. NULL when memory
+   runs out; the caller frees it. */
+static uint32_t *first_alike(const koksma__mesh *m)
+{
+    size_t room = 16;
+    while (room < 2 * m->n_vertices) {
+        room *= 2;
+    }
+    uint32_t *first = malloc((m->n_vertices + 1) * sizeof *first), *table = calloc(room, sizeof *table);
+    for (size_t i = 0; first && table && i < m->n_vertices; i++) {
+        const float *v = m->vertices + 3 * i;
+        const float place[3] = {v[0] + 0.0f, v[1] + 0.0f, v[2] + 0.0f}; /* -0 is 0 */
+        size_t at = koksma__hash(place, sizeof place) & (room - 1);
+        while (table[at]) { /* 1 + the number of a vertex */
+            const float *w = m->vertices + 3 * (size_t)(table[at] - 1);
+            if (w[0] == v[0] && w[1] == v[1] && w[2] == v[2]) {
+                break;
+            }
+            at = (at + 1) & (room - 1);
+        }
+        table[at] = table[at] ? table[at] : (uint32_t)i + 1;
+        first[i] = table[at] - 1;
+    }
+    const bool whole = first && table;
+    free(table);
+    if (!whole) {
+        free(first);
+    }
+    return whole ? first : NULL;
+}
+
+koksma_status koksma__mesh_smooth(koksma__mesh *m)
+{
+    if (m->normals) {
+        return KOKSMA_OK;
+    }
+    double *sums = calloc(3 * m->n_vertices + 1, sizeof *sums);
+    uint32_t *first = first_alike(m);
+    m->normals = calloc(3 * m->n_vertices + 1, sizeof *m->normals);
+    if (!sums || !first || !m->normals) {
+        free(sums);
+        free(first);
+        return koksma__fail_memory(3 * m->n_vertices * sizeof *sums);
+    }
+    for (size_t t = 0; t < m->n_triangles; t++) {
+        double area[3];
+        twice_area(m, t, area);
+        for (size_t i = 0; i < 9; i++) {
+            sums[3 * first[m->indices[3 * t + i / 3]] + i % 3] += area[i % 3];
+        }
+    }
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        const double *n = sums + 3 * first[i];
+        const double length = sqrt(koksma__dot(n, n));
+        for (size_t k = 0; k < 3; k++) {
+            m->normals[3 * i + k] = length > 0 ? (float)(n[k] / length) : 0;
+        }
+    }
+    free(sums);
+    free(first);
+    return KOKSMA_OK;
+}
+
+uint64_t koksma__mesh_hash(const koksma__mesh *m)
+{
+    const uint64_t parts[4] = {koksma__hash(m->vertices, 3 * m->n_vertices * sizeof *m->vertices),
+                               koksma__hash(m->indices, 3 * m->n_triangles * sizeof *m->indices),
+                               m->normals ? koksma__hash(m->normals, 3 * m->n_vertices * sizeof *m->normals) : 0,
+                               m->uvs ? koksma__hash(m->uvs, 2 * m->n_vertices * sizeof *m->uvs) : 0};
+    return koksma__hash(parts, sizeof parts);
+}
+
+void koksma__placement_box(const koksma__mesh *mesh, koksma__placement *placement)
+{
+    for (int k = 0; k < 3; k++) {
+        const double *row = placement->matrix + 4 * k;
+        placement->low[k] = placement->high[k] = row[3];
+        for (int j = 0; j < 3; j++) {
+            const double a = row[j] * mesh->low[j], b = row[j] * mesh->high[j];
+            placement->low[k] += fmin(a, b);
+            placement->high[k] += fmax(a, b);
+        }
+    }
+}
+
+void koksma__placement_matrix(const double translate[3], const double rotate_deg[3], const double scale[3],
+                              double matrix[12])
+{
+    const double to_rad = M_PI / 180;
+    const double cx = cos(rotate_deg[0] * to_rad), sx = sin(rotate_deg[0] * to_rad);
+    const double cy = cos(rotate_deg[1] * to_rad), sy = sin(rotate_deg[1] * to_rad);
+    const double cz = cos(rotate_deg[2] * to_rad), sz = sin(rotate_deg[2] * to_rad);
+    const double turn[9] = {cz * cy,
+                            cz * sy * sx - sz * cx,
+                            cz * sy * cx + sz * sx,
+                            sz * cy,
+                            sz * sy * sx + cz * cx,
+                            sz * sy * cx - cz * sx,
+                            -sy,
+                            cy * sx,
+                            cy * cx};
+    for (int k = 0; k < 3; k++) {
+        for (int j = 0; j < 3; j++) {
+            matrix[4 * k + j] = turn[3 * k + j] * scale[j];
+        }
+        matrix[4 * k + 3] = translate[k];
+    }
+}
+
+void koksma__normal_matrix(const double m[12], double out[9])
+{
+    double largest = 0;
+    int exponent = 0;
+    for (int i = 0; i < 9; i++) {
+        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
+        out[i] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
+        largest = fmax(largest, fabs(out[i]));
+    }
+    frexp(largest, &exponent);
+    for (int i = 0; i < 9; i++) {
+        out[i] = ldexp(out[i], -exponent);
+    }
+}
+
+/* The determinant over the columns' lengths: the volume of the parallelepiped over that of a box with its edges. Its
+   entries may have been rounded to 24 bits. */
+bool koksma__matrix_flattens(const double m[12])
+{
+    double columns[3][3], cross[3], box = 1;
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) {
+            columns[c][r] = m[4 * r + c];
+        }
+        box *= sqrt(koksma__dot(columns[c], columns[c]));
+    }
+    koksma__cross(columns[0], columns[1], cross);
+    return !(fabs(koksma__dot(cross, columns[2])) > 1e-6 * box);
+}
+
+double koksma__placed_triangle(const koksma__mesh *mesh, const double matrix[12], size_t t, float corners[9])
+{
+    double a[3], b[3], area[3];
+    for (size_t i = 0; i < 9; i++) {
+        const double *row = matrix + 4 * (i % 3);
+        const float *v = mesh->vertices + 3 * (size_t)mesh->indices[3 * t + i / 3];
+        corners[i] = (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
+    }
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)corners[3 + k] - (double)corners[k];
+        b[k] = (double)corners[6 + k] - (double)corners[k];
+    }
+    koksma__cross(a, b, area);
+    return sqrt(koksma__dot(area, area)) / 2;
+}
+
+void koksma__matrix_multiply(const double a[12], const double b[12], double out[12])
+{
+    for (int i = 0; i < 12; i++) {
+        const double *row = a + 4 * (i / 4);
+        const int j = i % 4;
+        out[i] = row[0] * b[j] + row[1] * b[4 + j] + row[2] * b[8 + j] + (j == 3 ? row[3] : 0);
+    }
+}

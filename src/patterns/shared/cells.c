@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/shared/cells.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "core/random.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "patterns/shared/fill.h"
+
+/* m^dim, or SIZE_MAX when that is too large for any set. */
+static size_t power(size_t m, int dim)
+{
+    size_t product = 1;
+    for (int k = 0; k < dim; k++) {
+        if (product > KOKSMA_MAX_COORDINATES / m) {
+            return SIZE_MAX;
+        }
+        product *= m;
+    }
+    return product;
+}
+
+koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
+                            size_t *along_rest)
+{
+    const size_t n = out->n;
+    if (columns > 0) {
+        const size_t c = (size_t)columns;
+        if (out->dim != 2) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: columns is for dim = 2", name);
+        }
+        if (n % c) {
+            return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
+                                n, n / c ? n / c * c : c, (n / c + 1) * c);
+        }
+        *along_x = c;
+        *along_rest = n / c;
+        return KOKSMA_OK;
+    }
+    size_t m = (size_t)(out->dim == 2 ? sqrt((double)n) : pow((double)n, 1.0 / out->dim));
+    while (power(m + 1, out->dim) <= n) {
+        m++;
+    }
+    while (m > 1 && power(m, out->dim) > n) {
+        m--;
+    }
+    if (power(m, out->dim) == n) {
+        *along_x = *along_rest = m;
+        return KOKSMA_OK;
+    }
+    const size_t next = power(m + 1, out->dim);
+    char more[64] = "";
+    if (next <= KOKSMA_MAX_COORDINATES / (size_t)out->dim) {
+        snprintf(more, sizeof more, " or %zu", next);
+    }
+    return koksma__fail(KOKSMA_N, "%s: n = %zu is not m^%d; n = %zu%s would do%s", name, n, out->dim,
+                        power(m, out->dim), more, out->dim == 2 ? ", or columns=C with C a divisor of n" : "");
+}
+
+koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t *columns, size_t *rows)
+{
+    size_t c = (size_t)wanted;
+    if (c == 0) {
+        c = (size_t)sqrt((double)n);
+        while (n % c) {
+            c--;
+        }
+    }
+    if (n % c) {
+        return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
+                            n / c ? n / c * c : c, (n / c + 1) * c);
+    }
+    *columns = c;
+    *rows = n / c;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
+                                 koksma_points *out)
+{
+    size_t along_x, along_rest;
+    koksma_status status = koksma__cells(name, out, args->params[0], &along_x, &along_rest);
+    if (!status && width > 0) {
+        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
+    }
+    if (status) {
+        return status;
+    }
+    const double start = (1 - width) / 2, m_x = (double)along_x, m_rest = (double)along_rest;
+    double *x = out->xs;
+    if (out->dim == 2) {
+        koksma__kernels()->cells_2d(start, width, along_x, along_rest, x);
+        return KOKSMA_OK;
+    }
+    size_t cell[KOKSMA_MAX_DIM] = {0};
+    for (size_t i = 0; i < out->n; i++) {
+        x[0] = koksma__in_cell((double)cell[0], start + width * x[0], m_x);
+        for (int k = 1; k < out->dim; k++) {
+            x[k] = koksma__in_cell((double)cell[k], start + width * x[k], m_rest);
+        }
+        x += out->dim;
+        for (int k = out->dim - 1; k >= 0 && ++cell[k] == (k ? along_rest : along_x); k--) {
+            cell[k] = 0;
+        }
+    }
+    return KOKSMA_OK;
+}

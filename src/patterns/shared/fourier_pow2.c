@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Radix 4 with decimation in frequency one way and in time back, depth first, so that the parts soon fit a cache and
+ * every loop is over neighbours. A convolution multiplies transforms entry by entry, and so takes them in any order:
+ * the permutation and the second buffer of Stockham's transform (kernels/fast_fourier.c, 16 sequences side by side)
+ * are saved. The reference twin of that kernel is the definition, whose n^2 steps are too many for a search's
+ * lengths.
+ */
+#include "patterns/shared/fourier_pow2.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+
+koksma_status koksma__fourier_init(koksma__fourier *f, size_t longest)
+{
+    const size_t count = longest < 4 ? 2 : longest / 2;
+    f->cosines = malloc(2 * count * sizeof *f->cosines);
+    if (!f->cosines) {
+        return koksma__fail_memory(2 * count * sizeof *f->cosines);
+    }
+    f->sines = f->cosines + count;
+    const size_t last = count / 2;
+    for (size_t p = 0; p < last; p++) {
+        const double angle = M_PI / 2 * (double)p / (double)last;
+        f->cosines[last + p] = cos(angle);
+        f->sines[last + p] = sin(angle);
+    }
+    for (size_t q = last / 2; q; q /= 2) {
+        for (size_t p = 0; p < q; p++) {
+            f->cosines[q + p] = f->cosines[2 * q + 2 * p];
+            f->sines[q + p] = f->sines[2 * q + 2 * p];
+        }
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__fourier_fini(koksma__fourier *f)
+{
+    free(f->cosines);
+    *f = (koksma__fourier){0};
+}
+
+static void pair(double *x)
+{
+    const double sum = x[0] + x[1];
+    x[1] = x[0] - x[1];
+    x[0] = sum;
+}
+
+/* Two steps of radix 2: the quarters become what gives the frequencies 0, 2, 1 and 3 modulo 4. */
+static void split(const koksma__fourier *f, size_t quarter, double *re, double *im)
+{
+    const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;
+    double *restrict r0 = re, *restrict r1 = re + quarter, *restrict r2 = r1 + quarter, *restrict r3 = r2 + quarter;
+    double *restrict i0 = im, *restrict i1 = im + quarter, *restrict i2 = i1 + quarter, *restrict i3 = i2 + quarter;
+    for (size_t p = 0; p < quarter; p++) {
+        const double c1 = cosines[p], s1 = sines[p];
+        const double c2 = c1 * c1 - s1 * s1, s2 = 2 * c1 * s1, c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
+        const double ar = r0[p] + r2[p], ai = i0[p] + i2[p], br = r1[p] + r3[p], bi = i1[p] + i3[p];
+        const double cr = r0[p] - r2[p], ci = i0[p] - i2[p];
+        const double dr = i1[p] - i3[p], di = r3[p] - r1[p]; /* -i (x1 - x3) */
+        const double ur = ar - br, ui = ai - bi, vr = cr + dr, vi = ci + di, wr = cr - dr, wi = ci - di;
+        r0[p] = ar + br;
+        i0[p] = ai + bi;
+        r1[p] = ur * c2 + ui * s2;
+        i1[p] = ui * c2 - ur * s2;
+        r2[p] = vr * c1 + vi * s1;
+        i2[p] = vi * c1 - vr * s1;
+        r3[p] = wr * c3 + wi * s3;
+        i3[p] = wi * c3 - wr * s3;
+    }
+}
+
+/* Its transpose, conjugate: 4 times its inverse. */
+static void join(const koksma__fourier *f, size_t quarter, double *re, double *im)
+{
+    const double *restrict cosines = f->cosines + quarter, *restrict sines = f->sines + quarter;
+    double *restrict r0 = re, *restrict r1 = re + quarter, *restrict r2 = r1 + quarter, *restrict r3 = r2 + quarter;
+    double *restrict i0 = im, *restrict i1 = im + quarter, *restrict i2 = i1 + quarter, *restrict i3 = i2 + quarter;
+    for (size_t p = 0; p < quarter; p++) {
+        const double c1 = cosines[p], s1 = sines[p];
+        const double c2 = c1 * c1 - s1 * s1, s2 = 2 * c1 * s1, c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
+        const double ur = r1[p] * c2 - i1[p] * s2, ui = i1[p] * c2 + r1[p] * s2;
+        const double vr = r2[p] * c1 - i2[p] * s1, vi = i2[p] * c1 + r2[p] * s1;
+        const double wr = r3[p] * c3 - i3[p] * s3, wi = i3[p] * c3 + r3[p] * s3;
+        const double ar = r0[p] + ur, ai = i0[p] + ui, br = r0[p] - ur, bi = i0[p] - ui;
+        const double cr = vr + wr, ci = vi + wi;
+        const double dr = wi - vi, di = vr - wr; /* i (v - w) */
+        r0[p] = ar + cr;
+        i0[p] = ai + ci;
+        r1[p] = br + dr;
+        i1[p] = bi + di;
+        r2[p] = ar - cr;
+        i2[p] = ai - ci;
+        r3[p] = br - dr;
+        i3[p] = bi - di;
+    }
+}
+
+void koksma__fourier_forward(const koksma__fourier *f, size_t n, double *re, double *im)
+{
+    if (n == 2) {
+        pair(re);
+        pair(im);
+    } else if (n > 2) {
+        split(f, n / 4, re, im);
+        for (size_t part = 0; part < n && n > 4; part += n / 4) {
+            koksma__fourier_forward(f, n / 4, re + part, im + part);
+        }
+    }
+}
+
+void koksma__fourier_back(const koksma__fourier *f, size_t n, double *re, double *im)
+{
+    if (n == 2) {
+        pair(re);
+        pair(im);
+    } else if (n > 2) {
+        for (size_t part = 0; part < n && n > 4; part += n / 4) {
+            koksma__fourier_back(f, n / 4, re + part, im + part);
+        }
+        join(f, n / 4, re, im);
+    }
+}

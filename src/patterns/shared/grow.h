@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Stochastic generation (Helmer, Christensen & Kensler 2021): a digital sequence in base 2 with Owen's nested uniform
+ * scrambling, exact and without looking at a bit twice. Point 2^l + i goes into the empty half of the stratum of
+ * width 2^-l of an earlier point, i ^ partner, at a random place. The fraction of point p in coordinate k ends in the
+ * word p % 4 of koksma__random(seed, purpose, p / 4, k).
+ */
+#ifndef KOKSMA_PATTERNS_SHARED_GROW_H
+#define KOKSMA_PATTERNS_SHARED_GROW_H
+
+#include <koksma/koksma.h>
+
+/* partners[32 k + l] for coordinate k < dim and level l. */
+koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                           koksma_points *out);
+
+/* The same in another order: point i of out is point koksma_shuffled_from_0(i, order) of koksma__grow (the function
+   of koksma/sampler.h). Needs memory for the next power of two of points. */
+koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
+                                    const koksma_run *run, koksma_points *out);
+
+/* v[i] = the fraction of coordinate 0 of point i < n times 2^32, of which partners has the first 32. */
+koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
+                                  size_t n, uint32_t *v);
+
+#endif

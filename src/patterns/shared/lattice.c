@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/shared/lattice.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/unit_group.h"
+
+typedef double candidate_sum(const koksma__lattice_search *s, uint64_t z);
+
+typedef struct job {
+    uint64_t n;
+    const uint64_t *z;
+} job;
+
+static void column(const void *context, int k, size_t first, size_t count, double *xs)
+{
+    const job *j = context;
+    const uint64_t z = j->z[k];
+    uint64_t numerator = first * z % j->n; /* below 2^56 */
+    for (size_t i = 0; i < count; i++) {
+        xs[i] = (double)(int64_t)numerator / (double)j->n;
+        numerator += z;
+        numerator -= numerator >= j->n ? j->n : 0;
+    }
+}
+
+koksma_status koksma__fill_lattice(const koksma_run *run, const uint64_t *z, koksma_points *out)
+{
+    const job j = {out->n, z};
+    return koksma__fill_columns(run, out, column, &j);
+}
+
+static double bernoulli(uint64_t numerator, size_t n)
+{
+    const double x = (double)numerator / (double)n;
+    return x * (x - 1) + 1.0 / 6;
+}
+
+void koksma__lattice_units(koksma__lattice_search *s)
+{
+    uint64_t primes[KOKSMA__MAX_PRIMES];
+    const int count = koksma__primes_of(s->n, primes);
+    for (size_t z = 0; z <= s->n / 2; z++) {
+        s->values[z] = 0;
+    }
+    for (int k = 0; k < count; k++) {
+        for (size_t z = 0; z <= s->n / 2; z += (size_t)primes[k]) {
+            s->values[z] = INFINITY;
+        }
+    }
+}
+
+koksma_status koksma__lattice_open(koksma__lattice_search *s, size_t n, const koksma_run *run)
+{
+    s->n = n;
+    s->run = run;
+    s->sums = NULL;
+    s->product = s->few;
+    if (n > KOKSMA__LATTICE_FEW) {
+        const size_t bytes = (n + n / 2 + 1) * sizeof *s->product;
+        s->product = malloc(bytes);
+        if (!s->product) {
+            return koksma__fail_memory(bytes);
+        }
+    }
+    s->values = s->product + n;
+    if (n <= KOKSMA__LATTICE_FEW) {
+        koksma__lattice_units(s);
+        for (size_t i = 0; i < n; i++) {
+            s->kernel[i] = bernoulli(i, n);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__lattice_close(koksma__lattice_search *s)
+{
+    if (s->product != s->few) {
+        free(s->product);
+    }
+    koksma__unit_sums_close(s->sums);
+}
+
+/* (numerator + z) mod n, both below n */
+static uint64_t next(uint64_t numerator, uint64_t z, size_t n)
+{
+    return numerator + z - (numerator + z >= n ? n : 0);
+}
+
+static double planar_kernel(uint64_t numerator, size_t n)
+{
+    return 1 + 2 * M_PI * M_PI * bernoulli(numerator, n);
+}
+
+/* P_2 of (1, z); product[i] = planar_kernel(i, n). A multiplier ties with its inverse, which swaps the axes, and now
+   and then with others: which of them is taken hangs on the last bit, so the order of these sums is part of the
+   points, here and below. */
+static double planar_sum(const koksma__lattice_search *s, uint64_t z)
+{
+    double sum = 0;
+    uint64_t numerator = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        sum += s->product[i] * planar_kernel(numerator, s->n);
+        numerator = next(numerator, z, s->n);
+    }
+    return sum / (double)s->n - 1;
+}
+
+/* What a coordinate with the multiplier z would add. */
+static double added_sum(const koksma__lattice_search *s, uint64_t z)
+{
+    double sum = 0;
+    uint64_t numerator = 0;
+    for (size_t i = 1; i <= s->n / 2; i++) {
+        numerator = next(numerator, z, s->n);
+        sum += s->product[i] * bernoulli(numerator, s->n);
+    }
+    return sum;
+}
+
+static double added_sum_of_few(const koksma__lattice_search *s, uint64_t z)
+{
+    double sum = 0;
+    uint64_t numerator = 0;
+    for (size_t i = 1; i <= s->n / 2; i++) {
+        numerator = next(numerator, z, s->n);
+        sum += s->product[i] * s->kernel[numerator];
+    }
+    return sum;
+}
+
+void koksma__lattice_start(koksma__lattice_search *s)
+{
+    for (size_t i = 1; i <= s->n / 2; i++) {
+        s->product[i] = 2 * i == s->n ? 0.5 : 1; /* i and n - i have the same terms; n/2 is its own partner */
+    }
+}
+
+double koksma__lattice_extend(koksma__lattice_search *s, uint64_t z)
+{
+    double sum = 0;
+    uint64_t numerator = 0;
+    for (size_t i = 1; i <= s->n / 2; i++) {
+        numerator = next(numerator, z, s->n);
+        const double term = bernoulli(numerator, s->n);
+        sum += s->product[i] * term;
+        s->product[i] *= 1 + 0.75 * term;
+    }
+    return sum;
+}
+
+koksma_status koksma__lattice_value(koksma__lattice_search *s, double *window)
+{
+    *window = 0;
+    if (s->n <= KOKSMA__LATTICE_FEW) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = s->sums ? KOKSMA_OK : koksma__unit_sums_open(s->n, s->run, &s->sums);
+    status = status ? status : koksma__unit_sums_find(s->sums, s->run, s->product, s->values, window);
+    *window *= 2;
+    return status;
+}
+
+uint64_t koksma__lattice_last(size_t n)
+{
+    return n % 2 || n == 2 ? n / 2 : n / 2 + (n % 4 ? 2 : 1);
+}
+
+static koksma_status choose(const koksma__lattice_search *s, double window, candidate_sum sum, uint64_t *best)
+{
+    double lowest = s->values[1], least = 0;
+    *best = 0;
+    for (size_t z = 2; z <= s->n / 2; z++) {
+        lowest = s->values[z] < lowest ? s->values[z] : lowest;
+    }
+    for (size_t z = 1; z <= koksma__lattice_last(s->n); z++) {
+        if (!(s->values[z < s->n - z ? z : s->n - z] <= lowest + window)) {
+            continue;
+        }
+        if (!koksma__keep_going(s->run, 0)) {
+            return koksma__fail_interrupted();
+        }
+        const double value = sum(s, z);
+        if (*best == 0 || value < least) {
+            least = value;
+            *best = z;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__lattice_best(koksma__lattice_search *s, uint64_t *best)
+{
+    double window;
+    const koksma_status status = koksma__lattice_value(s, &window);
+    return status ? status : choose(s, window, s->n > KOKSMA__LATTICE_FEW ? added_sum : added_sum_of_few, best);
+}
+
+koksma_status koksma__lattice_second(koksma__lattice_search *s, uint64_t *best)
+{
+    double window;
+    koksma__lattice_start(s);
+    koksma__lattice_extend(s, 1);
+    const koksma_status status = koksma__lattice_value(s, &window);
+    for (size_t i = 0; !status && i < s->n; i++) {
+        s->product[i] = planar_kernel(i, s->n);
+    }
+    return status ? status : choose(s, window, planar_sum, best);
+}

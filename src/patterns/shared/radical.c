@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/shared/radical.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "kernels/kernels.h"
+
+static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
+{
+    return r->digit ? r->digit(r->context, r->base, j, a) : a;
+}
+
+/* The most indices of a set on any machine (KOKSMA_MAX_COORDINATES is less with 32 bits). */
+#define MOST 0x1p28
+
+/* The digits and the size of the table for indices below n. With mapped digits the place where the row of zeros
+   begins must not depend on n, nor on the machine, so that the values do not either. */
+static void measure(koksma__radical *r, uint32_t base, size_t n, bool mapped)
+{
+    const double most = mapped ? MOST : (double)n;
+    r->base = base;
+    r->whole = base;
+    r->digits = 1;
+    while (r->whole < most) {
+        r->whole *= base;
+        r->digits++;
+    }
+    size_t size = base;
+    r->low_digits = 1;
+    while (size < n && size * base <= KOKSMA__RADICAL_TABLE) {
+        size *= base;
+        r->low_digits++;
+    }
+    r->size = (uint32_t)(size < n ? size : n);
+    r->high_scale = 1;
+    for (int j = r->low_digits; j < r->digits; j++) {
+        r->high_scale *= base;
+    }
+}
+
+/* table[a] = the mirrored low digits of a, as a whole number, times high_scale. */
+static void fill_table(koksma__radical *r)
+{
+    double top = r->high_scale; /* the place of digit 0 */
+    for (int j = 1; j < r->low_digits; j++) {
+        top *= r->base;
+    }
+    double scale = top;
+    r->table[0] = 0;
+    for (int j = 0; j < r->low_digits; j++, scale /= r->base) {
+        r->table[0] += scale * digit_of(r, j, 0);
+    }
+    size_t done = 1;
+    scale = top;
+    for (int j = 0; done < r->size; j++, scale /= r->base) {
+        const size_t step = done;
+        for (uint32_t a = 1; a < r->base && done < r->size; a++) {
+            const double add = scale * ((double)digit_of(r, j, a) - digit_of(r, j, 0));
+            const size_t end = done + step < r->size ? done + step : r->size;
+            for (size_t i = 0; done + i < end; i++) {
+                r->table[done + i] = r->table[i] + add;
+            }
+            done = end;
+        }
+    }
+    double place = 1;
+    r->tail = 0;
+    for (int j = r->digits; r->digit && place > 0x1p-60; j++) {
+        place /= r->base;
+        r->tail += place * digit_of(r, j, 0);
+    }
+    /* Every sum of numerators and tail is exact, and the tail below 1, so that values are, too. */
+    const double grid = exp2(floor(52 - log2(r->whole)));
+    r->tail = fmin(floor(r->tail * grid + 0.5), grid - 1) / grid;
+}
+
+koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, koksma__digit digit,
+                                    const void *context)
+{
+    size_t entries = 0;
+    r->memory = NULL;
+    r->columns = r->few;
+    koksma__radical one;
+    for (int k = 0; k < count; k++) {
+        measure(&one, koksma__prime(k), n, digit != NULL);
+        entries += one.size;
+    }
+    double *table = r->room;
+    if (count > 8 || entries > sizeof r->room / sizeof *r->room) {
+        const size_t bytes = (size_t)count * sizeof *r->columns + entries * sizeof *table;
+        r->memory = malloc(bytes);
+        if (!r->memory) {
+            return koksma__fail_memory(bytes);
+        }
+        r->columns = r->memory;
+        table = (double *)(r->columns + count);
+    }
+    for (int k = 0; k < count; k++) {
+        koksma__radical *c = &r->columns[k];
+        measure(c, koksma__prime(k), n, digit != NULL);
+        c->digit = digit;
+        c->context = context;
+        c->table = table;
+        fill_table(c);
+        table += c->size;
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__radicals_fini(koksma__radicals *r)
+{
+    free(r->memory);
+}
+
+void koksma__radical_column(const koksma__radical *r, size_t first, size_t count, double *out)
+{
+    const koksma__kernel_table *kernels = koksma__kernels();
+    while (count) {
+        const size_t low = first % r->size;
+        size_t rest = first / r->size;
+        double high = 0, scale = r->high_scale;
+        for (int j = r->low_digits; j < r->digits; j++) {
+            scale /= r->base;
+            high += scale * digit_of(r, j, (uint32_t)(rest % r->base));
+            rest /= r->base;
+        }
+        const size_t some = count < r->size - low ? count : r->size - low;
+        kernels->quotients(some, r->table + low, high + r->tail, r->whole, out);
+        out += some;
+        first += some;
+        count -= some;
+    }
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/shared/sobol_table.h"
+
+#include <pthread.h>
+
+static const uint16_t joe_kuo[] = {
+#include "patterns/shared/sobol_joe_kuo.inc"
+};
+static const uint16_t bratley_fox[] = {
+#include "patterns/shared/sobol_bratley_fox.inc"
+};
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static uint32_t new_columns[KOKSMA__SOBOL_DIM][32], old_columns[KOKSMA__SOBOL_OLD_DIM][32];
+
+/* The recurrence of the polynomial x^s + a_1 x^(s-1) + … + a_(s-1) x + 1:
+   m_i = 2 a_1 m_(i-1) ^ 4 a_2 m_(i-2) ^ … ^ 2^s m_(i-s) ^ m_(i-s); column i is m_i 2^(32-i). */
+static const uint16_t *expand(const uint16_t *row, uint32_t *columns)
+{
+    const uint32_t polynomial = row[0];
+    int degree = 0;
+    while (polynomial >> (degree + 1)) {
+        degree++;
+    }
+    for (int i = 0; i < 32; i++) {
+        if (i < degree) {
+            columns[i] = (uint32_t)row[1 + i] << (31 - i);
+            continue;
+        }
+        columns[i] = columns[i - degree] ^ columns[i - degree] >> degree;
+        for (int j = 1; j < degree; j++) {
+            columns[i] ^= polynomial >> (degree - j) & 1 ? columns[i - j] : 0;
+        }
+    }
+    return row + 1 + degree;
+}
+
+static void expand_all(void)
+{
+    const uint16_t *row = joe_kuo;
+    for (int i = 0; i < 32; i++) {
+        new_columns[0][i] = old_columns[0][i] = 0x80000000u >> i;
+    }
+    for (int k = 1; k < KOKSMA__SOBOL_DIM; k++) {
+        row = expand(row, new_columns[k]);
+    }
+    row = bratley_fox;
+    for (int k = 1; k < KOKSMA__SOBOL_OLD_DIM; k++) {
+        row = expand(row, old_columns[k]);
+    }
+}
+
+const uint32_t *koksma__sobol_directions(int k, int old)
+{
+    pthread_once(&once, expand_all);
+    return old ? old_columns[k] : new_columns[k];
+}
+
+void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners)
+{
+    for (int l = 0; l < levels; l++) {
+        uint32_t rest = directions[l];
+        partners[l] = 0;
+        for (int c = l - 1; c >= 0; c--) {
+            if (rest >> (31 - c) & 1) {
+                rest ^= directions[c];
+                partners[l] |= 1u << c;
+            }
+        }
+    }
+}

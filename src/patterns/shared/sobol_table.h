@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_PATTERNS_SHARED_SOBOL_TABLE_H
+#define KOKSMA_PATTERNS_SHARED_SOBOL_TABLE_H
+
+#include <stdint.h>
+
+enum { KOKSMA__SOBOL_DIM = 1111, KOKSMA__SOBOL_OLD_DIM = 40 };
+
+/* The generator matrix of dimension k (0 ..): column b is word b, its first row the highest bit. old: the numbers of
+   Bratley & Fox, k < 40, instead of Joe & Kuo's, k < 1111. */
+const uint32_t *koksma__sobol_directions(int k, int old);
+
+/* partners[l], l < levels: the number such that points i and i ^ partners[l], i < 2^l, and 2^l + i of the digital
+   sequence with these directions (an upper triangular matrix) have the same first l bits in points 2^l + i and
+   i ^ partners[l]. */
+void koksma__partners(const uint32_t *directions, int levels, uint32_t *partners);
+
+#endif

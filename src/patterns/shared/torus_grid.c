@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "patterns/shared/torus_grid.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+static uint32_t cell_of(const koksma__torus_grid *g, double x)
+{
+    const uint32_t cell = (uint32_t)(x * g->cells);
+    return cell < g->cells ? cell : g->cells - 1;
+}
+
+koksma_status koksma__torus_grid_init(koksma__torus_grid *g, size_t n, const double *xs)
+{
+    *g = (koksma__torus_grid){.xs = xs};
+    g->cells = (uint32_t)ceil(sqrt((double)n));
+    const size_t cells = (size_t)g->cells * g->cells;
+    g->head = malloc((cells + n) * sizeof *g->head);
+    if (!g->head) {
+        return koksma__fail_memory((cells + n) * sizeof *g->head);
+    }
+    g->next = g->head + cells;
+    koksma__torus_grid_clear(g);
+    return KOKSMA_OK;
+}
+
+void koksma__torus_grid_fini(koksma__torus_grid *g)
+{
+    free(g->head);
+    g->head = NULL;
+}
+
+void koksma__torus_grid_clear(koksma__torus_grid *g)
+{
+    memset(g->head, 0xff, (size_t)g->cells * g->cells * sizeof *g->head);
+}
+
+static uint32_t *list_of(const koksma__torus_grid *g, uint32_t point)
+{
+    return &g->head[(size_t)cell_of(g, g->xs[2 * (size_t)point + 1]) * g->cells +
+                    cell_of(g, g->xs[2 * (size_t)point])];
+}
+
+void koksma__torus_grid_add(koksma__torus_grid *g, uint32_t point)
+{
+    uint32_t *list = list_of(g, point);
+    g->next[point] = *list;
+    *list = point;
+}
+
+void koksma__torus_grid_remove(koksma__torus_grid *g, uint32_t point)
+{
+    uint32_t *link = list_of(g, point);
+    while (*link != point) {
+        link = &g->next[*link];
+    }
+    *link = g->next[point];
+}
+
+/* The nearest in one cell, which may be given by any whole numbers. */
+static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, double x, double y, double best)
+{
+    const long cells = (long)g->cells;
+    cell_x -= cell_x >= cells ? cells : cell_x < 0 ? -cells : 0;
+    cell_y -= cell_y >= cells ? cells : cell_y < 0 ? -cells : 0;
+    for (uint32_t i = g->head[cell_y * cells + cell_x]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+        const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
+        best = a * a + b * b < best ? a * a + b * b : best;
+    }
+    return best;
+}
+
+double koksma__torus_grid_nearest(const koksma__torus_grid *g, double x, double y, double enough)
+{
+    const long cx = cell_of(g, x), cy = cell_of(g, y), most = (long)g->cells / 2;
+    double best = 1;
+    for (long ring = 0; ring <= most && best > enough; ring++) {
+        const double gap = (double)(ring - 1) / g->cells; /* rings further out than this are no nearer */
+        if (ring > 1 && gap * gap >= best) {
+            break;
+        }
+        for (long t = -ring; t <= ring; t++) {
+            best = nearest_in(g, cx + t, cy - ring, x, y, best);
+            best = nearest_in(g, cx + t, cy + ring, x, y, best);
+        }
+        for (long t = 1 - ring; t < ring; t++) {
+            best = nearest_in(g, cx - ring, cy + t, x, y, best);
+            best = nearest_in(g, cx + ring, cy + t, x, y, best);
+        }
+    }
+    return best;
+}
+
+/* A row or column of `count` cells about one, from the first on, around the torus. */
+typedef struct span {
+    long first, count;
+} span;
+
+static span span_about(const koksma__torus_grid *g, double x, long reach)
+{
+    const long cells = (long)g->cells, first = ((long)cell_of(g, x) - reach) % cells;
+    return (span){first < 0 ? first + cells : first, 2 * reach + 1 < cells ? 2 * reach + 1 : cells};
+}
+
+/* Cell number i of a span. */
+static inline long around(const koksma__torus_grid *g, const span *s, long i)
+{
+    const long cell = s->first + i;
+    return cell < (long)g->cells ? cell : cell - (long)g->cells;
+}
+
+bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, double d, bool torus)
+{
+    const long half = (long)g->cells / 2 + 1, wide = (long)(fmin(d, 1) * g->cells * (1 + 1e-9)) + 1;
+    const long reach = wide < half ? wide : half;
+    const span columns = span_about(g, x, reach), rows = span_about(g, y, reach);
+    for (long v = 0; v < rows.count; v++) {
+        const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
+        for (long u = 0; u < columns.count; u++) {
+            for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+                const double px = g->xs[2 * (size_t)i], py = g->xs[2 * (size_t)i + 1];
+                const double a = torus ? koksma__way(x, px) : px - x, b = torus ? koksma__way(y, py) : py - y;
+                if (a * a + b * b < d * d) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, double radius,
+                             void (*f)(void *context, uint32_t point, double dx, double dy), void *context)
+{
+    const long reach = (long)ceil(radius * g->cells);
+    const span columns = span_about(g, x, reach), rows = span_about(g, y, reach);
+    for (long v = 0; v < rows.count; v++) {
+        const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
+        for (long u = 0; u < columns.count; u++) {
+            for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
+                const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
+                if (a * a + b * b <= radius * radius) {
+                    f(context, i, a, b);
+                }
+            }
+        }
+    }
+}
+
+koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order)
+{
+    koksma__torus_grid g;
+    const koksma_status status = koksma__torus_grid_init(&g, n, xs);
+    if (status) {
+        return status;
+    }
+    for (size_t i = n; i-- > 0;) { /* each cell's list begins with its first point */
+        koksma__torus_grid_add(&g, (uint32_t)i);
+    }
+    for (size_t cell = 0; cell < (size_t)g.cells * g.cells; cell++) {
+        for (uint32_t i = g.head[cell]; i != KOKSMA__NO_POINT; i = g.next[i]) {
+            *order++ = i;
+        }
+    }
+    koksma__torus_grid_fini(&g);
+    return KOKSMA_OK;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Points of the 2D torus in a grid of cells, for questions about neighbours. */
+#ifndef KOKSMA_PATTERNS_SHARED_TORUS_GRID_H
+#define KOKSMA_PATTERNS_SHARED_TORUS_GRID_H
+
+#include <koksma/koksma.h>
+
+#include "core/torus.h"
+
+typedef struct koksma__torus_grid {
+    uint32_t cells;   /* a side */
+    uint32_t *head;   /* of each cell: the point put in last, or KOKSMA__NO_POINT */
+    uint32_t *next;   /* of each point: the one put into its cell before */
+    const double *xs; /* pairs; borrowed */
+} koksma__torus_grid;
+
+#define KOKSMA__NO_POINT UINT32_MAX
+
+/* A grid for up to n points of xs with about one point a cell; empty at first. */
+koksma_status koksma__torus_grid_init(koksma__torus_grid *grid, size_t n, const double *xs);
+void koksma__torus_grid_fini(koksma__torus_grid *grid);
+
+void koksma__torus_grid_clear(koksma__torus_grid *grid);
+void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
+void koksma__torus_grid_remove(koksma__torus_grid *grid, uint32_t point);
+
+/* The square of the distance from (x, y) to the nearest point in the grid; stops with any value at most `enough` when
+   that is certain. 1 with no point. */
+double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, double y, double enough);
+
+/* Whether a point in the grid is closer than d to (x, y): on the torus, or in the square alone. */
+bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
+
+/* f(context, point, dx, dy) for the points within `radius` of (x, y), dx and dy being the shortest way from there.
+   Points are visited once; radius is at most 1/2. */
+void koksma__torus_grid_each(const koksma__torus_grid *grid, double x, double y, double radius,
+                             void (*f)(void *context, uint32_t point, double dx, double dy), void *context);
+
+/* order[0] .. order[n-1] = the points cell by cell, in each as they come: neighbours are near in memory then. */
+koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order);
+
+#endif

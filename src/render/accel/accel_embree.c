@@ -1,0 +1,400 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Triangle meshes by Embree 3 or 4 (Wald et al. 2014), together with the analytic shapes: the closest of both, the
+ * shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's place and normal are
+ * made from its triangle, not from the ray, so that they are as exact as the vertices.
+ *
+ * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
+ * threads, but not between versions of Embree or the instruction sets that it chooses by itself. The floating-point
+ * mode (Embree would like denormals to be 0) is left as it is.
+ */
+#include "core/status.h"
+#include "render/accel/intersect.h"
+
+#ifndef KOKSMA_EMBREE
+
+const char *koksma_mesh_tracer(void)
+{
+    return NULL;
+}
+
+koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out)
+{
+    (void)scene;
+    *out = (koksma__geometry){0};
+    return koksma__fail(KOKSMA_UNSUPPORTED, "the scene has meshes, and this build traces none: it was made without "
+                                            "Embree");
+}
+
+#else
+
+#if KOKSMA_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+#include <fenv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/accel/mesh_parts.h"
+
+#define PASTE_(a, b) a##b
+#define PASTE(a, b) PASTE_(a, b)
+#define SHADOW_END (1 - 0x1p-16f) /* as for the analytic shapes */
+
+typedef struct embree {
+    RTCDevice device;
+    RTCScene scene, *shared; /* shared[m]: the tree of mesh m, if it has instances */
+    koksma__geometry shapes;
+    const koksma__batch_table *batch;
+    size_t n_parts, n_meshes;
+    int32_t n_shapes;
+    bool moves, wide;
+    part parts[];
+} embree;
+
+/* Where rays start. */
+typedef struct starts {
+    KOKSMA__LANES(float, x);
+    KOKSMA__LANES(float, y);
+    KOKSMA__LANES(float, z);
+} starts;
+
+const char *koksma_mesh_tracer(void)
+{
+    return "Embree " RTC_VERSION_STRING;
+}
+
+/* ---- Starting on a triangle ---------------------------------------------------------------------------------- */
+
+static const part *part_of(const embree *e, int32_t primitive)
+{
+    size_t low = 0, high = e->n_parts;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        if (e->parts[middle].first <= primitive) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return &e->parts[low];
+}
+
+static void set_starts(const float *x, const float *y, const float *z, int n, starts *s)
+{
+    memcpy(s->x, x, (size_t)n * sizeof *x);
+    memcpy(s->y, y, (size_t)n * sizeof *y);
+    memcpy(s->z, z, (size_t)n * sizeof *z);
+}
+
+/* The starts, off the triangles that they are on. */
+static void start(const embree *e, const int32_t *from, const float *times, const float *const d[3], int n, starts *s)
+{
+    koksma__landings on;
+    int any = 0;
+    for (int i = 0; from && i < n; i++) {
+        any |= from[i] >= e->n_shapes;
+    }
+    if (!any) {
+        return;
+    }
+    memset(on.corners, 0, sizeof on.corners);
+    for (int i = 0; i < n; i++) {
+        on.primitive[i] = -1;
+        if (from[i] >= e->n_shapes) {
+            const part *p = part_of(e, from[i]);
+            set_lane(p, (uint32_t)(from[i] - p->first), e->moves ? times[i] : 0, i, &on);
+        }
+    }
+    e->batch->step_off(&on, d[0], d[1], d[2], n, s->x, s->y, s->z);
+}
+
+/* ---- Packets ---------------------------------------------------------------------------------------------- */
+
+#if KOKSMA_EMBREE == 3
+#define CONTEXT(coherent)                                                                                            \
+    struct RTCIntersectContext context;                                                                              \
+    rtcInitIntersectContext(&context);                                                                               \
+    context.flags = (coherent) ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+#define INTERSECT(width, valid, e, packet) PASTE(rtcIntersect, width)(valid, (e)->scene, &context, packet)
+#define OCCLUDED(width, valid, e, packet) PASTE(rtcOccluded, width)(valid, (e)->scene, &context, packet)
+#else
+#define CONTEXT(coherent)                                                                                            \
+    struct RTCIntersectArguments intersect_how;                                                                      \
+    struct RTCOccludedArguments occluded_how;                                                                        \
+    rtcInitIntersectArguments(&intersect_how);                                                                       \
+    rtcInitOccludedArguments(&occluded_how);                                                                         \
+    intersect_how.flags = occluded_how.flags =                                                                       \
+        (coherent) ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT
+#define INTERSECT(width, valid, e, packet) PASTE(rtcIntersect, width)(valid, (e)->scene, packet, &intersect_how)
+#define OCCLUDED(width, valid, e, packet) PASTE(rtcOccluded, width)(valid, (e)->scene, packet, &occluded_how)
+#endif
+
+#define WIDTH 8
+#include "render/accel/accel_packet.h"
+#undef WIDTH
+#define WIDTH 16
+#include "render/accel/accel_packet.h"
+#undef WIDTH
+
+static int closest(const koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
+                   koksma__hits *hits)
+{
+    const embree *e = geometry->made;
+    const float *const d[3] = {rays->dx, rays->dy, rays->dz};
+    starts s;
+    koksma__landings on;
+    int count = e->shapes.closest(&e->shapes, rays, from, n, hits), landed = 0, fine = 0;
+    set_starts(rays->ox, rays->oy, rays->oz, n, &s);
+    start(e, from, rays->time, d, n, &s);
+    for (int i = 0; i < n; i += e->wide ? 16 : 8) {
+        landed +=
+            e->wide ? intersect_16(e, &s, rays, i, !from, hits, &on) : intersect_8(e, &s, rays, i, !from, hits, &on);
+    }
+    if (!landed) {
+        return count;
+    }
+    fetch_landings(e->parts, &on, n);
+    if (landed < n) {
+        memset(on.corners, 0, sizeof on.corners);
+    }
+    for (int i = 0; i < n; i++) {
+        const int32_t number = on.primitive[i]; /* of the part, until set_lane */
+        if (number >= 0) {
+            count += hits->primitive[i] < 0;
+            fine |= e->parts[number].smooth || e->parts[number].mesh->uvs;
+            set_lane(&e->parts[number], on.triangle[i], e->moves ? rays->time[i] : 0, i, &on);
+        }
+    }
+    e->batch->land(&on, rays, n, hits);
+    for (int i = 0; fine && i < n; i++) {
+        if (on.primitive[i] >= 0) {
+            refine(part_of(e, on.primitive[i]), &on, rays, i, hits);
+        }
+    }
+    return count;
+}
+
+static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
+{
+    const embree *e = geometry->made;
+    const float *const d[3] = {shadows->dx, shadows->dy, shadows->dz};
+    starts s;
+    e->shapes.occlude(&e->shapes, hits, n, shadows);
+    set_starts(hits->px, hits->py, hits->pz, n, &s);
+    start(e, hits->primitive, hits->time, d, n, &s);
+    for (int i = 0; i < n; i += e->wide ? 16 : 8) {
+        if (e->wide) {
+            shade_16(e, &s, hits, i, shadows);
+        } else {
+            shade_8(e, &s, hits, i, shadows);
+        }
+    }
+}
+
+static int light_of(const koksma__geometry *geometry, int32_t primitive)
+{
+    const embree *e = geometry->made;
+    return primitive < e->n_shapes ? e->shapes.light(&e->shapes, primitive) : part_of(e, primitive)->light;
+}
+
+/* ---- Building --------------------------------------------------------------------------------------------- */
+
+static void release(koksma__geometry *geometry)
+{
+    embree *e = geometry->made;
+    if (e) {
+        for (size_t m = 0; e->shared && m < e->n_meshes; m++) {
+            if (e->shared[m]) {
+                rtcReleaseScene(e->shared[m]);
+            }
+        }
+        if (e->scene) {
+            rtcReleaseScene(e->scene);
+        }
+        if (e->device) {
+            rtcReleaseDevice(e->device);
+        }
+        if (e->shapes.release) {
+            e->shapes.release(&e->shapes);
+        }
+        free(e->shared);
+        free(e);
+    }
+    *geometry = (koksma__geometry){0};
+}
+
+static koksma_status check(const embree *e)
+{
+    const enum RTCError error = rtcGetDeviceError(e->device);
+    return error == RTC_ERROR_NONE            ? KOKSMA_OK
+           : error == RTC_ERROR_OUT_OF_MEMORY ? koksma__fail(KOKSMA_MEMORY, "Embree: out of memory")
+                                              : koksma__fail(KOKSMA_SYSTEM, "Embree: error %d", (int)error);
+}
+
+static part make_part(const koksma_scene *scene, const koksma__placement *from, int32_t first)
+{
+    part p = {.mesh = &scene->meshes[from->mesh],
+              .smooth = from->smooth && scene->meshes[from->mesh].normals,
+              .material = from->material,
+              .light = from->light,
+              .first = first};
+    double normals[9];
+    koksma__normal_matrix(from->matrix, normals);
+    for (int i = 0; i < 12; i++) {
+        p.matrix[i] = (float)from->matrix[i];
+    }
+    for (int i = 0; i < 9; i++) {
+        p.normal_matrix[i] = (float)normals[i];
+    }
+    for (int r = 0; r < 3; r++) {
+        p.motion[r] = (float)from->motion[r];
+        p.moves |= from->motion[r] != 0;
+    }
+    return p;
+}
+
+/* The triangles of a mesh as a geometry of Embree's; placed: by the part's matrix and motion. */
+static koksma_status make_triangles(const embree *e, part *p, bool placed, RTCGeometry *out)
+{
+    const koksma__mesh *m = p->mesh;
+    RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, m->indices, 0, 3 * sizeof *m->indices,
+                               m->n_triangles);
+    if (!placed) {
+        rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, m->vertices, 0,
+                                   3 * sizeof *m->vertices, m->n_vertices);
+        rtcCommitGeometry(g);
+        return check(e);
+    }
+    rtcSetGeometryTimeStepCount(g, p->moves ? 2 : 1);
+    for (unsigned step = 0; step < (p->moves ? 2u : 1u); step++) {
+        float *v =
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3, 3 * sizeof *v, m->n_vertices);
+        if (!v) {
+            return check(e);
+        }
+        p->placed = step ? p->placed : v;
+        for (size_t i = 0; i < m->n_vertices; i++) {
+            place(p, m->vertices + 3 * i, v + 3 * i);
+            for (size_t k = 0; k < 3; k++) {
+                v[3 * i + k] += step ? p->motion[k] : 0;
+            }
+        }
+    }
+    rtcCommitGeometry(g);
+    return check(e);
+}
+
+/* The tree of mesh m by itself, for its instances. */
+static koksma_status make_shared(embree *e, part *p, size_t m)
+{
+    RTCGeometry g = NULL;
+    if (e->shared[m]) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = make_triangles(e, p, false, &g);
+    e->shared[m] = rtcNewScene(e->device);
+    rtcSetSceneFlags(e->shared[m], RTC_SCENE_FLAG_ROBUST);
+    rtcAttachGeometry(e->shared[m], g);
+    rtcReleaseGeometry(g);
+    rtcCommitScene(e->shared[m]);
+    return status ? status : check(e);
+}
+
+static koksma_status make_instance(embree *e, part *p, size_t m, RTCGeometry *out)
+{
+    const koksma_status status = make_shared(e, p, m);
+    if (status) {
+        return status;
+    }
+    RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);
+    p->is_instance = true;
+    rtcSetGeometryInstancedScene(g, e->shared[m]);
+    rtcSetGeometryTimeStepCount(g, p->moves ? 2 : 1);
+    for (unsigned step = 0; step < (p->moves ? 2u : 1u); step++) {
+        float rows[12];
+        memcpy(rows, p->matrix, sizeof rows);
+        for (int k = 0; k < 3; k++) {
+            rows[4 * k + 3] += step ? p->motion[k] : 0;
+        }
+        rtcSetGeometryTransform(g, step, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+    }
+    rtcCommitGeometry(g);
+    return check(e);
+}
+
+static koksma_status build(const koksma_scene *scene, embree *e)
+{
+    size_t first = scene->n_shapes;
+    koksma_status status = check(e);
+    int *uses = calloc(scene->n_meshes + 1, sizeof *uses);
+    if (!uses) {
+        return koksma__fail_memory(scene->n_meshes * sizeof *uses);
+    }
+    for (size_t i = 0; i < e->n_parts; i++) {
+        uses[scene->placements[i].mesh]++;
+    }
+    for (size_t i = 0; !status && i < e->n_parts; i++) {
+        const size_t m = (size_t)scene->placements[i].mesh;
+        RTCGeometry g = NULL;
+        part *p = &e->parts[i];
+        if (first + scene->meshes[m].n_triangles > INT32_MAX) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "the scene has more than 2^31 triangles, counting instances");
+            break;
+        }
+        *p = make_part(scene, &scene->placements[i], (int32_t)first);
+        e->moves |= p->moves;
+        first += scene->meshes[m].n_triangles;
+        status = uses[m] > 1 ? make_instance(e, p, m, &g) : make_triangles(e, p, true, &g);
+        if (g) {
+            rtcAttachGeometryByID(e->scene, g, (unsigned)i);
+            rtcReleaseGeometry(g);
+        }
+    }
+    free(uses);
+    if (!status) {
+        rtcCommitScene(e->scene);
+        status = check(e);
+    }
+    return status;
+}
+
+koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out)
+{
+    const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
+    embree *e = calloc(1, size);
+    *out = (koksma__geometry){e, NULL, closest, occlude, light_of, release};
+    if (!e) {
+        return koksma__fail_memory(size);
+    }
+    fenv_t mode; /* Embree may change it while it builds */
+    fegetenv(&mode);
+    e->n_parts = scene->n_placements;
+    e->n_meshes = scene->n_meshes;
+    e->n_shapes = (int32_t)scene->n_shapes;
+    e->shared = calloc(scene->n_meshes + 1, sizeof(RTCScene));
+    e->batch = koksma__batch();
+    e->device = rtcNewDevice("threads=1,set_affinity=0");
+    koksma_status status = koksma__accel_shapes(scene, &e->shapes);
+    if (!status && (!e->device || !e->shared)) {
+        status = koksma__fail(KOKSMA_SYSTEM, "Embree makes no device");
+    }
+    if (!status) {
+        e->wide = rtcGetDeviceProperty(e->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+        e->scene = rtcNewScene(e->device);
+        rtcSetSceneFlags(e->scene, RTC_SCENE_FLAG_ROBUST);
+        status = build(scene, e);
+    }
+    fesetenv(&mode);
+    if (status) {
+        release(out);
+    }
+    return status;
+}
+
+#endif

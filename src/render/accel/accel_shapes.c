@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Analytic shapes: no tree, every shape against every block of rays. A flat shape shades nothing when all other
+ * shapes and all luminaires lie on one side of it, because that side is convex; a floor is left out of the shadows
+ * so.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "core/vector.h"
+#include "render/accel/intersect.h"
+
+typedef struct shapes {
+    const koksma_scene *scene;
+    koksma__batch_shapes all, occluders;
+    const koksma__batch_table *batch;
+    koksma__batch_shape list[];
+} shapes;
+
+static int closest(const koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
+                   koksma__hits *hits)
+{
+    const shapes *s = geometry->made;
+    return s->batch->closest(&s->all, rays, from, n, hits);
+}
+
+static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
+{
+    const shapes *s = geometry->made;
+    s->batch->occlude(&s->occluders, hits, n, shadows);
+}
+
+static int light_of(const koksma__geometry *geometry, int32_t primitive)
+{
+    const shapes *s = geometry->made;
+    return s->scene->shapes[primitive].light;
+}
+
+static void release(koksma__geometry *geometry)
+{
+    free(geometry->made);
+    *geometry = (koksma__geometry){0};
+}
+
+/* How far the shape or rectangle reaches below the plane of `flat`, seen from the side that `sign` picks; > 0: it
+ * does. */
+static double depth(const koksma__shape *flat, double sign, const double centre[3], const double reach_u[3],
+                    const double reach_v[3], double radius)
+{
+    double offset[3];
+    koksma__subtract(centre, flat->centre, offset);
+    return radius + fabs(koksma__dot(reach_u, flat->normal)) + fabs(koksma__dot(reach_v, flat->normal)) -
+           sign * koksma__dot(offset, flat->normal);
+}
+
+static double depth_of_rectangle(const koksma__shape *flat, double sign, const double centre[3], const double u[3],
+                                 const double v[3], const double half[2])
+{
+    double reach_u[3], reach_v[3];
+    for (int k = 0; k < 3; k++) {
+        reach_u[k] = half[0] * u[k];
+        reach_v[k] = half[1] * v[k];
+    }
+    return depth(flat, sign, centre, reach_u, reach_v, 0);
+}
+
+static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat, double sign)
+{
+    static const double none[3] = {0, 0, 0};
+    const double tiny = 1e-9;
+    bool all = flat->kind != KOKSMA__SHAPE_SPHERE && !scene->moves;
+    for (size_t i = 0; all && i < scene->n_shapes; i++) {
+        const koksma__shape *s = &scene->shapes[i];
+        all = s == flat ||
+              (s->kind == KOKSMA__SHAPE_SPHERE && depth(flat, sign, s->centre, none, none, s->half[0]) < tiny) ||
+              ((s->kind == KOKSMA__SHAPE_RECTANGLE || s->kind == KOKSMA__SHAPE_DISK) &&
+               depth_of_rectangle(flat, sign, s->centre, s->axis_u, s->axis_v, s->half) < tiny);
+    }
+    for (size_t i = 0; all && i < scene->n_placements; i++) {
+        const koksma__placement *p = &scene->placements[i];
+        double middle[3], reach = 0;
+        for (int k = 0; k < 3; k++) {
+            middle[k] = (p->low[k] + p->high[k]) / 2;
+            reach += fabs(flat->normal[k]) * (p->high[k] - p->low[k]) / 2;
+        }
+        all = depth(flat, sign, middle, none, none, reach) < tiny;
+    }
+    for (size_t i = 0; all && i < scene->n_lights; i++) {
+        const koksma__light *l = &scene->lights[i];
+        const bool flat_light = l->kind == KOKSMA__LIGHT_RECTANGLE || l->kind == KOKSMA__LIGHT_DISK;
+        all = flat_light ? depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny
+                         : l->kind != KOKSMA__LIGHT_DIRECTIONAL && l->kind != KOKSMA__LIGHT_ENVIRONMENT &&
+                               depth(flat, sign, l->centre, none, none, l->half[0]) < tiny;
+    }
+    return all;
+}
+
+static koksma__batch_shape in_floats(const koksma__shape *from, size_t id)
+{
+    koksma__batch_shape s = {.kind = (int)from->kind, .id = (int32_t)id, .material = from->material};
+    for (int k = 0; k < 3; k++) {
+        s.centre[k] = (float)from->centre[k];
+        s.motion[k] = (float)from->motion[k];
+        s.moves |= from->motion[k] != 0;
+        s.normal[k] = (float)from->normal[k];
+        s.axis_u[k] = (float)from->axis_u[k];
+        s.axis_v[k] = (float)from->axis_v[k];
+    }
+    const bool is_round = from->kind == KOKSMA__SHAPE_DISK || from->kind == KOKSMA__SHAPE_SPHERE;
+    s.half_u = (float)from->half[0];
+    s.half_v = (float)from->half[1];
+    s.radius2 = is_round ? (float)(from->half[0] * from->half[0]) : INFINITY;
+    s.inverse_radius = (float)(1 / from->half[0]);
+    return s;
+}
+
+koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out)
+{
+    const size_t size = sizeof(shapes) + 2 * scene->n_shapes * sizeof(koksma__batch_shape);
+    shapes *s = malloc(size);
+    *out = (koksma__geometry){0};
+    if (!s) {
+        return koksma__fail_memory(size);
+    }
+    s->all = (koksma__batch_shapes){scene->n_shapes, s->list};
+    s->occluders = (koksma__batch_shapes){0, s->list + scene->n_shapes};
+    for (size_t i = 0; i < scene->n_shapes; i++) {
+        const koksma__shape *shape = &scene->shapes[i];
+        s->list[i] = in_floats(shape, i);
+        if (!all_on_one_side(scene, shape, 1) && !all_on_one_side(scene, shape, -1)) {
+            s->list[scene->n_shapes + s->occluders.n++] = s->list[i];
+        }
+    }
+    s->batch = koksma__batch();
+    s->scene = scene;
+    *out = (koksma__geometry){s, &s->all, closest, occlude, light_of, release};
+    return KOKSMA_OK;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c), or these and meshes
+ * (accel_embree.c). Primitives: the shapes by their numbers, then the triangles of the placements, one after the
+ * other. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
+ */
+#ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
+#define KOKSMA_RENDER_ACCEL_INTERSECT_H
+
+#include "render/pipelines/batch.h"
+#include "scene/scene.h"
+
+typedef struct koksma__geometry {
+    void *made;
+    const koksma__batch_shapes *shapes; /* all that there is; NULL: there is more than shapes */
+    /* The closest hits of n rays; the number of lanes with one. from: the primitive that each ray starts on (-1:
+       none), or NULL for rays that start nowhere. */
+    int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
+                   koksma__hits *hits);
+    /* Takes away the light of the shadow rays that meet something; hits->time says when. */
+    void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
+                    koksma__shadows *shadows);
+    /* The luminaire whose surface a primitive is, or -1. */
+    int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
+    void (*release)(struct koksma__geometry *geometry);
+} koksma__geometry;
+
+/* The scene's analytic shapes, all tried for every block. Errors: MEMORY. */
+koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
+
+/* The scene's shapes and meshes. Errors: UNSUPPORTED (this build has no Embree), ARGUMENT, MEMORY, SYSTEM. */
+koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out);
+
+#endif

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which shapes a part of the film can see. A ray from the eye o through film place (x, y) goes along
+ * d = base + x step_x + y step_y, so
+ *
+ *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
+ *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
+ *                -u and v. N and these are linear in (x, y): a rectangle of the film sees nothing where N <= 0 in all
+ *                of it, or one of the four is > 0 in all of it.
+ *   sphere:      the line through the eye misses it if and only if |e x d|^2 - r^2 d.d > 0, a quadratic form in (x,
+ * y), bounded from below by its value, slopes and curvatures at the middle.
+ *
+ * Bounds are in double precision, but batch_shapes.c finds hits in floats. Shapes are widened by more than its
+ * rounding: a place at distance R from the eye is off by some 10 units in the last place of R across the ray, and on
+ * a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d amounts
+ * to.
+ */
+#include "render/frustum_cull.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "scene/scene.h"
+
+#define UNIT 0x1p-24 /* relative rounding of a float */
+#define SPARE 64     /* units of it that are allowed for */
+
+/* a + x b + y c */
+typedef struct linear {
+    double a, b, c;
+} linear;
+
+typedef struct bound {
+    bool is_sphere, sees_all; /* sees_all: nothing can be said */
+    size_t n;                 /* of `out`: what is out of the bounds where one of them is > 0 */
+    linear out[5];
+    double a, b, c, aa, ab, bb; /* of a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
+} bound;
+
+struct koksma__sight {
+    double widen; /* the film's rectangles, by this */
+    size_t n;
+    bound bounds[];
+};
+
+static double dot(const float a[3], const double b[3])
+{
+    return (double)a[0] * b[0] + (double)a[1] * b[1] + (double)a[2] * b[2];
+}
+
+static linear along(const koksma__batch_camera *c, const double w[3])
+{
+    return (linear){dot(c->base, w), dot(c->step_x, w), dot(c->step_y, w)};
+}
+
+static linear combine(double p, linear l, double q, linear m)
+{
+    return (linear){p * l.a + q * m.a, p * l.b + q * m.b, p * l.c + q * m.c};
+}
+
+static double length1(const float a[3])
+{
+    return fabs((double)a[0]) + fabs((double)a[1]) + fabs((double)a[2]);
+}
+
+static bound bound_flat(const koksma__batch_camera *camera, const koksma__batch_shape *s, double longest)
+{
+    bound b = {.n = 1};
+    double e[3], n[3], u[3], v[3], distance = 0;
+    for (int k = 0; k < 3; k++) {
+        e[k] = (double)camera->eye[k] - (double)s->centre[k];
+        n[k] = (double)s->normal[k];
+        u[k] = (double)s->axis_u[k];
+        v[k] = (double)s->axis_v[k];
+        distance += fabs(e[k]);
+    }
+    const double height = n[0] * e[0] + n[1] * e[1] + n[2] * e[2], size = fabs(height);
+    const double magnitude = distance + length1(s->centre) + length1(camera->eye);
+    const linear towards = combine(height > 0 ? -1 : 1, along(camera, n), 0, (linear){0, 0, 0});
+    b.sees_all = !(size > SPARE * UNIT * magnitude);
+    b.out[0] = combine(-1, towards, 0, towards);
+    b.out[0].a -= SPARE * UNIT * longest;
+    if (s->kind == KOKSMA__SHAPE_PLANE) {
+        return b;
+    }
+    const double half_u = s->kind == KOKSMA__SHAPE_DISK ? sqrt((double)s->radius2) : (double)s->half_u;
+    const double half_v = s->kind == KOKSMA__SHAPE_DISK ? half_u : (double)s->half_v;
+    const double reach = magnitude + half_u + half_v, spare = SPARE * UNIT * (reach + reach * (reach / size));
+    const double e_u = e[0] * u[0] + e[1] * u[1] + e[2] * u[2], e_v = e[0] * v[0] + e[1] * v[1] + e[2] * v[2];
+    const linear d_u = along(camera, u), d_v = along(camera, v);
+    b.out[b.n++] = combine(e_u - (half_u + spare), towards, size, d_u);
+    b.out[b.n++] = combine(-e_u - (half_u + spare), towards, -size, d_u);
+    b.out[b.n++] = combine(e_v - (half_v + spare), towards, size, d_v);
+    b.out[b.n++] = combine(-e_v - (half_v + spare), towards, -size, d_v);
+    return b;
+}
+
+static void cross(const double e[3], const float d[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const int l = (k + 1) % 3, m = (k + 2) % 3;
+        out[k] = e[l] * (double)d[m] - e[m] * (double)d[l];
+    }
+}
+
+/* (e x a).(e x b) - r^2 a.b */
+static double form(const double e[3], double radius2, const float a[3], const float b[3])
+{
+    double ea[3], eb[3], sum = 0;
+    cross(e, a, ea);
+    cross(e, b, eb);
+    for (int k = 0; k < 3; k++) {
+        sum += ea[k] * eb[k] - radius2 * (double)a[k] * (double)b[k];
+    }
+    return sum;
+}
+
+static bound bound_sphere(const koksma__batch_camera *camera, const koksma__batch_shape *s)
+{
+    double e[3], magnitude = 0;
+    for (int k = 0; k < 3; k++) {
+        e[k] = (double)camera->eye[k] - (double)s->centre[k];
+        magnitude += fabs((double)camera->eye[k]) + fabs((double)s->centre[k]);
+    }
+    const double radius = sqrt((double)s->radius2), wide = radius + SPARE * UNIT * (magnitude + radius);
+    const float *base = camera->base, *x = camera->step_x, *y = camera->step_y;
+    return (bound){.is_sphere = true,
+                   .sees_all = s->moves,
+                   .a = form(e, wide * wide, base, base),
+                   .b = 2 * form(e, wide * wide, base, x),
+                   .c = 2 * form(e, wide * wide, base, y),
+                   .aa = form(e, wide * wide, x, x),
+                   .ab = 2 * form(e, wide * wide, x, y),
+                   .bb = form(e, wide * wide, y, y)};
+}
+
+koksma_status koksma__sight_open(const koksma__batch_camera *camera, const koksma__batch_shapes *shapes, int width,
+                                 int height, koksma__sight **out)
+{
+    const size_t size = sizeof(koksma__sight) + shapes->n * sizeof(bound);
+    koksma__sight *sight = *out = malloc(size);
+    if (!sight) {
+        return koksma__fail_memory(size);
+    }
+    const double x = length1(camera->step_x), y = length1(camera->step_y);
+    const double longest = length1(camera->base) + (width + 2) * x + (height + 2) * y;
+    sight->n = shapes->n;
+    sight->widen = 0x1p-10 + SPARE * UNIT * longest / (x < y ? x : y);
+    for (size_t i = 0; i < shapes->n; i++) {
+        const koksma__batch_shape *s = &shapes->shapes[i];
+        sight->bounds[i] = s->kind == KOKSMA__SHAPE_SPHERE ? bound_sphere(camera, s) : bound_flat(camera, s, longest);
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__sight_close(koksma__sight *sight)
+{
+    free(sight);
+}
+
+/* The rectangle of the film: its middle and half its sides. */
+typedef struct part {
+    double x, y, half_x, half_y;
+} part;
+
+static bool is_out(const bound *b, part p)
+{
+    if (b->is_sphere) {
+        const double value = b->a + p.x * (b->b + b->aa * p.x + b->ab * p.y) + p.y * (b->c + b->bb * p.y);
+        const double slope_x = b->b + 2 * b->aa * p.x + b->ab * p.y, slope_y = b->c + 2 * b->bb * p.y + b->ab * p.x;
+        const double spread = fabs(slope_x) * p.half_x + fabs(slope_y) * p.half_y +
+                              fabs(b->aa) * p.half_x * p.half_x + fabs(b->ab) * p.half_x * p.half_y +
+                              fabs(b->bb) * p.half_y * p.half_y;
+        const double scale = fabs(b->a) + fabs(b->b * p.x) + fabs(b->c * p.y);
+        return value - spread > 0x1p-40 * scale;
+    }
+    for (size_t i = 0; i < b->n; i++) {
+        const linear l = b->out[i];
+        if (l.a + p.x * l.b + p.y * l.c - fabs(l.b) * p.half_x - fabs(l.c) * p.half_y > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+size_t koksma__sight_shapes(const koksma__sight *sight, const double x[2], const double y[2], size_t *seen)
+{
+    const part p = {(x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (x[1] - x[0]) / 2 + sight->widen,
+                    (y[1] - y[0]) / 2 + sight->widen};
+    size_t n = 0;
+    for (size_t i = 0; i < sight->n; i++) {
+        if (sight->bounds[i].sees_all || !is_out(&sight->bounds[i], p)) {
+            seen[n++] = i;
+        }
+    }
+    return n;
+}

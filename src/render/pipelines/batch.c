@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "render/pipelines/batch.h"
+
+#include <string.h>
+
+extern const koksma__batch_table koksma__batch_table_ref, koksma__batch_table_baseline;
+#ifdef KOKSMA_X86_KERNELS
+extern const koksma__batch_table koksma__batch_table_avx2, koksma__batch_table_avx512;
+#endif
+
+const koksma__batch_table *koksma__batch_find(const char *isa)
+{
+    if (!koksma__kernels_find(isa)) {
+        return NULL;
+    }
+#ifdef KOKSMA_X86_KERNELS
+    if (!strcmp(isa, "avx2")) {
+        return &koksma__batch_table_avx2;
+    }
+    if (!strcmp(isa, "avx512")) {
+        return &koksma__batch_table_avx512;
+    }
+#endif
+    return strcmp(isa, "ref") ? &koksma__batch_table_baseline : &koksma__batch_table_ref;
+}
+
+const koksma__batch_table *koksma__batch(void)
+{
+    return koksma__batch_find(koksma__kernels()->isa);
+}

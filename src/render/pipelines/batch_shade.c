@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The camera, materials and luminaires on a block of rays, and samples on their way into a block.
+ * A luminaire's light at a hit, from one place on it: power cos cos' / distance^2 (scene/scene.h), without square
+ * roots: power (n.d) (-n'.d) / (d.d)^2
+ */
+#include <math.h>
+
+#include "core/random.h"
+#include "render/pipelines/batch_kernel.h"
+
+void BATCH_NAME(camera)(const koksma__batch_camera *camera, const float *xy, int n, koksma__rays *rays)
+{
+    const koksma__batch_camera c = *camera;
+    for (int i = 0; i < STEP(n); i++) {
+        const float x = xy[2 * i], y = xy[2 * i + 1];
+        rays->ox[i] = c.eye[0];
+        rays->oy[i] = c.eye[1];
+        rays->oz[i] = c.eye[2];
+        rays->dx[i] = c.base[0] + x * c.step_x[0] + y * c.step_y[0];
+        rays->dy[i] = c.base[1] + x * c.step_x[1] + y * c.step_y[1];
+        rays->dz[i] = c.base[2] + x * c.step_x[2] + y * c.step_y[2];
+    }
+}
+
+static void albedo_constant(float value, int32_t id, const koksma__hits *h, int n, float *albedo)
+{
+    for (int i = 0; i < STEP(n); i++) {
+        albedo[i] = h->material[i] == id ? value : albedo[i];
+    }
+}
+
+static void albedo_checker(const koksma__batch_material *material, int32_t id, const koksma__hits *h, int n,
+                           float *albedo)
+{
+    const koksma__batch_material m = *material;
+    for (int i = 0; i < STEP(n); i++) {
+        const float u = h->u[i], v = h->v[i];
+        const float half = 0.5f * (floorf(m.su * u + m.sv * v + m.s0) + floorf(m.tu * u + m.tv * v + m.t0));
+        const float value = half == floorf(half) ? m.albedo[0] : m.albedo[1];
+        albedo[i] = h->material[i] == id ? value : albedo[i];
+    }
+}
+
+void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__hits *hits, int n, float *albedo)
+{
+    int32_t most = -1;
+    uint32_t least = UINT32_MAX; /* -1 is the largest unsigned number */
+    for (int i = 0; i < STEP(n); i++) {
+        const int32_t m = hits->material[i];
+        albedo[i] = 0;
+        most = m > most ? m : most;
+        least = (uint32_t)m < least ? (uint32_t)m : least;
+    }
+    for (int32_t m = (int32_t)least; m >= 0 && m <= most; m++) {
+        if (materials[m].checker) {
+            albedo_checker(&materials[m], m, hits, n, albedo);
+        } else {
+            albedo_constant(materials[m].albedo[0], m, hits, n, albedo);
+        }
+    }
+}
+
+int BATCH_NAME(aim)(const koksma__batch_light *light, const koksma__hits *h, const float *xy, int n,
+                    koksma__shadows *s)
+{
+    const koksma__batch_light l = *light;
+    int lit = 0;
+    for (int i = 0; i < STEP(n); i++) {
+        const float x = xy[2 * i], y = xy[2 * i + 1];
+        const float dx = l.corner[0] + x * l.edge_x[0] + y * l.edge_y[0] - h->px[i];
+        const float dy = l.corner[1] + x * l.edge_x[1] + y * l.edge_y[1] - h->py[i];
+        const float dz = l.corner[2] + x * l.edge_x[2] + y * l.edge_y[2] - h->pz[i];
+        const float square = dx * dx + dy * dy + dz * dz;
+        const float at_hit = h->nx[i] * dx + h->ny[i] * dy + h->nz[i] * dz;
+        const float at_light = -(l.normal[0] * dx + l.normal[1] * dy + l.normal[2] * dz);
+        const int facing = (at_hit > 0) & (at_light > 0);
+        const float value = l.power * at_hit * at_light / (square * square);
+        s->dx[i] = dx;
+        s->dy[i] = dy;
+        s->dz[i] = dz;
+        s->light[i] = facing ? value : 0;
+        lit += facing;
+    }
+    return lit;
+}
+
+void BATCH_NAME(add)(const koksma__shadows *shadows, int n, float *sum)
+{
+    for (int i = 0; i < STEP(n); i++) {
+        sum[i] += shadows->light[i];
+    }
+}
+
+void BATCH_NAME(shade)(const koksma__hits *hits, const float *albedo, const float *sum, float background, float clamp,
+                       int n, float *out)
+{
+    for (int i = 0; i < STEP(n); i++) {
+        const float value = hits->primitive[i] >= 0 ? albedo[i] * sum[i] : background;
+        out[i] = value < clamp ? value : clamp;
+    }
+}
+
+void BATCH_NAME(place)(const double *xs, size_t n, const float offset[2], float *to)
+{
+    const float last = 1 - 0x1p-24f, ox = offset[0], oy = offset[1];
+    for (size_t i = 0; i < n; i++) {
+        const float x = (float)xs[2 * i], y = (float)xs[2 * i + 1];
+        to[2 * i] = (x < last ? x : last) + ox;
+        to[2 * i + 1] = (y < last ? y : last) + oy;
+    }
+}
+
+typedef struct pair {
+    float x, y;
+} pair;
+
+void BATCH_NAME(shuffle)(const float *pairs, const uint32_t *words, size_t n, float *to)
+{
+    const pair *from = (const pair *)(const void *)pairs;
+    pair *order = (pair *)(void *)to;
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t j = koksma__below(words[i], (uint32_t)i + 1);
+        order[i] = order[j];
+        order[j] = from[i];
+    }
+}
+
+double BATCH_NAME(mean)(const float *x, size_t n)
+{
+    double lanes[8] = {0};
+    size_t i = 0;
+    for (; i + 8 <= n; i += 8) {
+        for (size_t l = 0; l < 8; l++) {
+            lanes[l] += (double)x[i + l];
+        }
+    }
+    for (; i < n; i++) {
+        lanes[i % 8] += (double)x[i];
+    }
+    return (((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))) /
+           (double)n;
+}

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Direct light on grey Lambert surfaces under rectangles that no one sees, through a pinhole, all in lanes (Cook,
+ * Porter & Carpenter 1984). A sample is background                                                      where the ray
+ * hits nothing, min(clamp, albedo (ambient + sum over luminaires of their light))  elsewhere, one shadow ray a
+ * luminaire. It is what wavefront.c gives for such scenes, several times faster; the two differ by rounding.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "render/frame.h"
+
+typedef struct room {
+    koksma__sample_room draw;
+    float *places; /* one array a light */
+    size_t capacity;
+    /* The shapes that a group may see, and their numbers; of which group. */
+    koksma__batch_shapes shapes;
+    koksma__batch_shape *list;
+    size_t *seen, first, count;
+} room;
+
+bool koksma__direct_can(const koksma__frame *frame)
+{
+    const koksma_scene *scene = frame->scene;
+    bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && frame->rules->areas &&
+               frame->rules->ambient && !frame->rules->indirect && frame->options->lights == KOKSMA_LIGHTS_ALL;
+    for (size_t i = 0; can && i < scene->n_lights; i++) {
+        can = scene->lights[i].kind == KOKSMA__LIGHT_RECTANGLE && !scene->lights[i].visible;
+    }
+    for (size_t i = 0; can && i < scene->n_materials; i++) {
+        can = scene->materials[i].kind == KOKSMA__MATERIAL_LAMBERT && !scene->materials[i].image;
+    }
+    return can;
+}
+
+static void close_room(void *opened)
+{
+    room *r = opened;
+    if (r) {
+        koksma__sample_room_fini(&r->draw);
+        free(r->places);
+        free(r->list);
+        free(r->seen);
+        free(r);
+    }
+}
+
+static koksma_status open_room(const koksma__frame *frame, size_t capacity, void **out)
+{
+    room *r = calloc(1, sizeof *r);
+    *out = r;
+    if (!r) {
+        return koksma__fail_memory(sizeof *r);
+    }
+    r->capacity = capacity;
+    r->places = malloc(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
+    koksma_status status = koksma__sample_room_init(&r->draw, &frame->sampler);
+    if (!status && !r->places) {
+        status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
+    }
+    if (!status && frame->sight) {
+        const size_t n = frame->geometry.shapes->n + 1;
+        r->list = malloc(n * sizeof *r->list);
+        r->seen = malloc(n * sizeof *r->seen);
+        status = r->list && r->seen ? KOKSMA_OK : koksma__fail_memory(n * sizeof *r->list);
+    }
+    if (status) {
+        close_room(r);
+        *out = NULL;
+    }
+    return status;
+}
+
+/* ---- What a group sees ------------------------------------------------------------------------------------ */
+
+/* The shapes in sight of the group's pixels, as far as the filter moves their samples. */
+static void look(const koksma__frame *f, room *r, const koksma__group *group)
+{
+    if (r->count && r->first == group->first && r->count == group->count) {
+        return;
+    }
+    const double reach = f->filter && !f->options->splat ? f->options->filter->radius : 0;
+    const size_t width = (size_t)f->options->width, last = group->first + group->count - 1;
+    const size_t row = group->first / width, end_row = last / width + 1;
+    const size_t column = row + 1 == end_row ? group->first % width : 0;
+    const size_t end_column = row + 1 == end_row ? last % width + 1 : width;
+    const double x[2] = {(double)column - reach, (double)end_column + reach};
+    const double y[2] = {(double)row - reach, (double)end_row + reach};
+    const size_t n = koksma__sight_shapes(f->sight, x, y, r->seen);
+    bool same = n == r->shapes.n;
+    for (size_t i = 0; i < n; i++) {
+        const koksma__batch_shape *shape = &f->geometry.shapes->shapes[r->seen[i]];
+        same = same && r->list[i].id == shape->id;
+        if (!same) {
+            r->list[i] = *shape;
+        }
+    }
+    r->shapes = (koksma__batch_shapes){n, r->list};
+    r->first = group->first;
+    r->count = group->count;
+}
+
+static float colour_of_nothing(const koksma__frame *f)
+{
+    const float background = (float)f->scene->background[0], clamp = (float)f->scene->clamp;
+    return background < clamp ? background : clamp;
+}
+
+static bool idle(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
+{
+    room *r = opened;
+    const size_t n = group->start[group->count];
+    if (!f->sight || f->filter || values->albedo || !n) {
+        return false;
+    }
+    look(f, r, group);
+    if (r->shapes.n) {
+        return false;
+    }
+    const float colour = colour_of_nothing(f);
+    for (size_t i = 0; i < n; i++) {
+        values->rgb[i] = colour;
+    }
+    values->rays += n;
+    return true;
+}
+
+/* ---- Samples ------------------------------------------------------------------------------------------------ */
+
+/* The samples of the luminaires are drawn when the first ray of the group hits something. */
+static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, room *r)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t l = 0; !status && l < f->lights.n; l++) {
+        status = koksma__group_draw(f, group, KOKSMA__USE_LIGHT + (uint32_t)l, false, &r->draw,
+                                    r->places + 2 * l * r->capacity);
+    }
+    return status;
+}
+
+static void note_layers(const koksma__hits *hits, const koksma__rays *rays, const float *albedo, int n,
+                        koksma__values *values, size_t start)
+{
+    for (int i = 0; i < n; i++) {
+        const size_t s = start + (size_t)i;
+        const bool hit = hits->primitive[i] >= 0;
+        const float square = rays->dx[i] * rays->dx[i] + rays->dy[i] * rays->dy[i] + rays->dz[i] * rays->dz[i];
+        values->albedo[3 * s] = values->albedo[3 * s + 1] = values->albedo[3 * s + 2] = hit ? albedo[i] : 0;
+        values->normal[3 * s] = hit ? hits->nx[i] : 0;
+        values->normal[3 * s + 1] = hit ? hits->ny[i] : 0;
+        values->normal[3 * s + 2] = hit ? hits->nz[i] : 0;
+        values->depth[s] = hit ? hits->t[i] * sqrtf(square) : 0;
+    }
+}
+
+/* Samples start .. start + n of the group, which hit something in `hits`; the last `copies` of them only fill lanes.
+ */
+static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
+                        int n, int copies, const room *r, koksma__values *values)
+{
+    KOKSMA__LANES(float, albedo);
+    KOKSMA__LANES(float, sum);
+    koksma__shadows shadows;
+    for (int i = 0; i < n; i++) {
+        sum[i] = (float)f->scene->ambient[0];
+    }
+    shadows.aimed = NULL; /* no one sees the luminaires */
+    f->batch->albedo(f->materials, hits, n, albedo);
+    for (size_t l = 0; l < f->lights.n; l++) {
+        const float *places = r->places + 2 * (l * r->capacity + start);
+        const int lit = f->batch->aim(&f->lights.rectangles[l], hits, places, n, &shadows);
+        if (lit) {
+            values->rays += (uint64_t)(lit - (shadows.light[n - 1] != 0 ? copies : 0));
+            f->geometry.occlude(&f->geometry, hits, n, &shadows);
+            f->batch->add(&shadows, n, sum);
+        }
+    }
+    f->batch->shade(hits, albedo, sum, (float)f->scene->background[0], (float)f->scene->clamp, n,
+                    values->rgb + start);
+    if (values->albedo) {
+        note_layers(hits, rays, albedo, n, values, start);
+    }
+}
+
+static koksma_status trace(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
+{
+    room *r = opened;
+    const size_t n_samples = group->start[group->count], total = koksma__whole_lanes(n_samples);
+    bool drawn = false;
+    koksma__rays rays;
+    koksma__hits hits;
+    koksma_status status = KOKSMA_OK;
+    values->rays += n_samples;
+    if (f->sight) {
+        look(f, r, group);
+    }
+    for (size_t start = 0; !status && start < total; start += KOKSMA__BLOCK) {
+        const int n = (int)(total - start < KOKSMA__BLOCK ? total - start : KOKSMA__BLOCK);
+        f->batch->camera(&f->camera, values->film + 2 * start, n, &rays);
+        const int hit = f->sight ? f->batch->closest(&r->shapes, &rays, NULL, n, &hits)
+                                 : f->geometry.closest(&f->geometry, &rays, NULL, n, &hits);
+        if (!hit && !values->albedo) {
+            for (int i = 0; i < n; i++) {
+                values->rgb[start + (size_t)i] = colour_of_nothing(f);
+            }
+            continue;
+        }
+        if (!drawn) {
+            status = draw_lights(f, group, r);
+            drawn = true;
+        }
+        if (!status) {
+            const int copies = start + (size_t)n > n_samples ? (int)(start + (size_t)n - n_samples) : 0;
+            shade_block(f, &rays, &hits, start, n, copies, r, values);
+        }
+    }
+    return status;
+}
+
+const koksma__pipeline koksma__direct_pipeline = {
+    .open = open_room, .close = close_room, .idle = idle, .trace = trace};

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Any scene by any integrator. The samples of a group go bounce by bounce: all paths that are left are intersected in
+ * blocks of lanes, their luminaires are asked in blocks of shadow rays, and what goes on is queued for the next
+ * bounce. Only the shading of a place is done ray by ray. A sample's light is summed in the order of its vertices.
+ */
+#include <string.h>
+
+#include "core/status.h"
+#include "render/pipelines/wavefront.h"
+#include "render/texture.h"
+#include "render/vector3.h"
+
+enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queues, which branching makes long */
+
+/* ---- The camera ------------------------------------------------------------------------------------------- */
+
+static void aim(const koksma__frame *frame, const float film[2], const float lens[2], float time, koksma__path *path)
+{
+    const koksma__batch_camera *c = &frame->camera;
+    const koksma__camera *camera = &frame->scene->camera;
+    double offset[2] = {0, 0};
+    if (lens) {
+        const double square[2] = {(double)lens[0], (double)lens[1]};
+        camera->lens_map->map(square, offset);
+    }
+    const float radius = (float)camera->lens_radius, focus = (float)camera->focus_distance;
+    for (int k = 0; k < 3; k++) {
+        const float d = c->base[k] + film[0] * c->step_x[k] + film[1] * c->step_y[k];
+        const float shift =
+            radius * ((float)offset[0] * (float)camera->right[k] + (float)offset[1] * (float)camera->down[k]);
+        path->o[k] = c->eye[k] + time * (float)camera->motion[k] + shift;
+        path->d[k] = lens ? d - shift / focus : d;
+        path->beta[k] = 1;
+    }
+    path->time = time;
+}
+
+static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
+{
+    const koksma__frame *frame = trace->frame;
+    const koksma__camera *camera = &frame->scene->camera;
+    const float *lens = NULL, *times = NULL;
+    koksma_status status = KOKSMA_OK;
+    if (camera->lens_radius > 0) {
+        status = koksma__tracer_draw(trace, KOKSMA__USE_LENS, &lens);
+    }
+    if (!status && frame->scene->moves) {
+        status = koksma__tracer_draw(trace, KOKSMA__USE_TIME, &times);
+    }
+    const float open = (float)camera->shutter[0], interval = (float)(camera->shutter[1] - camera->shutter[0]);
+    for (size_t i = first; !status && i < end; i++) {
+        koksma__path path = {.from = -1, .sample = (uint32_t)i};
+        aim(frame, values->film + 2 * i, lens ? lens + 2 * i : NULL, times ? open + interval * times[2 * i] : open,
+            &path);
+        status = koksma__tracer_push(&trace->room->queues[0], &path);
+    }
+    return status;
+}
+
+/* ---- What rays meet ------------------------------------------------------------------------------------- */
+
+static void gather(const koksma__path *paths, int n, int whole, koksma__rays *rays, int32_t *from)
+{
+    for (int i = 0; i < whole; i++) {
+        const koksma__path *p = &paths[i < n ? i : n - 1];
+        rays->ox[i] = p->o[0];
+        rays->oy[i] = p->o[1];
+        rays->oz[i] = p->o[2];
+        rays->dx[i] = p->d[0];
+        rays->dy[i] = p->d[1];
+        rays->dz[i] = p->d[2];
+        rays->time[i] = p->time;
+        from[i] = p->from;
+    }
+}
+
+/* The part of the light that a ray brings which met its luminaire by chance: the power heuristic against sampling it.
+ */
+static float chance_weight(const koksma__frame *frame, const koksma__path *path, int lamp, const float w[3], float t,
+                           const float n[3])
+{
+    if (!(path->density > 0)) {
+        return path->density < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
+    }
+    const float sampled = koksma__lamp_density(&frame->lights.lamps[lamp], path->o, w, t, n) *
+                          koksma__lamp_chance(frame, path->o, path->n, lamp);
+    return path->density * path->density / (path->density * path->density + sampled * sampled);
+}
+
+static void add_scaled(const float beta[3], const float value[3], float scale, float *sum)
+{
+    for (int k = 0; k < 3; k++) {
+        sum[k] += beta[k] * value[k] * scale;
+    }
+}
+
+static void add_miss(const koksma__frame *frame, const koksma__path *path, float *sum)
+{
+    const float background[3] = {(float)frame->scene->background[0], (float)frame->scene->background[1],
+                                 (float)frame->scene->background[2]};
+    const int lamp = frame->lights.environment_lamp;
+    add_scaled(path->beta, background, 1, sum);
+    if (lamp >= 0 && frame->lights.lamps[lamp].visible) {
+        float w[3] = {path->d[0], path->d[1], path->d[2]}, radiance[3];
+        koksma__unit3(w);
+        koksma__environment_radiance(frame->lights.environment, w, radiance);
+        add_scaled(path->beta, radiance, chance_weight(frame, path, lamp, w, 0, w), sum);
+    }
+}
+
+static void add_luminaire(const koksma__frame *frame, const koksma__path *path, const koksma__hits *hits, int i,
+                          float *sum)
+{
+    const int lamp = frame->geometry.light(&frame->geometry, hits->primitive[i]);
+    if (!hits->back[i]) {
+        float w[3] = {path->d[0], path->d[1], path->d[2]};
+        const float n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
+        const float length = sqrtf(koksma__dot3(w, w));
+        koksma__unit3(w);
+        add_scaled(path->beta, frame->lights.lamps[lamp].radiance,
+                   chance_weight(frame, path, lamp, w, hits->t[i] * length, n), sum);
+    }
+}
+
+static void set_surface(const koksma__frame *frame, const koksma__path *path, const koksma__hits *h, int i,
+                        koksma__surface *s)
+{
+    const koksma__substance *substance = &frame->substances[h->material[i]];
+    const koksma__batch_material *m = &frame->materials[h->material[i]];
+    int which = 0;
+    if (m->checker) {
+        const float u = h->u[i], v = h->v[i];
+        const float half = 0.5f * (floorf(m->su * u + m->sv * v + m->s0) + floorf(m->tu * u + m->tv * v + m->t0));
+        which = half != floorf(half);
+    }
+    *s = (koksma__surface){.substance = substance,
+                           .p = {h->px[i], h->py[i], h->pz[i]},
+                           .n = {h->nx[i], h->ny[i], h->nz[i]},
+                           .out = {-path->d[0], -path->d[1], -path->d[2]},
+                           .inside = h->back[i] != 0,
+                           .primitive = h->primitive[i]};
+    koksma__unit3(s->out);
+    memcpy(s->albedo, substance->albedo[which], sizeof s->albedo);
+    if (substance->image) {
+        const size_t shape = (size_t)h->primitive[i];
+        const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
+        koksma__texture(substance->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+                        half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
+    }
+}
+
+/* What the eye sees first, for the layers. */
+static void note_first(koksma__values *values, size_t sample, const koksma__path *path, const koksma__hits *h, int i,
+                       const koksma__surface *s)
+{
+    static const float none[3] = {0, 0, 0};
+    const float n[3] = {h->nx[i], h->ny[i], h->nz[i]};
+    const bool hit = h->primitive[i] >= 0;
+    memcpy(values->albedo + 3 * sample, s ? s->albedo : none, sizeof none);
+    memcpy(values->normal + 3 * sample, hit ? n : none, sizeof none);
+    values->depth[sample] = hit ? h->t[i] * sqrtf(koksma__dot3(path->d, path->d)) : 0;
+}
+
+/* ---- Going on --------------------------------------------------------------------------------------------- */
+
+/* Paths that start on a diffuse surface (of a record of the irradiance cache) see no luminaires in mirrors. */
+static koksma_status go_on(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
+                           const koksma__scatter *way, float scale)
+{
+    const float density = trace->first > 0 && !(way->density > 0) ? -1 : way->density;
+    koksma__path next = {.density = density, .time = path->time, .from = s->primitive, .sample = path->sample};
+    for (int k = 0; k < 3; k++) {
+        next.o[k] = s->p[k];
+        next.d[k] = way->w[k];
+        next.n[k] = s->n[k];
+        next.beta[k] = path->beta[k] * way->weight[k] * scale;
+    }
+    return koksma__max3(next.beta) > 0 ? koksma__tracer_push(trace->next, &next) : KOKSMA_OK;
+}
+
+static koksma_status branch(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
+                            const koksma__scatter ways[2])
+{
+    koksma_status status = KOKSMA_OK;
+    for (int i = 0; !status && i < 2; i++) {
+        if (koksma__max3(path->beta) * koksma__max3(ways[i].weight) > 0.001f) {
+            status = go_on(trace, path, s, &ways[i], 1);
+        }
+    }
+    return status;
+}
+
+static koksma_status scatter(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s)
+{
+    const koksma__rules *rules = trace->frame->rules;
+    const unsigned lobes = rules->followed & s->substance->lobes;
+    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
+    const float *us, *choices, *ends;
+    koksma__scatter ways[2];
+    if (!lobes || trace->bounce >= trace->frame->depth) {
+        return KOKSMA_OK;
+    }
+    if (rules->branches && koksma__dielectric_split(s, &ways[0], &ways[1])) {
+        return branch(trace, path, s, ways);
+    }
+    koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE, &us);
+    status = status ? status : koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &choices);
+    if (status || !koksma__material_rules_of(s->substance->kind)
+                       ->sample(s, lobes, us + 2 * path->sample, choices[2 * path->sample], &ways[0])) {
+        return status;
+    }
+    float chance = 1;
+    if (rules->roulette && trace->bounce >= 4) {
+        float beta[3];
+        for (int k = 0; k < 3; k++) {
+            beta[k] = path->beta[k] * ways[0].weight[k];
+        }
+        const float weight = koksma__max3(beta);
+        if (weight < 1) { /* a path that has lost nothing goes on: ending it would only add variance */
+            chance = weight;
+            status = koksma__tracer_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
+            if (status || !(ends[2 * path->sample] < chance)) {
+                return status;
+            }
+        }
+    }
+    return go_on(trace, path, s, &ways[0], 1 / chance);
+}
+
+/* ---- One block -------------------------------------------------------------------------------------------- */
+
+static koksma_status add_local(const koksma__frame *frame, const koksma__path *path, const koksma__surface *s,
+                               float *sum)
+{
+    float light[3] = {0, 0, 0};
+    koksma_status status = KOKSMA_OK;
+    if (frame->rules->ambient) {
+        for (int k = 0; k < 3; k++) {
+            light[k] = (float)frame->scene->ambient[k];
+        }
+    }
+    if (frame->rules->indirect && s->substance->lobes & KOKSMA__LOBE_DIFFUSE) {
+        status = frame->rules->indirect(frame, s, path->time, light);
+    }
+    for (int k = 0; k < 3; k++) {
+        light[k] *= s->albedo[k];
+    }
+    add_scaled(path->beta, light, 1, sum);
+    return status;
+}
+
+static koksma_status trace_block(const koksma__trace *trace, const koksma__path *paths, int n, koksma__values *values)
+{
+    const koksma__frame *frame = trace->frame;
+    const int whole = (int)koksma__whole_lanes((size_t)n);
+    koksma__rays rays;
+    koksma__hits hits;
+    koksma__vertices v = {.paths = paths, .hits = &hits, .n = n, .whole = whole};
+    KOKSMA__LANES(int32_t, from);
+    gather(paths, n, whole, &rays, from);
+    frame->geometry.closest(&frame->geometry, &rays, paths->from >= 0 || trace->bounce ? from : NULL, whole, &hits);
+    memcpy(hits.time, rays.time, sizeof hits.time);
+    values->rays += (uint64_t)n;
+    for (int i = 0; i < n; i++) {
+        const koksma__path *path = &paths[i];
+        float *sum = trace->room->sums + 3 * path->sample;
+        v.lit[i] = hits.primitive[i] >= 0 && hits.material[i] >= 0;
+        if (v.lit[i]) {
+            set_surface(frame, path, &hits, i, &v.surfaces[i]);
+            const koksma_status status = add_local(frame, path, &v.surfaces[i], sum);
+            if (status) {
+                return status;
+            }
+        } else if (hits.primitive[i] >= 0) {
+            add_luminaire(frame, path, &hits, i, sum);
+        } else {
+            add_miss(frame, path, sum);
+        }
+        if (values->albedo && trace->bounce == trace->first) {
+            note_first(values, path->sample, path, &hits, i, v.lit[i] ? &v.surfaces[i] : NULL);
+        }
+    }
+    koksma_status status = koksma__tracer_light(trace, &v, values);
+    for (int i = 0; !status && i < n; i++) {
+        if (v.lit[i]) {
+            status = scatter(trace, &paths[i], &v.surfaces[i]);
+        }
+    }
+    return status;
+}
+
+/* ---- One group -------------------------------------------------------------------------------------------- */
+
+static void hand_over(const koksma__frame *frame, const float *sums, size_t n, koksma__values *values)
+{
+    const float clamp = (float)frame->scene->clamp;
+    for (size_t i = 0; i < n; i++) {
+        for (int k = 0; k < frame->channels; k++) {
+            const float value = sums[3 * i + (size_t)k]; /* what is no number stays none */
+            values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
+        }
+    }
+}
+
+koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values)
+{
+    koksma__tracer_room *room = trace->room;
+    koksma_status status = KOKSMA_OK;
+    trace->first = trace->bounce;
+    for (int now = 0; !status && room->queues[now].n; now = 1 - now) {
+        const koksma__queue *queue = &room->queues[now];
+        trace->next = &room->queues[1 - now];
+        trace->next->n = 0;
+        for (size_t start = 0; !status && start < queue->n; start += KOKSMA__BLOCK) {
+            const size_t left = queue->n - start;
+            const int n = left < KOKSMA__BLOCK ? (int)left : KOKSMA__BLOCK;
+            status = trace_block(trace, queue->paths + start, n, values);
+        }
+        trace->bounce++;
+    }
+    return status;
+}
+
+/* Samples first .. end - 1 of the group, through all their bounces. */
+static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
+{
+    trace->room->queues[0].n = 0;
+    trace->bounce = 0;
+    const koksma_status status = start_paths(trace, values, first, end);
+    return status ? status : koksma__tracer_follow(trace, values);
+}
+
+static koksma_status trace_group(const koksma__frame *frame, void *opened, const koksma__group *group,
+                                 koksma__values *values)
+{
+    koksma__tracer_room *room = opened;
+    koksma__trace trace = {.frame = frame, .room = room, .group = group};
+    const size_t n = group->start[group->count];
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < room->n_drawn; i++) {
+        room->drawn[i].done = false;
+    }
+    memset(room->sums, 0, 3 * n * sizeof *room->sums);
+    for (size_t first = 0; !status && first < n; first += TOGETHER) {
+        status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
+    }
+    hand_over(frame, room->sums, n, values);
+    return status;
+}
+
+const koksma__pipeline koksma__tracer_pipeline = {
+    .open = koksma__tracer_open, .close = koksma__tracer_close, .trace = trace_group};

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What wavefront.c (paths) and wavefront_lights.c (luminaires at their vertices) share with wavefront_scratch.c. */
+#ifndef KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
+#define KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
+
+#include "render/frame.h"
+
+/* Pairs that a task may keep of all uses: 1 GiB. */
+#define KOKSMA__MAX_DRAWN ((size_t)1 << 27)
+
+/* A ray on its way, and what its light will count for its sample. */
+typedef struct koksma__path {
+    float o[3], d[3], beta[3];
+    float n[3]; /* of the surface that it leaves */
+    float
+        density; /* with which its way was chosen; 0: by a mirror, or from the eye; -1: it must not see luminaires */
+    float time;
+    int32_t from; /* the primitive that it starts on, or -1 */
+    uint32_t sample;
+} koksma__path;
+
+typedef struct koksma__queue {
+    koksma__path *paths;
+    size_t n, room;
+} koksma__queue;
+
+/* The pairs of a use, drawn for all samples of the group when the first of them needs it. */
+typedef struct koksma__drawn {
+    uint32_t use;
+    bool done;
+    float *pairs;
+} koksma__drawn;
+
+typedef struct koksma__tracer_room {
+    koksma__sample_room draw;
+    koksma__drawn *drawn;
+    size_t n_drawn, capacity;
+    koksma__queue queues[2];
+    float *sums; /* 3 a sample */
+} koksma__tracer_room;
+
+/* One group at one bounce. */
+typedef struct koksma__trace {
+    const koksma__frame *frame;
+    koksma__tracer_room *room;
+    const koksma__group *group;
+    koksma__queue *next;
+    int bounce, first; /* the bounce at which paths started: 0 at the eye */
+} koksma__trace;
+
+/* A block of vertices; those that are lit have a surface. */
+typedef struct koksma__vertices {
+    const koksma__path *paths;
+    const koksma__hits *hits;
+    koksma__surface surfaces[KOKSMA__BLOCK];
+    bool lit[KOKSMA__BLOCK];
+    int n, whole;
+} koksma__vertices;
+
+koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, void **out);
+void koksma__tracer_close(void *opened);
+
+koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path);
+
+/* The pairs of a use: pair i is sample i's. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
+koksma_status koksma__tracer_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
+
+/* Follows the paths that are in the first queue, at trace->bounce, to their ends; their light is added to the sums of
+   their samples. */
+koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values);
+
+/* Adds the light of the luminaires at the vertices to the sums of their samples. */
+koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
+
+/* The chance that luminaire `lamp` is among those that a vertex at p with normal n samples. */
+float koksma__lamp_chance(const koksma__frame *frame, const float p[3], const float n[3], int lamp);
+
+#endif

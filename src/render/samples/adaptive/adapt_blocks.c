@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * blocks: whole blocks of the image go on or stop together (Dammertz, Hanika, Keller & Lensch 2010). I is the mean of
+ * all sets of a pixel, A that of every other one; the error of a block of N pixels, out of an image of M, is
+ *
+ *     e = sqrt(N / M) / N  sum over its pixels of  |I - A| / sqrt(I)     (absolute values and I summed over channels)
+ *
+ * A block stops when e is below the threshold; below 256 times the threshold it is cut across its longer side, where
+ * the errors of the two parts are nearest, while parts of `side` pixels are possible. Without a threshold every block
+ * is cut after each round in which it was served, and the budget goes to those with the largest error a pixel.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "render/samples/adaptive/adaptive.h"
+
+enum { SIDE = KOKSMA__SETS_THRESHOLD + 1 };
+
+static const koksma_param params[] = {
+    KOKSMA__SETS_PARAMS(2, 2),
+    {"threshold", "error of a block; 0: none, the budget decides", 0, 0, 1e6, NULL, false},
+    {"side", "of a block in pixels, at least", 8, 1, 65536, NULL, true},
+    {0},
+};
+
+typedef struct block {
+    int x, y, width, height;
+    uint32_t sets; /* of its first pixel when it was cut out */
+    bool stopped;
+} block;
+
+typedef struct blocks {
+    size_t n;
+    block list[];
+} blocks;
+
+static koksma_status open(koksma__adaptive *run)
+{
+    koksma_status status = koksma__sets_open(run);
+    if (status) {
+        return status;
+    }
+    const koksma_render_options *options = run->frame->options;
+    blocks *b = malloc(sizeof *b + run->pixels * sizeof *b->list);
+    run->extra = b;
+    if (!b) {
+        return koksma__fail_memory(sizeof *b + run->pixels * sizeof *b->list);
+    }
+    b->n = 1;
+    b->list[0] = (block){.width = options->width, .height = options->height};
+    return KOKSMA_OK;
+}
+
+static size_t pixel_at(const koksma__adaptive *run, int x, int y)
+{
+    return (size_t)y * (size_t)run->frame->options->width + (size_t)x;
+}
+
+static double pixel_error(const koksma__adaptive *run, int x, int y)
+{
+    const koksma__pixel_sets *p = koksma__sets_of(run, pixel_at(run, x, y));
+    const double n = (double)koksma__set_size(run), all = n * p->sets, half = n * ((p->sets + 1) / 2);
+    double sum = 0, off = 0;
+    for (int k = 0; k < run->frame->channels; k++) {
+        sum += p->all[k] / all;
+        off += p->lo[k] < p->hi[k] ? fabs(p->all[k] / all - p->half[k] / half) : 0;
+    }
+    return off > 0 ? off / sqrt(fmax(sum, 1e-6)) : 0;
+}
+
+/* Of the pixels of a part of a block. */
+static double sum_errors(const koksma__adaptive *run, int x, int y, int width, int height)
+{
+    double sum = 0;
+    for (int j = y; j < y + height; j++) {
+        for (int i = x; i < x + width; i++) {
+            sum += pixel_error(run, i, j);
+        }
+    }
+    return sum;
+}
+
+/* Cuts block b, if it can be; the second part is appended. */
+static void cut(koksma__adaptive *run, size_t b, double total)
+{
+    blocks *all = run->extra;
+    block *first = &all->list[b], *second = &all->list[all->n];
+    const int side = (int)run->options->params[SIDE];
+    const bool wide = first->width >= first->height;
+    const int length = wide ? first->width : first->height;
+    double before = 0;
+    int at = 0;
+    if (length < 2 * side) {
+        return;
+    }
+    while (at < length - side && (at < side || 2 * before < total)) {
+        before += wide ? sum_errors(run, first->x + at, first->y, 1, first->height)
+                       : sum_errors(run, first->x, first->y + at, first->width, 1);
+        at++;
+    }
+    *second = *first;
+    if (wide) {
+        first->width = at;
+        second->x += at;
+        second->width -= at;
+    } else {
+        first->height = at;
+        second->y += at;
+        second->height -= at;
+    }
+    first->sets = koksma__sets_of(run, pixel_at(run, first->x, first->y))->sets;
+    second->sets = koksma__sets_of(run, pixel_at(run, second->x, second->y))->sets;
+    all->n++;
+}
+
+static void ask_for(koksma__adaptive *run, const block *b, double score)
+{
+    for (int y = b->y; y < b->y + b->height; y++) {
+        for (int x = b->x; x < b->x + b->width; x++) {
+            const size_t pixel = pixel_at(run, x, y);
+            run->asks[pixel] = (koksma__ask){0};
+            if (!b->stopped && score > 0) {
+                koksma__sets_ask(run, pixel, 1, score, &run->asks[pixel]);
+            }
+        }
+    }
+}
+
+static void plan(koksma__adaptive *run)
+{
+    blocks *all = run->extra;
+    const double threshold = run->options->params[KOKSMA__SETS_THRESHOLD];
+    const size_t n = all->n;
+    for (size_t i = 0; i < n; i++) {
+        block *b = &all->list[i];
+        const double pixels = (double)b->width * b->height;
+        const double total = b->stopped ? 0 : sum_errors(run, b->x, b->y, b->width, b->height);
+        const double error = sqrt(pixels / (double)run->pixels) * total / pixels;
+        const bool served = koksma__sets_of(run, pixel_at(run, b->x, b->y))->sets > b->sets;
+        b->stopped |= !(error > threshold);
+        if (!b->stopped && served && (threshold == 0 || error < 256 * threshold)) {
+            cut(run, i, total);
+        }
+    }
+    for (size_t i = 0; i < all->n; i++) {
+        const block *b = &all->list[i];
+        const double pixels = (double)b->width * b->height;
+        ask_for(run, b, b->stopped ? 0 : sum_errors(run, b->x, b->y, b->width, b->height) / pixels);
+    }
+}
+
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+{
+    (void)run; /* plan does */
+    (void)pixel;
+    (void)scratch;
+    (void)ask;
+}
+
+static const koksma__adaptive_rules rules = {.open = open,
+                                             .close = koksma__sets_close,
+                                             .draw = koksma__sets_draw,
+                                             .take = koksma__sets_take,
+                                             .decide = decide,
+                                             .plan = plan,
+                                             .result = koksma__sets_result};
+
+const koksma_adaptive koksma__adaptive_blocks = {
+    .name = "blocks",
+    .title = "blocks of the image stop when two halves of their samples agree",
+    .cite = "dammertz2010",
+    .params = params,
+    .rules = &rules,
+};

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * confidence: more while the samples leave too much doubt of the pixel's luminance. With n samples of variance s^2,
+ *
+ *     test=t      the half width of the mean's interval: t_(n-1),(1+level)/2  s / sqrt(n)   (Purgathofer 1987)
+ *     test=chi2   the upper confidence bound of the mean's standard error (Lee, Redner & Uselton 1985):
+ *                 sqrt((n - 1) s^2 / chi2_(n-1),(1-level) / n)
+ *
+ * is above the threshold. Both suppose independent samples of a normal law; stratified samples err less than they
+ * say.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "stats/quantiles.h"
+
+enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
+enum { FACTORS = 1024 }; /* for 1 .. FACTORS sets; beyond, where they hardly change, the last one serves */
+
+static const char *const tests[] = {"t", "chi2", NULL};
+static const koksma_param params[] = {
+    KOKSMA__SETS_PARAMS(1, 1),
+    {"threshold", "luminance; 0: none, the budget decides", 0, 0, 1e6, NULL, false},
+    {"test", "of the mean's interval, or of the bound of its variance", 0, 0, 1, tests, true},
+    {"level", "of confidence", 0.9, 0.5, 0.9999, NULL, false},
+    {0},
+};
+
+/* What s / sqrt(n) is multiplied with, n samples. */
+static double factor(const koksma__adaptive *run, double n)
+{
+    const double level = run->options->params[LEVEL];
+    if (run->options->params[TEST] > 0) {
+        return sqrt((n - 1) / koksma__chi_squared_quantile(1 - level, n - 1));
+    }
+    return koksma__student_quantile(0.5 * (1 + level), n - 1);
+}
+
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+{
+    const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
+    const double n = (double)p->sets * (double)koksma__set_size(run);
+    const double error = sqrt(koksma__sets_variance(run, p) / n);
+    (void)scratch;
+    const double *factors = run->extra;
+    const double doubt = error * factors[p->sets < FACTORS ? p->sets : FACTORS];
+    if (doubt > run->options->params[KOKSMA__SETS_THRESHOLD]) {
+        koksma__sets_ask(run, pixel, 1, doubt, ask);
+    }
+}
+
+static koksma_status open(koksma__adaptive *run)
+{
+    const koksma_status status = koksma__sets_open(run);
+    if (!status && run->asks[0].now < 2) {
+        return koksma__fail(KOKSMA_N, "confidence: 2 samples are needed at first: a larger spp, or first=2");
+    }
+    double *factors = status ? NULL : malloc((FACTORS + 1) * sizeof *factors);
+    run->extra = factors;
+    if (!status && !factors) {
+        return koksma__fail_memory((FACTORS + 1) * sizeof *factors);
+    }
+    const double most = run->options->params[KOKSMA__SETS_MOST];
+    for (int k = 1; !status && k <= FACTORS && k <= most; k++) {
+        const double n = (double)koksma__set_size(run) * k;
+        factors[k] = n > 1 ? factor(run, n) : 0;
+    }
+    return status;
+}
+
+static const koksma__adaptive_rules rules = {.open = open,
+                                             .close = koksma__sets_close,
+                                             .draw = koksma__sets_draw,
+                                             .take = koksma__sets_take,
+                                             .decide = decide,
+                                             .result = koksma__sets_result};
+
+const koksma_adaptive koksma__adaptive_confidence = {
+    .name = "confidence",
+    .title = "more until a confidence interval is narrow",
+    .cite = "lee1985 purgathofer1987",
+    .params = params,
+    .rules = &rules,
+};

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * hierarchical: strata are split where neighbours differ (Kajiya 1986), in all uses together (Shirley 1991, section
+ * 5.6). With pairing=aligned neighbours in the pixel are neighbours in every use; with pairing=shuffled they are not,
+ * and strata are split because of uses in which they lie far apart (figure 5.36).
+ * Known: where nothing varies nothing is split. The estimate is biased, because the values that decide are counted;
+ * with reuse=fresh, and phase=shifted or folded when aligned, it is not.
+ */
+#include "render/samples/adaptive/adaptive_strata.h"
+
+enum { PAIRING = KOKSMA__STRATA_REUSE + 1, PHASE };
+
+static const char *const pairings[] = {"aligned", "shuffled", NULL};
+static const char *const phases[] = {
+    [KOKSMA__PHASE_FIXED] = "fixed", [KOKSMA__PHASE_SHIFTED] = "shifted", [KOKSMA__PHASE_FOLDED] = "folded", NULL};
+
+static const koksma_param params[] = {
+    KOKSMA__STRATA_PARAMS,
+    {"pairing", "of the uses' strata", 0, 0, 1, pairings, true},
+    {"phase", "of the other uses' squares when aligned", KOKSMA__PHASE_FIXED, 0, 2, phases, true},
+    {0},
+};
+
+static koksma_status open(koksma__adaptive *run)
+{
+    const koksma_status status = koksma__strata_open(run);
+    koksma__strata *s = run->state;
+    if (s) {
+        s->shuffled = run->options->params[PAIRING] > 0;
+        s->phase = (int)run->options->params[PHASE];
+    }
+    return status;
+}
+
+static const koksma__adaptive_rules rules = {.open = open,
+                                             .close = koksma__strata_close,
+                                             .serve = koksma__strata_serve,
+                                             .draw = koksma__strata_draw,
+                                             .take = koksma__strata_take,
+                                             .decide = koksma__strata_decide,
+                                             .last = koksma__strata_last,
+                                             .probes = koksma__strata_probes,
+                                             .result = koksma__strata_result,
+                                             .show = koksma__strata_show};
+
+const koksma_adaptive koksma__adaptive_hierarchical = {
+    .name = "hierarchical",
+    .title = "strata that differ from a neighbour are split, in all uses together",
+    .cite = "kajiya1986 shirley1991",
+    .params = params,
+    .own_samples = true,
+    .rules = &rules,
+};

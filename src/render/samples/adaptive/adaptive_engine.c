@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The rounds: who is served, their samples through the pipeline, their values to the method, and the picture. */
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "render/film.h"
+#include "render/samples/adaptive/adaptive_strata.h"
+
+enum { PIXELS_A_TASK = 128 };
+
+typedef struct job {
+    koksma__adaptive *run;
+    koksma__frame frame; /* with the sampler of rounds */
+    const koksma__pipeline *pipeline;
+    koksma_layers *layers;
+    bool first; /* round: its albedo, normal and depth are kept */
+    size_t capacity;
+    atomic_ullong rays;
+} job;
+
+typedef struct room {
+    koksma__workroom pixels;
+    void *scratch;
+} room;
+
+/* ---- The sampler of rounds -------------------------------------------------------------------------------- */
+
+static size_t count(const koksma__sampler *sampler, uint64_t pixel)
+{
+    const koksma__adaptive *run = sampler->made;
+    if (!run->asks[pixel].served) {
+        return 0;
+    }
+    return run->probing ? run->rules->probes(run, pixel) : run->asks[pixel].now;
+}
+
+static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
+                          koksma__sample_room *room_for, float *pairs)
+{
+    const koksma__adaptive *run = sampler->made;
+    return count(sampler, pixel) ? run->rules->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
+}
+
+/* ---- One task of a round ---------------------------------------------------------------------------------- */
+
+static void keep_layers(const job *j, const koksma__values *v, size_t pixel, size_t first, size_t end)
+{
+    double sums[7] = {0};
+    size_t hits = 0;
+    for (size_t i = first; i < end; i++) {
+        for (size_t k = 0; k < 3; k++) {
+            sums[k] += (double)v->albedo[3 * i + k];
+            sums[3 + k] += (double)v->normal[3 * i + k];
+        }
+        sums[6] += (double)v->depth[i];
+        hits += v->depth[i] > 0;
+    }
+    for (size_t k = 0; k < 3; k++) {
+        j->layers->albedo.pixels[3 * pixel + k] = (float)(sums[k] / (double)(end - first));
+        j->layers->normal.pixels[3 * pixel + k] = (float)(sums[3 + k] / (double)(end - first));
+    }
+    j->layers->depth.pixels[pixel] = hits ? (float)(sums[6] / (double)hits) : 0;
+}
+
+/* Values of a pixel to the method, and what it wants next. */
+static void hand_over(const job *j, room *r, const koksma__group *group, size_t p)
+{
+    koksma__adaptive *run = j->run;
+    const size_t pixel = group->first + p, first = group->start[p], end = group->start[p + 1];
+    const size_t channels = (size_t)j->frame.channels;
+    koksma__ask ask = {0};
+    const float *weights = j->frame.filter ? r->pixels.values.weights + first : NULL;
+    run->rules->take(run, pixel, r->pixels.values.rgb + channels * first, weights);
+    if (run->probing) {
+        return;
+    }
+    if (j->first) {
+        keep_layers(j, &r->pixels.values, pixel, first, end);
+    }
+    run->taken[pixel] += (uint32_t)(end - first);
+    run->rules->decide(run, pixel, r->scratch, &ask);
+    run->asks[pixel] = ask;
+}
+
+static koksma_status render_group(const job *j, room *r, const koksma__group *group)
+{
+    const koksma__frame *f = &j->frame;
+    if (!group->start[group->count]) {
+        return KOKSMA_OK;
+    }
+    koksma_status status =
+        koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
+    if (!status) {
+        koksma__film_place(f, group, false, &r->pixels.values);
+        status = j->pipeline->trace(f, r->pixels.own, group, &r->pixels.values);
+    }
+    for (size_t p = 0; !status && p < group->count; p++) {
+        if (group->start[p] < group->start[p + 1]) {
+            hand_over(j, r, group, p);
+        }
+    }
+    return status;
+}
+
+static koksma_status render_task(void *context, size_t task)
+{
+    job *j = context;
+    koksma__adaptive *run = j->run;
+    const size_t first = task * PIXELS_A_TASK;
+    const size_t end = first + PIXELS_A_TASK < run->pixels ? first + PIXELS_A_TASK : run->pixels;
+    koksma_status status = KOKSMA_OK;
+    size_t served = 0;
+    for (size_t pixel = first; !status && pixel < end; pixel++) {
+        served += run->asks[pixel].served;
+        if (run->asks[pixel].served && !run->probing && run->rules->serve) {
+            status = run->rules->serve(run, pixel);
+        }
+    }
+    if (status || !served) {
+        return status;
+    }
+    room r = {.scratch = malloc(run->scratch + 1)};
+    koksma__group group;
+    status = koksma__workroom_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
+    if (!status && !r.scratch) {
+        status = koksma__fail_memory(run->scratch + 1);
+    }
+    for (size_t pixel = first; !status && pixel < end; pixel += group.count) {
+        koksma__group_fill(&j->frame, pixel, end, &group);
+        status = render_group(j, &r, &group);
+    }
+    if (!run->probing) {
+        atomic_fetch_add(&j->rays, r.pixels.values.rays);
+    }
+    koksma__workroom_fini(&r.pixels);
+    free(r.scratch);
+    return status;
+}
+
+/* ---- Rounds ----------------------------------------------------------------------------------------------- */
+
+static koksma_status render_round(job *j, const koksma_run *how)
+{
+    koksma__adaptive *run = j->run;
+    size_t most = (size_t)j->frame.options->spp;
+    for (size_t p = 0; p < run->pixels; p++) {
+        const size_t n = run->asks[p].served ? run->taken[p] + count(&j->frame.sampler, p) : 0;
+        most = n > most ? n : most; /* a continued sequence is drawn from its start */
+    }
+    j->frame.sampler.most = most;
+    j->capacity = koksma__whole_lanes(most < KOKSMA__BLOCK ? KOKSMA__BLOCK : most);
+    return koksma__parallel(how, (run->pixels + PIXELS_A_TASK - 1) / PIXELS_A_TASK, render_task, j);
+}
+
+static koksma_status render_rounds(job *j, const koksma_run *how)
+{
+    koksma__adaptive *run = j->run;
+    size_t served = 0;
+    bool last = false;
+    j->first = true;
+    koksma_status status = render_round(j, how);
+    j->first = false;
+    for (; !status; run->report.rounds++) {
+        if (run->rules->plan && !last) {
+            run->rules->plan(run);
+        }
+        status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &served);
+        if (status || (!served && (last || !run->rules->last))) {
+            return status;
+        }
+        if (!served) {
+            last = true;
+            run->rules->last(run);
+        }
+        if (run->rules->probes && run->options->probes && !last) {
+            run->probing = true;
+            status = render_round(j, how);
+            run->probing = false;
+        }
+        status = status ? status : render_round(j, how);
+        if (last) {
+            run->report.rounds++;
+            return status;
+        }
+    }
+    return status;
+}
+
+static void write_results(const job *j)
+{
+    koksma__adaptive *run = j->run;
+    const size_t channels = (size_t)j->frame.channels;
+    for (size_t p = 0; p < run->pixels; p++) {
+        double rgb[3] = {0, 0, 0}, variance = 0;
+        if (run->taken[p]) {
+            variance = run->rules->result(run, p, rgb);
+        }
+        for (size_t k = 0; k < channels; k++) {
+            j->layers->image.pixels[channels * p + k] = (float)rgb[k];
+        }
+        j->layers->variance.pixels[p] = (float)variance;
+        j->layers->samples.pixels[p] = (float)run->taken[p];
+        run->report.samples += run->taken[p];
+    }
+    j->layers->rays = atomic_load(&j->rays);
+}
+
+/* ---- The public function ---------------------------------------------------------------------------------- */
+
+static koksma_status check(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+{
+    if (!adaptive->method) {
+        return koksma__fail(KOKSMA_ARGUMENT, "adaptive sampling takes a method");
+    }
+    const char *name = adaptive->method->name;
+    const koksma_param *params = adaptive->method->params;
+    for (int i = 0; params && params[i].name; i++) {
+        if (!(adaptive->params[i] >= params[i].min && adaptive->params[i] <= params[i].max)) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.9g: it takes %.9g to %.9g", name, params[i].name,
+                                adaptive->params[i], params[i].min, params[i].max);
+        }
+    }
+    if (options->splat || options->scope == KOKSMA_SCOPE_IMAGE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive sampling keeps samples in their pixels, without %s", name,
+                            options->splat ? "splatting" : "scope image");
+    }
+    for (int g = 0; adaptive->method->own_samples && g < KOKSMA_MAX_USE_GROUPS; g++) {
+        if (options->groups[g].n_uses) {
+            char group[KOKSMA_MAX_SPEC];
+            koksma_use_group_text(&options->groups[g], group);
+            return koksma__fail(
+                KOKSMA_ARGUMENT,
+                "%s: it draws from strata of its own, without a pattern for %s; methods that draw sets "
+                "of the pattern take one, such as two-stage",
+                name, group);
+        }
+    }
+    if (!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget,
+                            KOKSMA_MAX_SPP);
+    }
+    if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
+        return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
+    }
+    const koksma__adaptive_rules *rules = adaptive->method->rules;
+    if (adaptive->probes && !rules->probes) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to probe", name);
+    }
+    const koksma_strata *strata = adaptive->strata;
+    if (strata && !rules->show) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
+    }
+    if (strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "pixel %d,%d is outside of %d x %d pixels", strata->x, strata->y,
+                            options->width, options->height);
+    }
+    return KOKSMA_OK;
+}
+
+/* What the first round costs is spent whatever the budget is; the budget must have it. */
+static koksma_status open_run(koksma__adaptive *run)
+{
+    run->asks = calloc(run->pixels, sizeof *run->asks);
+    run->taken = calloc(run->pixels, sizeof *run->taken);
+    if (!run->asks || !run->taken) {
+        return koksma__fail_memory(run->pixels * sizeof *run->asks);
+    }
+    const koksma_status status = run->rules->open(run);
+    for (size_t p = 0; !status && p < run->pixels; p++) {
+        run->asks[p].served = true;
+        run->spent += (uint64_t)run->asks[p].now + run->asks[p].later;
+        run->report.first += run->asks[p].now;
+    }
+    if (!status && run->spent > run->budget) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: a budget of %.9g samples a pixel: the first round takes %.9g",
+                            run->options->method->name, run->options->budget,
+                            (double)run->spent / (double)run->pixels);
+    }
+    return status;
+}
+
+uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
+{
+    const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
+    const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
+    const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
+    return pixels * (sizeof(koksma__ask) + sizeof(uint32_t) + state);
+}
+
+static koksma_status open_layers(const koksma__frame *frame, koksma_layers *out)
+{
+    koksma__film film;
+    const koksma_status status = koksma__film_init(frame, true, 1, out, &film);
+    koksma__film_fini(&film);
+    return status;
+}
+
+koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_render_options *options,
+                                     const koksma_adaptive_options *adaptive, const koksma_run *how,
+                                     koksma_layers *out, koksma_adaptive_report *report)
+{
+    *out = (koksma_layers){0};
+    koksma_status status = check(options, adaptive);
+    if (status) {
+        return status;
+    }
+    koksma__adaptive run = {.options = adaptive, .rules = adaptive->method->rules, .budget = UINT64_MAX};
+    job j = {.run = &run, .layers = out};
+    status = koksma__frame_open(scene, options, how, &j.frame);
+    if (!status) {
+        run.frame = &j.frame;
+        run.pixels = (size_t)options->width * (size_t)options->height;
+        run.base = j.frame.sampler;
+        run.budget = adaptive->budget > 0 ? (uint64_t)(adaptive->budget * (double)run.pixels) : UINT64_MAX;
+        j.frame.sampler = (koksma__sampler){.made = &run,
+                                            .kept_dim = run.base.kept_dim,
+                                            .kept_sets = run.base.kept_sets,
+                                            .kept_slots = run.base.kept_slots,
+                                            .count = count,
+                                            .draw = draw};
+        j.pipeline = koksma__direct_can(&j.frame) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
+        status = open_run(&run);
+        status = status ? status : open_layers(&j.frame, out);
+        status = status ? status : render_rounds(&j, how);
+        if (!status || status == KOKSMA_INTERRUPTED) {
+            write_results(&j);
+        }
+        if (!status && adaptive->strata) {
+            const koksma_strata *strata = adaptive->strata;
+            status = run.rules->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
+                                     adaptive->strata);
+        }
+        run.rules->close(&run);
+        j.frame.sampler = run.base;
+    }
+    koksma__frame_close(&j.frame);
+    free(run.extra);
+    free(run.asks);
+    free(run.taken);
+    if (status && status != KOKSMA_INTERRUPTED) {
+        koksma_layers_fini(out);
+        *out = (koksma_layers){0};
+    }
+    if (report) {
+        *report = run.report;
+    }
+    return status;
+}

@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Samples in sets of the pattern, spp in each. Set k of a pixel is drawn as if it were of another pixel; or, when the
+ * pattern is a sequence and the method allows it, the sets are the blocks of one sequence, so that whatever a pixel
+ * stops at it has a prefix of it. A group of uses has sets of its own, whatever its pattern.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "render/samples/adaptive/adaptive.h"
+#include "render/vector3.h"
+
+enum { LANE_CONTINUED = 1 << 21 }; /* above the uses and the lane of pairings: keys of the shuffles */
+
+/* ---- Open and close --------------------------------------------------------------------------------------- */
+
+static bool continues(const koksma__adaptive *run, int u)
+{
+    const koksma_render_options *options = run->frame->options;
+    const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
+    return !run->rules->fresh && koksma__place_of_use_at(options, u).group < 0 &&
+           spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE && spec->pattern->max_dim >= 2 &&
+           options->pairing != KOKSMA_PAIRING_NATIVE;
+}
+
+/* Whether two seeds give the same points: what a pattern claims depends on its parameters. */
+static koksma_status compare_sets(const koksma_spec *spec, size_t n, int dim, bool *same)
+{
+    koksma_points one = {0}, two = {0};
+    koksma_status status = koksma_points_init(&one, n, dim);
+    status = status ? status : koksma_points_init(&two, n, dim);
+    status = status ? status : koksma_generate(spec, 1, NULL, &one);
+    status = status ? status : koksma_generate(spec, 2, NULL, &two);
+    *same = !status && !memcmp(one.xs, two.xs, n * (size_t)dim * sizeof *one.xs);
+    koksma_points_fini(&one);
+    koksma_points_fini(&two);
+    return status;
+}
+
+/* A second set must be another one. */
+static koksma_status check_patterns(const koksma__adaptive *run)
+{
+    const koksma_render_options *options = run->frame->options;
+    koksma_status status = KOKSMA_OK;
+    bool seen = false; /* the pattern of the uses that have none of their own */
+    for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
+        const koksma__place_of_use place = koksma__place_of_use_at(options, u);
+        const bool own = place.group >= 0 || options->patterns[u].pattern;
+        const koksma_spec *spec = place.group >= 0 ? &options->groups[place.group].pattern
+                                  : own            ? &options->patterns[u]
+                                                   : &options->pattern;
+        const koksma_pattern *p = spec->pattern;
+        const int dim = place.group >= 0 ? place.dim : 2;
+        bool same = false;
+        if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, u)) {
+            continue; /* the sets of a sequence are different */
+        }
+        seen |= !own;
+        if (p->min_dim <= dim && p->max_dim >= dim) {
+            status = compare_sets(spec, (size_t)options->spp, dim, &same);
+        }
+        if (same) {
+            return koksma__fail(KOKSMA_ARGUMENT,
+                                "%s: every set of pattern %s is the same; with shift=1 they would differ",
+                                run->options->method->name, p->name);
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__sets_open(koksma__adaptive *run)
+{
+    const double *params = run->options->params;
+    const char *name = run->options->method->name;
+    const double first = params[KOKSMA__SETS_FIRST], most = params[KOKSMA__SETS_MOST];
+    const double samples = (double)run->frame->options->spp * (first + most);
+    koksma_status status = check_patterns(run);
+    if (status) {
+        return status;
+    }
+    if (most < first || samples > KOKSMA_MAX_SPP) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "%s: first=%.0f and most=%.0f sets of %d samples: it takes first to most, and %d samples",
+                            name, first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
+    }
+    if (!run->options->budget && !(params[KOKSMA__SETS_THRESHOLD] > 0)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a threshold, or a budget, or both", name);
+    }
+    run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
+    if (!run->state) {
+        return koksma__fail_memory(run->pixels * sizeof(koksma__pixel_sets));
+    }
+    for (size_t p = 0; p < run->pixels; p++) {
+        const uint32_t n = (uint32_t)(first * run->frame->options->spp);
+        run->asks[p] = (koksma__ask){.now = n, .later = run->rules->pilot ? (uint32_t)run->frame->options->spp : 0};
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__sets_close(koksma__adaptive *run)
+{
+    free(run->state);
+}
+
+koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel)
+{
+    return (koksma__pixel_sets *)run->state + pixel;
+}
+
+size_t koksma__set_size(const koksma__adaptive *run)
+{
+    return (size_t)run->frame->options->spp;
+}
+
+/* ---- Samples ---------------------------------------------------------------------------------------------- */
+
+/* Sets first .. first + count - 1 as blocks of one sequence in two dimensions, each shuffled in itself. */
+static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
+                                 koksma__sample_room *room, float *pairs)
+{
+    static const koksma_run alone = {.threads = 1};
+    static const float none[2] = {0, 0};
+    const koksma_render_options *options = run->frame->options;
+    const size_t n = koksma__set_size(run);
+    koksma_points points = {(first + count) * n, 2, room->xs};
+    const koksma_status status = koksma_generate(koksma__use_spec(options, use),
+                                                 koksma__random_seed(options->seed, pixel, use), &alone, &points);
+    if (status) {
+        return status;
+    }
+    for (size_t k = first; k < first + count; k++, pairs += 2 * n) {
+        const bool shuffles = options->pairing == KOKSMA_PAIRING_SHUFFLED && use != KOKSMA__USE_PIXEL;
+        run->frame->batch->place(room->xs + 2 * k * n, n, none, shuffles ? room->pairs : pairs);
+        if (shuffles) {
+            koksma__kernels()->words(options->seed, KOKSMA__PURPOSE_SHUFFLE,
+                                     (pixel + k * run->pixels) * ((n + 3) / 4), LANE_CONTINUED + use, (n + 3) / 4,
+                                     room->words);
+            run->frame->batch->shuffle(room->pairs, room->words, n, pairs);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
+                                koksma__sample_room *room, float *pairs)
+{
+    const size_t n = koksma__set_size(run), samples = run->asks[pixel].now;
+    const size_t first = koksma__sets_of(run, pixel)->drawn;
+    koksma_status status = KOKSMA_OK;
+    if (!continues(run, koksma__use_index(use))) {
+        for (size_t k = 0; !status && k < samples / n; k++) {
+            status =
+                run->base.draw(&run->base, pixel + (first + k) * run->pixels, use, offset, room, pairs + 2 * k * n);
+        }
+        return status;
+    }
+    status = draw_blocks(run, pixel, use, first, samples / n, room, pairs);
+    for (size_t i = 0; !status && i < samples; i++) {
+        pairs[2 * i] += offset[0];
+        pairs[2 * i + 1] += offset[1];
+    }
+    return status;
+}
+
+static float luminance(size_t channels, const float *rgb)
+{
+    return channels == 1 ? rgb[0] : koksma__luminance3(rgb);
+}
+
+static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const float *rgb, const float *weights)
+{
+    double sum_y = 0;
+    if (!p->sets) {
+        p->origin = luminance(channels, rgb);
+    }
+    for (size_t i = 0; i < n; i++, rgb += channels) {
+        const double l = (double)luminance(channels, rgb), y = l - (double)p->origin;
+        const double weight = weights ? (double)weights[i] : 1;
+        for (size_t k = 0; k < channels; k++) {
+            const bool none = !p->sets && !i;
+            p->lo[k] = none || rgb[k] < p->lo[k] ? rgb[k] : p->lo[k];
+            p->hi[k] = none || rgb[k] > p->hi[k] ? rgb[k] : p->hi[k];
+            p->sum[k] += weight * (double)rgb[k];
+            p->all[k] += (double)rgb[k];
+            p->half[k] += p->sets % 2 ? 0 : (double)rgb[k];
+        }
+        sum_y += y;
+        p->sum_yy += y * y;
+        p->sum_w3 += weight * weight * weight;
+        for (int j = 0; j < 3; j++) {
+            const double power = j == 2 ? weight * weight : j ? weight : 1;
+            p->moments[j][0] += power;
+            p->moments[j][1] += power * y;
+            p->moments[j][2] += power * y * y;
+        }
+    }
+    p->sum_y += sum_y;
+    p->sum_mean_square += sum_y * sum_y / ((double)n * (double)n);
+    p->sets++;
+    p->drawn++;
+}
+
+void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+{
+    const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
+    for (size_t k = 0; k < run->asks[pixel].now / n; k++) {
+        take_set(koksma__sets_of(run, pixel), n, channels, rgb + k * n * channels, weights ? weights + k * n : NULL);
+    }
+}
+
+void koksma__sets_ask(const koksma__adaptive *run, size_t pixel, double sets, double score, koksma__ask *ask)
+{
+    const double left = run->options->params[KOKSMA__SETS_MOST] - koksma__sets_of(run, pixel)->sets;
+    const double more = sets < left ? sets : left;
+    *ask = (koksma__ask){.now = (uint32_t)(more * (double)koksma__set_size(run)), .score = (float)score};
+}
+
+/* ---- What they say ---------------------------------------------------------------------------------------- */
+
+static double samples_of(const koksma__adaptive *run, const koksma__pixel_sets *p)
+{
+    return (double)p->sets * (double)koksma__set_size(run);
+}
+
+double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p)
+{
+    return (double)p->origin + p->sum_y / samples_of(run, p);
+}
+
+static double variance(double sum, double squares, double n)
+{
+    return n > 1 ? fmax(squares - sum * sum / n, 0) / (n - 1) : 0;
+}
+
+double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p)
+{
+    return variance(p->sum_y, p->sum_yy, samples_of(run, p));
+}
+
+double koksma__sets_standard_error(const koksma__adaptive *run, const koksma__pixel_sets *p)
+{
+    const double k = p->sets, mean = p->sum_y / samples_of(run, p);
+    return k > 1 ? sqrt(fmax(p->sum_mean_square - k * mean * mean, 0) / ((k - 1) * k)) : 0;
+}
+
+/* The value and the variance of film.c for a filter with negative lobes: sample i has the weight v_i = a w_i + b in
+   the pixel, and the sums of v^j y^k follow from those of w^j y^k. */
+static double signed_result(const koksma__pixel_sets *p, double n, double rgb[3])
+{
+    const double(*m)[3] = p->moments, mean_w = m[1][0] / n, a = n > 1 ? 1 / (n - 1) : 0, b = 1 / n - a * mean_w;
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = a * p->sum[k] + b * p->all[k];
+    }
+    double of[3]; /* sums of v^2 y^k */
+    for (int k = 0; k < 3; k++) {
+        of[k] = a * a * m[2][k] + 2 * a * b * m[1][k] + b * b * m[0][k];
+    }
+    const double v3 = a * a * a * p->sum_w3 + 3 * a * a * b * m[2][0] + 3 * a * b * b * m[1][0] + b * b * b * n;
+    const double mean = a * m[1][1] + b * m[0][1];
+    const double off = of[2] - mean * (2 * of[1] - mean * of[0]), left = of[0] - 2 * v3 + of[0] * of[0];
+    return off > 0 && left > 1e-12 * of[0] ? off * of[0] / left : 0;
+}
+
+double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
+{
+    const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
+    const double n = samples_of(run, p);
+    if (p->sets && run->frame->filter && koksma__filter_is_signed(run->frame->filter)) {
+        return signed_result(p, n, rgb);
+    }
+    for (int k = 0; p->sets && k < 3; k++) {
+        rgb[k] = p->sum[k] / n;
+    }
+    return p->sets ? variance(p->moments[0][1], p->moments[0][2], n) / n : 0;
+}

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Hierarchical integration: a stratum is split in four when its value differs from that of any of its 8-connected
+ * neighbours; the estimate is the sum of volume x value (Kajiya 1986; Shirley 1991, section 5.6, figure 5.35).
+ */
+#include "render/samples/adaptive/adaptive_strata.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/vector3.h"
+
+/* Strata of all pixels: 3.5 GiB. */
+#define MAX_STRATA ((size_t)1 << 27)
+
+const char *const koksma__reuse_names[] = {
+    [KOKSMA__REUSE_KEPT] = "kept", [KOKSMA__REUSE_RENEWED] = "renewed", [KOKSMA__REUSE_FRESH] = "fresh", NULL};
+
+/* ---- Open and close --------------------------------------------------------------------------------------- */
+
+static koksma_status too_many(const koksma__adaptive *run)
+{
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: more than %zu strata in the image", run->options->method->name,
+                        MAX_STRATA);
+}
+
+static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
+{
+    const uint32_t n = s->m * s->m;
+    s->trees = calloc(run->pixels, sizeof *s->trees);
+    if (!s->trees) {
+        return koksma__fail_memory(run->pixels * sizeof *s->trees);
+    }
+    atomic_store(&s->total, run->pixels * n);
+    for (size_t p = 0; p < run->pixels; p++) {
+        koksma__tree *tree = &s->trees[p];
+        tree->strata = malloc(n * sizeof *tree->strata);
+        if (!tree->strata) {
+            return koksma__fail_memory(run->pixels * n * sizeof *tree->strata);
+        }
+        tree->n = n;
+        for (uint32_t i = 0; i < n; i++) {
+            tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
+        }
+        run->asks[p] = (koksma__ask){.now = n, .later = s->reuse == KOKSMA__REUSE_FRESH ? n : 0};
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__strata_open(koksma__adaptive *run)
+{
+    const double *params = run->options->params;
+    const char *name = run->options->method->name;
+    const uint32_t spp = (uint32_t)run->frame->options->spp, m = (uint32_t)lround(sqrt(spp));
+    koksma__strata *s = calloc(1, sizeof *s);
+    run->state = s;
+    if (!s) {
+        return koksma__fail_memory(sizeof *s);
+    }
+    s->m = m;
+    s->levels = (uint32_t)params[KOKSMA__STRATA_LEVELS];
+    s->threshold = (float)params[KOKSMA__STRATA_THRESHOLD];
+    s->reuse = (int)params[KOKSMA__STRATA_REUSE];
+    if (m * m != spp) {
+        return koksma__fail(KOKSMA_N, "%s: spp = %u is not m^2; %u or %u would do", name, spp,
+                            (unsigned)(floor(sqrt(spp)) * floor(sqrt(spp))),
+                            (unsigned)(ceil(sqrt(spp)) * ceil(sqrt(spp))));
+    }
+    if (m << s->levels > KOKSMA__MAX_STRATA_SIDE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: levels=%u of %u x %u strata: at most %d x %d can come of it", name,
+                            s->levels, m, m, KOKSMA__MAX_STRATA_SIDE, KOKSMA__MAX_STRATA_SIDE);
+    }
+    if (run->pixels > MAX_STRATA / spp) {
+        return too_many(run);
+    }
+    run->scratch = (2 * ((size_t)spp << 2 * s->levels) + spp) * sizeof(uint32_t); /* grid, permutation, differences */
+    return open_trees(run, s);
+}
+
+void koksma__strata_close(koksma__adaptive *run)
+{
+    koksma__strata *s = run->state;
+    for (size_t p = 0; s && s->trees && p < run->pixels; p++) {
+        run->report.splits += s->trees[p].splits;
+        run->report.needless += s->trees[p].needless;
+        free(s->trees[p].strata);
+    }
+    if (s) {
+        free(s->trees);
+    }
+    free(s);
+}
+
+/* ---- Splitting -------------------------------------------------------------------------------------------- */
+
+/* Fills an empty grid of the finest cells with the numbers of strata. */
+static void paint(const koksma__adaptive *run, size_t pixel, uint32_t depth, uint32_t *permutation, uint32_t *grid,
+                  uint32_t *width)
+{
+    const koksma__strata *s = run->state;
+    const koksma__tree *tree = &s->trees[pixel];
+    koksma__use_cells base;
+    koksma__use_cells_init(run, pixel, tree->base, permutation, &base);
+    *width = base.line ? s->m * s->m << 2 * depth : s->m << depth;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const uint32_t below = depth - tree->strata[i].level, side = 1u << below << (base.line ? below : 0);
+        uint32_t cell[2];
+        koksma__stratum_cell(s, &base, &tree->strata[i], cell);
+        for (uint32_t y = 0; y < (base.line ? 1 : side); y++) {
+            for (uint32_t x = 0; x < side; x++) {
+                grid[(cell[1] * side + y) * *width + cell[0] * side + x] = i;
+            }
+        }
+    }
+}
+
+/* What strata i and j say of each other; most[i] is the largest difference that stratum i has to a neighbour. */
+static void compare(const koksma__strata *s, const koksma__tree *tree, uint32_t i, uint32_t j, float *most)
+{
+    float off = 0;
+    for (int k = 0; k < 3; k++) {
+        off = fmaxf(off, fabsf(tree->strata[i].value[k] - tree->strata[j].value[k]));
+    }
+    if (off > s->threshold) {
+        most[i] = fmaxf(most[i], off);
+        most[j] = fmaxf(most[j], off);
+    }
+}
+
+static void compare_all(const koksma__strata *s, const koksma__tree *tree, const uint32_t *grid, uint32_t width,
+                        uint32_t height, float *most)
+{
+    for (uint32_t y = 0; y < height; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            const uint32_t *at = grid + y * width + x;
+            const bool right = x + 1 < width, down = y + 1 < height;
+            compare(s, tree, *at, right ? at[1] : *at, most);
+            compare(s, tree, *at, down ? at[width] : *at, most);
+            compare(s, tree, *at, right && down ? at[width + 1] : *at, most);
+            compare(s, tree, *at, x && down ? at[width - 1] : *at, most);
+        }
+    }
+}
+
+/* Under a budget the order is by the variance that a pixel may lose a sample: the sum of (volume x difference)^2 over
+   the strata to be split, over the samples that it takes. */
+void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+{
+    koksma__strata *s = run->state;
+    koksma__tree *tree = &s->trees[pixel];
+    const size_t finest = (size_t)s->m * s->m << 2 * s->levels;
+    uint32_t depth = 0, width, *grid = scratch, *permutation = grid + finest;
+    float *most = (float *)(grid + finest + (size_t)s->m * s->m);
+    double gain = 0;
+    if (tree->stage == KOKSMA__STAGE_LAST) {
+        return;
+    }
+    for (uint32_t i = 0; i < tree->n; i++) {
+        depth = tree->strata[i].level > depth ? tree->strata[i].level : depth;
+        most[i] = 0;
+    }
+    paint(run, pixel, depth, permutation, grid, &width);
+    compare_all(s, tree, grid, width, (s->m * s->m << 2 * depth) / width, most);
+    tree->marked = 0;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        koksma__stratum *stratum = &tree->strata[i];
+        const double part = ldexp((double)most[i], -2 * stratum->level);
+        stratum->marked = most[i] > 0 && stratum->level < s->levels;
+        tree->marked += stratum->marked;
+        gain += stratum->marked ? part * part : 0;
+    }
+    ask->now = tree->marked * (s->reuse == KOKSMA__REUSE_RENEWED ? 4 : 3);
+    ask->later = s->reuse == KOKSMA__REUSE_FRESH ? tree->marked * 3 : 0;
+    ask->score = tree->marked ? (float)(gain / ask->now) : 0;
+}
+
+/* Puts four parts in the place of each marked stratum. */
+koksma_status koksma__strata_serve(koksma__adaptive *run, size_t pixel)
+{
+    koksma__strata *s = run->state;
+    koksma__tree *tree = &s->trees[pixel];
+    if (!tree->marked) {
+        return KOKSMA_OK;
+    }
+    const size_t n = tree->n + 3 * (size_t)tree->marked;
+    if (atomic_fetch_add(&s->total, 3 * (size_t)tree->marked) + 3 * (size_t)tree->marked > MAX_STRATA) {
+        return too_many(run);
+    }
+    koksma__stratum *strata = malloc(n * sizeof *strata), *to = strata;
+    koksma__use_cells base;
+    if (!strata) {
+        return koksma__fail_memory(n * sizeof *strata);
+    }
+    koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const koksma__stratum *from = &tree->strata[i];
+        if (!from->marked) {
+            *to++ = *from;
+            continue;
+        }
+        const int kept = s->reuse == KOKSMA__REUSE_RENEWED ? -1 : koksma__stratum_quarter(s, &base, from);
+        for (int k = 0; k < 4; k++) {
+            *to = *from;
+            to->level++;
+            to->digits = (uint16_t)(from->digits << 2 | k);
+            to->marked = false;
+            to++->pending = k != kept;
+        }
+    }
+    free(tree->strata);
+    tree->strata = strata;
+    tree->n = (uint32_t)n;
+    tree->splits += tree->marked;
+    tree->marked = 0;
+    return KOKSMA_OK;
+}
+
+/* ---- Samples ---------------------------------------------------------------------------------------------- */
+
+size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel)
+{
+    const koksma__strata *s = run->state;
+    return (size_t)s->trees[pixel].marked * (size_t)run->options->probes;
+}
+
+koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
+                                  koksma__sample_room *room, float *pairs)
+{
+    const koksma__strata *s = run->state;
+    const koksma__tree *tree = &s->trees[pixel];
+    const uint32_t probes = (uint32_t)run->options->probes;
+    koksma__use_cells base, cells;
+    koksma__use_cells_init(run, pixel, tree->base, NULL, &base); /* its cells matter where it is the use */
+    koksma__use_cells_init(run, pixel, use, room->words, &cells);
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const koksma__stratum *stratum = &tree->strata[i];
+        const bool wanted = run->probing ? stratum->marked : stratum->pending;
+        for (uint32_t k = 0; wanted && k < (run->probing ? probes : 1); k++) {
+            koksma__stratum_place(s, use == tree->base ? &cells : &base, &cells, stratum,
+                                  run->probing ? KOKSMA__STAGE_PROBE + k : tree->stage, pairs);
+            *pairs++ += offset[0];
+            *pairs++ += offset[1];
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* A split is needless when all values of the stratum are within the threshold of each other. */
+static void take_probes(const koksma__adaptive *run, koksma__tree *tree, const float *rgb)
+{
+    const koksma__strata *s = run->state;
+    const int channels = run->frame->channels;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        koksma__stratum *stratum = &tree->strata[i];
+        bool alike = stratum->marked;
+        for (int k = 0; stratum->marked && k < channels; k++) {
+            float lo = stratum->value[k], hi = lo;
+            for (int j = 0; j < run->options->probes; j++) {
+                lo = fminf(lo, rgb[j * channels + k]);
+                hi = fmaxf(hi, rgb[j * channels + k]);
+            }
+            alike &= hi - lo <= s->threshold;
+        }
+        tree->needless += alike;
+        stratum->needless |= (uint8_t)(alike << stratum->level);
+        rgb += stratum->marked ? run->options->probes * channels : 0;
+    }
+}
+
+void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
+{
+    koksma__strata *s = run->state;
+    koksma__tree *tree = &s->trees[pixel];
+    const size_t channels = (size_t)run->frame->channels;
+    if (run->probing) {
+        take_probes(run, tree, rgb);
+        return;
+    }
+    for (uint32_t i = 0; i < tree->n; i++) {
+        if (tree->strata[i].pending) {
+            memcpy(tree->strata[i].value, rgb, channels * sizeof *rgb);
+            tree->strata[i].weight = weights ? *weights++ : 1;
+            tree->strata[i].pending = false;
+            rgb += channels;
+        }
+    }
+}
+
+/* ---- The end ---------------------------------------------------------------------------------------------- */
+
+void koksma__strata_last(koksma__adaptive *run)
+{
+    koksma__strata *s = run->state;
+    for (size_t p = 0; s->reuse == KOKSMA__REUSE_FRESH && p < run->pixels; p++) {
+        koksma__tree *tree = &s->trees[p];
+        for (uint32_t i = 0; i < tree->n; i++) {
+            tree->strata[i].pending = true;
+            tree->strata[i].marked = false;
+        }
+        tree->marked = 0;
+        tree->stage = KOKSMA__STAGE_LAST;
+        run->asks[p] = (koksma__ask){.now = tree->n, .served = true};
+    }
+}
+
+static double volume_of(const koksma__strata *s, const koksma__stratum *stratum)
+{
+    return ldexp(1, -2 * stratum->level) / ((double)s->m * s->m);
+}
+
+/* The pixel's value as film.c has it, with volumes in the place of 1 / n, and in that of n - 1 what is to the same
+   end: 1 / (sum of volumes^2) - 1. */
+double koksma__strata_result(const koksma__adaptive *run, size_t pixel, double rgb[3])
+{
+    const koksma__strata *s = run->state;
+    const koksma__tree *tree = &s->trees[pixel];
+    const bool grey = run->frame->channels == 1;
+    const bool has_lobes = run->frame->filter && koksma__filter_is_signed(run->frame->filter);
+    double mean = 0, squares = 0, mean_weight = 0, volumes = 0;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const double volume = volume_of(s, &tree->strata[i]);
+        mean_weight += volume * (double)tree->strata[i].weight;
+        volumes += volume * volume;
+    }
+    const double scale = has_lobes && volumes < 1 ? 1 / (1 - volumes) : 0;
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const float *v = tree->strata[i].value;
+        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double volume = weight * volume_of(s, &tree->strata[i]);
+        for (int k = 0; k < 3; k++) {
+            rgb[k] += volume * (double)v[k];
+        }
+        mean += volume * (double)(grey ? v[0] : koksma__luminance3(v));
+    }
+    for (uint32_t i = 0; i < tree->n; i++) {
+        const float *v = tree->strata[i].value;
+        const double weight = 1 + ((double)tree->strata[i].weight - mean_weight) * scale;
+        const double volume = weight * volume_of(s, &tree->strata[i]);
+        const double off = (double)(grey ? v[0] : koksma__luminance3(v)) - mean;
+        squares += volume * volume * off * off;
+    }
+    return squares;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The table of methods, and their specs. */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/lookup.h"
+#include "core/spec.h"
+#include "core/status.h"
+#include "render/samples/adaptive/adaptive.h"
+
+static const koksma_adaptive *const table[] = {
+#define ADAPTIVE(name) &koksma__adaptive_##name,
+#include "render/samples/adaptive/adaptive.def"
+#undef ADAPTIVE
+};
+
+KOKSMA__LOOKUP(koksma_adaptive, table)
+
+koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
+{
+    char name[64];
+    *out = (koksma_adaptive_options){0};
+    if (!text) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there is no name of an adaptive method");
+    }
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
+    out->method = koksma_adaptive_find(name);
+    if (!out->method) {
+        return koksma__fail(KOKSMA_UNKNOWN, "no adaptive method '%s'; 'koksma list adaptive' names them", name);
+    }
+    return koksma__params_parse(name, out->method->params, text[length] ? text + length + 1 : "", out->params);
+}
+
+void koksma_adaptive_text(const koksma_adaptive_options *options, char *text)
+{
+    snprintf(text, KOKSMA_MAX_SPEC, "%s", options->method->name);
+    koksma__params_text(options->method->params, options->params, text, KOKSMA_MAX_SPEC);
+}

@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A pattern afresh in every pixel. Distribution ray tracing needs a point in as many dimensions as there are uses.
+ * Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one a use, whose strata are matched by random
+ * permutations ("uncorrelated jitter"): each use alone is as well spread as its pattern, and no use knows of another.
+ * A native pattern has all the dimensions itself; that of a group of uses has theirs, and all of them are permuted as
+ * one.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "core/spec.h"
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "render/samples/sampler.h"
+
+enum { LANE_PAIRING = 1 << 20 }; /* above the uses: keys of the permutations' random numbers */
+
+#define MAX_KEPT ((size_t)1 << 27) /* numbers that a thread keeps of a native pattern, or of groups of uses */
+
+typedef struct pixel_samples {
+    const koksma_render_options *options;
+    const koksma__batch_table *batch;
+    koksma__use_list uses;
+    /* By use. The pairs of a deterministic pattern are made once; else NULL. */
+    float *fixed[KOKSMA_N_USES];
+    int dims[KOKSMA_N_USES]; /* of the sets that are generated */
+    bool shuffles[KOKSMA_N_USES];
+    koksma__place_of_use places[KOKSMA_N_USES];
+    size_t kept_first[KOKSMA_MAX_USE_GROUPS]; /* where a room keeps the sets of a group: dimensions before its own */
+} pixel_samples;
+
+static size_t count(const koksma__sampler *sampler, uint64_t pixel)
+{
+    (void)pixel;
+    return sampler->most;
+}
+
+static const koksma_run alone = {.threads = 1};
+
+static koksma_status generate(const koksma_spec *spec, uint64_t seed, size_t n, int dim, const koksma_run *run,
+                              double *xs)
+{
+    koksma_points points = {n, dim, xs};
+    return koksma_generate(spec, seed, run, &points);
+}
+
+/* Numbers to pairs, from the last so that it can be done in place. */
+static void widen(double *xs, size_t n)
+{
+    for (size_t i = n; i-- > 0;) {
+        xs[2 * i] = xs[i];
+        xs[2 * i + 1] = 0;
+    }
+}
+
+/* The coordinates of a use out of points that have several, as pairs. */
+static void take_out(const double *points, size_t n, int dim, int first, bool two, double *pairs)
+{
+    for (size_t i = 0; i < n; i++, points += dim) {
+        pairs[2 * i] = points[first];
+        pairs[2 * i + 1] = two ? points[first + 1] : 0;
+    }
+}
+
+static bool has_two(uint32_t use)
+{
+    return koksma_use_at((size_t)koksma__use_index(use))->dim == 2;
+}
+
+/* A fresh set of a group, from which a use's coordinates go into room->xs. The room keeps it, as the group's other
+   uses are drawn next, after this one of the pixels around. */
+static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pixel, uint32_t use,
+                                     koksma__sample_room *room)
+{
+    const pixel_samples *samples = sampler->made;
+    const koksma_render_options *options = samples->options;
+    const koksma__place_of_use *place = &samples->places[koksma__use_index(use)];
+    const size_t n = (size_t)options->spp, slot = pixel % sampler->kept_slots;
+    const uint32_t set_key = koksma__set_key(place, use);
+    const uint64_t key = (pixel << 20 | set_key) + 1; /* 0: nothing */
+    uint64_t *kept = &room->kept_keys[slot * sampler->kept_sets + (size_t)place->group];
+    double *set = room->kept + n * (slot * (size_t)sampler->kept_dim + samples->kept_first[place->group]);
+    if (*kept != key) {
+        *kept = 0;
+        const koksma_status status =
+            generate(&options->groups[place->group].pattern, koksma__random_seed(options->seed, pixel, set_key), n,
+                     place->dim, room->run, set);
+        if (status) {
+            return status;
+        }
+        *kept = key;
+    }
+    take_out(set, n, place->dim, place->first, has_two(use), room->xs);
+    return KOKSMA_OK;
+}
+
+/* A fresh set of a use, plus offset. */
+static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
+                              koksma__sample_room *room, float *pairs)
+{
+    const pixel_samples *samples = sampler->made;
+    const koksma_render_options *options = samples->options;
+    const int u = koksma__use_index(use), dims = samples->dims[u];
+    const size_t n = (size_t)options->spp;
+    koksma_status status;
+    if (samples->places[u].group >= 0) {
+        status = take_from_group(sampler, pixel, use, room);
+    } else {
+        status = generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use), n, dims,
+                          room->run, room->xs);
+        if (!status && dims == 1) {
+            widen(room->xs, n);
+        }
+    }
+    if (!status) {
+        samples->batch->place(room->xs, n, offset, pairs);
+    }
+    return status;
+}
+
+/* The words of a pixel's permutation of the set with this key. Pixels beside each other have theirs one after the
+   other. */
+static const uint32_t *pairing_words(const pixel_samples *samples, uint64_t pixel, uint32_t set_key,
+                                     koksma__sample_room *room)
+{
+    const size_t counters = ((size_t)samples->options->spp + 3) / 4;
+    const size_t pixels = counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS / counters : 1;
+    const size_t room_for = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
+    const uint64_t part = pixel / pixels, key = (part << 20 | set_key) + 1; /* 0: nothing */
+    uint32_t *words = room->words + set_key % KOKSMA__WORD_SLOTS * room_for;
+    if (room->word_keys[set_key % KOKSMA__WORD_SLOTS] != key) {
+        room->word_keys[set_key % KOKSMA__WORD_SLOTS] = key;
+        koksma__kernels()->words(samples->options->seed, KOKSMA__PURPOSE_SHUFFLE, part * pixels * counters,
+                                 LANE_PAIRING + set_key, pixels * counters, words);
+    }
+    return words + 4 * counters * (pixel % pixels);
+}
+
+static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
+                          koksma__sample_room *room, float *pairs)
+{
+    const pixel_samples *samples = sampler->made;
+    const int u = koksma__use_index(use);
+    const size_t n = (size_t)samples->options->spp;
+    const uint32_t set_key = koksma__set_key(&samples->places[u], use);
+    const bool shuffles = set_key != KOKSMA__USE_PIXEL && samples->shuffles[u];
+    const float *from = samples->fixed[u];
+    if (!from) {
+        const koksma_status status = draw_set(sampler, pixel, use, offset, room, shuffles ? room->pairs : pairs);
+        if (status || !shuffles) {
+            return status;
+        }
+        from = room->pairs;
+    }
+    if (!shuffles) {
+        for (size_t i = 0; i < n; i++) {
+            pairs[2 * i] = from[2 * i] + offset[0];
+            pairs[2 * i + 1] = from[2 * i + 1] + offset[1];
+        }
+        return KOKSMA_OK;
+    }
+    samples->batch->shuffle(from, pairing_words(samples, pixel, set_key, room), n, pairs);
+    return KOKSMA_OK;
+}
+
+static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
+                                 koksma__sample_room *room, float *pairs)
+{
+    const pixel_samples *samples = sampler->made;
+    const size_t n = (size_t)samples->options->spp, slot = pixel % sampler->kept_slots;
+    double *set = room->kept + slot * n * (size_t)sampler->kept_dim;
+    if (room->kept_keys[slot] != pixel + 1) {
+        room->kept_keys[slot] = 0;
+        const koksma_status status =
+            generate(&samples->options->pattern, koksma__random_seed(samples->options->seed, pixel, 0), n,
+                     sampler->kept_dim, room->run, set);
+        if (status) {
+            return status;
+        }
+        room->kept_keys[slot] = pixel + 1;
+    }
+    take_out(set, n, sampler->kept_dim, koksma__use_dimension(&samples->uses, use), has_two(use), room->xs);
+    samples->batch->place(room->xs, n, offset, pairs);
+    return KOKSMA_OK;
+}
+
+static void release(koksma__sampler *sampler)
+{
+    pixel_samples *samples = sampler->made;
+    for (int u = 0; samples && u < KOKSMA_N_USES; u++) {
+        bool shared = false;
+        for (int before = 0; before < u; before++) {
+            shared |= samples->fixed[before] == samples->fixed[u];
+        }
+        if (!shared) {
+            free(samples->fixed[u]);
+        }
+    }
+    free(samples);
+    *sampler = (koksma__sampler){0};
+}
+
+/* The pairs of one set's coordinates from `first` on; *fixed keeps them. */
+static koksma_status keep_fixed(const double *set, size_t n, int dim, int first, bool two, float **fixed)
+{
+    static const float nowhere[2] = {0, 0};
+    double *pairs = malloc(2 * n * sizeof *pairs);
+    *fixed = malloc(2 * n * sizeof **fixed);
+    const koksma_status status =
+        pairs && *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * (sizeof *pairs + sizeof **fixed));
+    if (!status) {
+        take_out(set, n, dim, first, two, pairs);
+        koksma__batch()->place(pairs, n, nowhere, *fixed);
+    }
+    free(pairs);
+    return status;
+}
+
+/* Draws one set in dims dimensions; *fixed keeps it when the pattern is deterministic. */
+static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed)
+{
+    const size_t n = (size_t)options->spp;
+    double *xs = malloc(2 * n * sizeof *xs);
+    *fixed = NULL;
+    if (!xs) {
+        return koksma__fail_memory(2 * n * sizeof *xs);
+    }
+    koksma_status status = koksma__check_single_use(spec);
+    status = status ? status : generate(spec, options->seed, n, dims, &alone, xs);
+    if (!status && koksma__spec_is_deterministic(spec)) {
+        status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
+    }
+    free(xs);
+    return status;
+}
+
+static koksma_status try_uses(pixel_samples *samples)
+{
+    const koksma_render_options *options = samples->options;
+    bool tried[3] = {false};
+    float *common[3] = {NULL};
+    koksma_status status = KOKSMA_OK;
+    for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
+        const bool own = options->patterns[u].pattern != NULL;
+        const koksma_spec *spec = own ? &options->patterns[u] : &options->pattern;
+        const int dims = koksma__use_set_dim(spec, u);
+        if (samples->places[u].group >= 0) {
+            continue;
+        }
+        samples->dims[u] = dims;
+        samples->shuffles[u] =
+            options->pairing == KOKSMA_PAIRING_SHUFFLED && !(spec->pattern->claims & KOKSMA_CLAIM_EXCHANGEABLE);
+        if (!koksma__use_is_there(&samples->uses, u)) {
+            continue;
+        }
+        if (own) {
+            status = try_set(options, spec, dims, &samples->fixed[u]);
+        } else if (!tried[dims]) {
+            status = try_set(options, spec, dims, &common[dims]);
+            tried[dims] = true;
+        }
+        samples->fixed[u] = own ? samples->fixed[u] : common[dims];
+    }
+    return status;
+}
+
+static koksma_status check_kept(size_t n, int dim, const char *of)
+{
+    return n * (size_t)dim > MAX_KEPT
+               ? koksma__fail(KOKSMA_ARGUMENT, "%zu samples in %d dimensions: %s keeps at most %zu numbers", n, dim,
+                              of, MAX_KEPT)
+               : KOKSMA_OK;
+}
+
+/* Draws one set of a group; the pairs of its uses are kept when its pattern is deterministic. */
+static koksma_status try_group(pixel_samples *samples, int g)
+{
+    const koksma_render_options *options = samples->options;
+    const koksma_use_group *group = &options->groups[g];
+    const size_t n = (size_t)options->spp;
+    const int dim = samples->places[group->uses[0]].dim;
+    double *xs = malloc(n * (size_t)dim * sizeof *xs);
+    if (!xs) {
+        return koksma__fail_memory(n * (size_t)dim * sizeof *xs);
+    }
+    koksma_status status = generate(&group->pattern, options->seed, n, dim, &alone, xs);
+    for (int i = 0; !status && i < group->n_uses; i++) {
+        const int u = group->uses[i];
+        samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
+                               !(group->pattern.pattern->claims & KOKSMA_CLAIM_EXCHANGEABLE);
+        if (koksma__spec_is_deterministic(&group->pattern)) {
+            status = keep_fixed(xs, n, dim, samples->places[u].first, koksma_use_at((size_t)u)->dim == 2,
+                                &samples->fixed[u]);
+        }
+    }
+    free(xs);
+    return status;
+}
+
+/* Only groups on whose uses something is spent are drawn. */
+static koksma_status try_groups(koksma__sampler *sampler, pixel_samples *samples)
+{
+    const koksma_use_group *groups = samples->options->groups;
+    const size_t n = (size_t)samples->options->spp;
+    koksma_status status = KOKSMA_OK;
+    for (int g = 0; !status && g < KOKSMA_MAX_USE_GROUPS; g++) {
+        bool is_there = false;
+        for (int i = 0; i < groups[g].n_uses; i++) {
+            is_there |= koksma__use_is_there(&samples->uses, groups[g].uses[i]);
+        }
+        if (is_there) {
+            samples->kept_first[g] = (size_t)sampler->kept_dim;
+            sampler->kept_dim += samples->places[groups[g].uses[0]].dim;
+            status = check_kept(n, sampler->kept_dim, "a group of uses");
+            status = status ? status : try_group(samples, g);
+        }
+    }
+    sampler->kept_sets = KOKSMA_MAX_USE_GROUPS;
+    sampler->kept_slots = sampler->kept_dim == 0 ? 0 : n < KOKSMA__BLOCK ? KOKSMA__BLOCK / n : 1;
+    return status;
+}
+
+static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *samples)
+{
+    const koksma_render_options *options = samples->options;
+    const int dim = koksma__use_dimension(&samples->uses, UINT32_MAX);
+    const size_t n = (size_t)options->spp;
+    koksma_status status = check_kept(n, dim, "native pairing");
+    double *xs = status ? NULL : malloc(n * (size_t)dim * sizeof *xs);
+    if (!xs) {
+        return status ? status : koksma__fail_memory(n * (size_t)dim * sizeof *xs);
+    }
+    status = generate(&options->pattern, options->seed, n, dim, &alone, xs);
+    free(xs);
+    sampler->draw = draw_native;
+    sampler->kept_dim = dim;
+    sampler->kept_sets = 1;
+    sampler->kept_slots = n < KOKSMA__BLOCK ? KOKSMA__BLOCK / n : 1;
+    return status;
+}
+
+koksma_status koksma__pixel_samples(const koksma_render_options *options, const koksma__use_list *uses,
+                                    koksma__sampler *out)
+{
+    pixel_samples *samples = calloc(1, sizeof *samples);
+    *out = (koksma__sampler){.most = (size_t)options->spp, .count = count, .draw = draw, .release = release};
+    if (!samples) {
+        return koksma__fail_memory(sizeof *samples);
+    }
+    *samples = (pixel_samples){.options = options, .batch = koksma__batch(), .uses = *uses};
+    out->made = samples;
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        samples->places[u] = koksma__place_of_use_at(options, u);
+    }
+    koksma_status status = KOKSMA_OK;
+    if (options->pairing == KOKSMA_PAIRING_NATIVE) {
+        status = try_native(out, samples);
+    } else {
+        status = try_uses(samples);
+        status = status ? status : try_groups(out, samples);
+    }
+    if (status) {
+        release(out);
+    }
+    return status;
+}

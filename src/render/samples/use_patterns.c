@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which pattern serves which use, as a text: "random;lens=sobol;pixel+time=scan-time" has a common pattern, one of a
+ * single use and one of a group. A part begins with the uses before '=', if any; ';' ends a part where another begins
+ * behind it, so that a path may have a ';'. The canonical text has all patterns in their own canonical form.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/samples/sampler.h"
+
+/* ---- Checks ---------------------------------------------------------------------------------------------- */
+
+static int dimensions(const koksma_use_group *group)
+{
+    int dim = 0;
+    for (int i = 0; i < group->n_uses; i++) {
+        dim += koksma_use_at((size_t)group->uses[i])->dim;
+    }
+    return dim;
+}
+
+void koksma_use_group_text(const koksma_use_group *group, char *text)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
+        const koksma_use *use = koksma_use_at((size_t)group->uses[i]);
+        used += (size_t)snprintf(text + used, KOKSMA_MAX_SPEC - used, "%s%s", i ? "+" : "", use ? use->name : "?");
+    }
+}
+
+/* "pixel+lens has 4 dimensions (pixel 2, lens 2), and scan-time only 3; ..." */
+static koksma_status fail_dimensions(const koksma_use_group *group)
+{
+    const koksma_pattern *p = group->pattern.pattern;
+    char name[KOKSMA_MAX_SPEC], parts[KOKSMA_MAX_SPEC] = "", has[64];
+    koksma_use_group_text(group, name);
+    for (int i = 0; i < group->n_uses; i++) {
+        const koksma_use *use = koksma_use_at((size_t)group->uses[i]);
+        const size_t used = strlen(parts);
+        snprintf(parts + used, sizeof parts - used, "%s%s %d", i ? ", " : "", use->name, use->dim);
+    }
+    snprintf(has, sizeof has, p->min_dim == p->max_dim ? "%d" : "%d to %d", p->min_dim, p->max_dim);
+    return koksma__fail(
+        KOKSMA_DIM,
+        "%s=%s: these uses have %d dimensions together (%s), the pattern has %s; it takes uses with as "
+        "many, or another pattern",
+        name, p->name, dimensions(group), parts, has);
+}
+
+static koksma_status check_group(const koksma_use_group *group)
+{
+    char name[KOKSMA_MAX_SPEC];
+    if (!group->n_uses) {
+        return KOKSMA_OK;
+    }
+    if (group->n_uses < 2 || group->n_uses > KOKSMA_N_USES) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
+    }
+    for (int i = 0; i < group->n_uses; i++) {
+        if (group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES) {
+            return koksma__fail(KOKSMA_ARGUMENT, "use %d of a group: there are 0 to %d", group->uses[i],
+                                KOKSMA_N_USES - 1);
+        }
+    }
+    koksma_use_group_text(group, name);
+    if (!group->pattern.pattern) {
+        return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern for '%s' is not the spec of a pattern", name);
+    }
+    const int dim = dimensions(group);
+    return dim < group->pattern.pattern->min_dim || dim > group->pattern.pattern->max_dim ? fail_dimensions(group)
+                                                                                          : KOKSMA_OK;
+}
+
+/* How many patterns a use has. */
+static int patterns_of(const koksma_render_options *options, int u)
+{
+    int n = options->patterns[u].pattern != NULL;
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        for (int i = 0; i < options->groups[g].n_uses; i++) {
+            n += options->groups[g].uses[i] == u;
+        }
+    }
+    return n;
+}
+
+/* What native pairing has no place for: a pattern of some uses only. */
+static koksma_status check_native(const koksma_render_options *options)
+{
+    char name[KOKSMA_MAX_SPEC] = "";
+    for (int u = 0; !*name && u < KOKSMA_N_USES; u++) {
+        const int group = koksma__place_of_use_at(options, u).group;
+        if (group >= 0) {
+            koksma_use_group_text(&options->groups[group], name);
+        } else if (options->patterns[u].pattern) {
+            snprintf(name, sizeof name, "%s", koksma_use_at((size_t)u)->name);
+        }
+    }
+    return *name ? koksma__fail(KOKSMA_ARGUMENT,
+                                "native pairing has one pattern for all uses; '%s' has its own, which takes shuffled "
+                                "or aligned pairing",
+                                name)
+                 : KOKSMA_OK;
+}
+
+koksma_status koksma__check_use_patterns(const koksma_render_options *options)
+{
+    koksma_status status = KOKSMA_OK;
+    if (!options->pattern.pattern) {
+        return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern is not the spec of a pattern");
+    }
+    for (int g = 0; !status && g < KOKSMA_MAX_USE_GROUPS; g++) {
+        status = check_group(&options->groups[g]);
+    }
+    for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
+        const char *name = koksma_use_at((size_t)u)->name;
+        if (!options->patterns[u].pattern && options->patterns[u].measure) {
+            return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern for '%s' is the spec of a measure", name);
+        }
+        if (patterns_of(options, u) > 1) {
+            return koksma__fail(KOKSMA_ARGUMENT, "use %s has two patterns: it takes one, alone or in one group",
+                                name);
+        }
+    }
+    return !status && options->pairing == KOKSMA_PAIRING_NATIVE ? check_native(options) : status;
+}
+
+koksma_status koksma__check_single_use(const koksma_spec *spec)
+{
+    const koksma_pattern *p = spec->pattern;
+    char has[64];
+    snprintf(has, sizeof has, p->min_dim == p->max_dim ? "%d" : "%d to %d", p->min_dim, p->max_dim);
+    return p->min_dim > 2
+               ? koksma__fail(KOKSMA_DIM,
+                              "%s: a use alone has 1 or 2 dimensions, the pattern has %s; it takes a group "
+                              "of uses, such as pixel+time=PATTERN",
+                              p->name, has)
+               : KOKSMA_OK;
+}
+
+static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const koksma_run *run)
+{
+    koksma_points points;
+    koksma_status status = koksma_points_init(&points, n, dim);
+    if (!status) {
+        status = koksma_generate(spec, 0, run, &points);
+        koksma_points_fini(&points);
+    }
+    return status;
+}
+
+koksma_status koksma__try_use_patterns(const koksma_render_options *options, size_t n, const koksma_run *run)
+{
+    koksma_status status = koksma__check_single_use(&options->pattern);
+    status = status ? status : try_set(&options->pattern, n, 2, run);
+    for (int u = 0; (!status || status == KOKSMA_INTERRUPTED) && u < KOKSMA_N_USES; u++) {
+        const koksma_spec *own = &options->patterns[u];
+        const koksma_status single = own->pattern ? koksma__check_single_use(own) : KOKSMA_OK;
+        status = single ? single : own->pattern ? try_set(own, n, koksma__use_set_dim(own, u), run) : status;
+    }
+    for (int g = 0; (!status || status == KOKSMA_INTERRUPTED) && g < KOKSMA_MAX_USE_GROUPS; g++) {
+        const koksma_use_group *group = &options->groups[g];
+        status = group->n_uses ? try_set(&group->pattern, n, dimensions(group), run) : status;
+    }
+    return status;
+}
+
+/* ---- Texts ----------------------------------------------------------------------------------------------- */
+
+static bool is_of_names(char c)
+{
+    return (c >= 'a' && c <= 'z') || c == '-' || c == '+';
+}
+
+/* The length of the uses that a part begins with, up to '='; 0: it has none. */
+static size_t length_of_uses(const char *part)
+{
+    size_t n = 0;
+    while (is_of_names(part[n])) {
+        n++;
+    }
+    return part[n] == '=' ? n : 0;
+}
+
+/* The ';' that ends the part, or the end of the text. */
+static const char *end_of_part(const char *part)
+{
+    const char *end = strchr(part, ';');
+    while (end && !length_of_uses(end + 1 + strspn(end + 1, " "))) {
+        end = strchr(end + 1, ';');
+    }
+    return end ? end : part + strlen(part);
+}
+
+static int find_use(const char *name, size_t length)
+{
+    for (int i = 0; i < KOKSMA_N_USES; i++) {
+        const char *known = koksma_use_at((size_t)i)->name;
+        if (strlen(known) == length && !strncmp(known, name, length)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+static koksma_status parse_uses(const char *part, const char *text, size_t length, koksma_use_group *group)
+{
+    *group = (koksma_use_group){0};
+    for (const char *at = text, *end = text + length; at <= end; at++) {
+        const size_t name = strcspn(at, "+=");
+        const int use = find_use(at, name);
+        if (use < 0) {
+            return koksma__fail(KOKSMA_UNKNOWN,
+                                "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
+                                "lobe-choice and roulette",
+                                part);
+        }
+        for (int i = 0; i < group->n_uses; i++) {
+            if (group->uses[i] == use) {
+                return koksma__fail(KOKSMA_ARGUMENT, "%s: use %s is there twice; a group takes each once", part,
+                                    koksma_use_at((size_t)use)->name);
+            }
+        }
+        group->uses[group->n_uses++] = use;
+        at += name;
+    }
+    return KOKSMA_OK;
+}
+
+/* Each group takes two of the uses at least and no use is in two, so that there is room for one more. */
+static koksma_status add_group(const char *part, const koksma_use_group *group, koksma_render_options *options)
+{
+    int g = 0;
+    for (int i = 0; i < group->n_uses; i++) {
+        if (patterns_of(options, group->uses[i])) {
+            return koksma__fail(KOKSMA_ARGUMENT,
+                                "%s: use %s has a pattern already; it takes one, alone or in one group", part,
+                                koksma_use_at((size_t)group->uses[i])->name);
+        }
+    }
+    if (group->n_uses == 1) {
+        options->patterns[group->uses[0]] = group->pattern;
+        return koksma__check_single_use(&group->pattern);
+    }
+    while (g < KOKSMA_MAX_USE_GROUPS - 1 && options->groups[g].n_uses) {
+        g++;
+    }
+    options->groups[g] = *group;
+    return check_group(group);
+}
+
+static koksma_status parse_part(const char *part, koksma_render_options *options)
+{
+    const size_t length = length_of_uses(part);
+    koksma_use_group group = {0};
+    if (!length) {
+        koksma_spec spec;
+        const koksma_status status = koksma_pattern_spec(part, &spec);
+        if (!status) {
+            options->pattern = spec;
+        }
+        return status;
+    }
+    koksma_status status = parse_uses(part, part, length, &group);
+    status = status ? status : koksma_pattern_spec(part + length + 1, &group.pattern);
+    return status ? status : add_group(part, &group, options);
+}
+
+koksma_status koksma_render_patterns(const char *text, koksma_render_options *options)
+{
+    koksma_render_options changed = *options;
+    if (!text) {
+        return koksma__fail(KOKSMA_ARGUMENT, "there is no text of patterns, such as random;pixel+time=scan-time");
+    }
+    for (bool first = true; first || *text; first = false) {
+        char part[2 * KOKSMA_MAX_SPEC];
+        const char *end = end_of_part(text);
+        size_t length = (size_t)(end - text);
+        if (length >= sizeof part) {
+            return koksma__fail(KOKSMA_ARGUMENT, "'%.20s...' is longer than %zu characters", text, sizeof part - 1);
+        }
+        memcpy(part, text, length);
+        while (*end && length && part[length - 1] == ' ') { /* blanks before a ';' */
+            length--;
+        }
+        part[length] = '\0';
+        const koksma_status status = parse_part(part, &changed);
+        if (status) {
+            return status;
+        }
+        text = end + (*end == ';');
+        text += strspn(text, " ");
+    }
+    *options = changed;
+    return KOKSMA_OK;
+}
+
+/* Appends ";name=pattern". */
+static void append(char *text, const char *name, const koksma_spec *spec)
+{
+    const size_t used = strlen(text);
+    char pattern[KOKSMA_MAX_SPEC];
+    koksma_spec_text(spec, pattern);
+    snprintf(text + used, KOKSMA_MAX_PATTERNS_TEXT - used, ";%s=%s", name, pattern);
+}
+
+void koksma_render_patterns_text(const koksma_render_options *options, char *text)
+{
+    bool done[KOKSMA_MAX_USE_GROUPS] = {false};
+    koksma_spec_text(&options->pattern, text);
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        const int g = koksma__place_of_use_at(options, u).group;
+        if (g < 0 && options->patterns[u].pattern) {
+            append(text, koksma_use_at((size_t)u)->name, &options->patterns[u]);
+        } else if (g >= 0 && !done[g]) {
+            char name[KOKSMA_MAX_SPEC];
+            done[g] = true;
+            koksma_use_group_text(&options->groups[g], name);
+            append(text, name, &options->groups[g].pattern);
+        }
+    }
+}

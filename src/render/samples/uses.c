@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What samples are spent on, and which dimensions of one pattern the uses would take. */
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "render/samples/sampler.h"
+
+/* The position of a number in the list of uses; of all from LIGHT on the last. */
+#define POSITION(number) ((number) < KOKSMA__USE_LIGHT ? (number) : KOKSMA_N_USES - 1)
+
+static const koksma_use uses_table[] = {
+#define USE(id, number, name, dim, help) [POSITION(number)] = {name, help, dim},
+#include "render/samples/uses.def"
+#undef USE
+};
+
+static const uint32_t numbers[] = {
+#define USE(id, number, name, dim, help) [POSITION(number)] = (number),
+#include "render/samples/uses.def"
+#undef USE
+};
+
+enum {
+    LINES = 0
+#define USE(id, number, name, dim, help) +1
+#include "render/samples/uses.def"
+#undef USE
+};
+
+_Static_assert((int)LINES == (int)KOKSMA_N_USES && sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES,
+               "koksma/render.h counts the uses, and their numbers count up from 0");
+
+const koksma_use *koksma_use_at(size_t i)
+{
+    return i < KOKSMA_N_USES ? &uses_table[i] : NULL;
+}
+
+int koksma__use_index(uint32_t use)
+{
+    return (int)POSITION(use % KOKSMA__USES_A_BOUNCE);
+}
+
+const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use)
+{
+    const int u = koksma__use_index(use), group = koksma__place_of_use_at(options, u).group;
+    const koksma_spec *own = group < 0 ? &options->patterns[u] : &options->groups[group].pattern;
+    return own->pattern ? own : &options->pattern;
+}
+
+int koksma__use_set_dim(const koksma_spec *spec, int u)
+{
+    const bool one = uses_table[u].dim == 1 && spec->pattern->min_dim == 1;
+    return one && !(spec->pattern->claims & KOKSMA_CLAIM_MIN_DISTANCE) ? 1 : 2;
+}
+
+koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *options, int u)
+{
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        const koksma_use_group *group = &options->groups[g];
+        koksma__place_of_use place = {.group = -1, .lead = UINT32_MAX};
+        for (int i = 0; i < group->n_uses; i++) {
+            const int other = group->uses[i];
+            if (other == u) {
+                place.group = g;
+                place.first = place.dim;
+            }
+            place.dim += uses_table[other].dim;
+            place.lead = numbers[other] < place.lead ? numbers[other] : place.lead;
+        }
+        if (place.group >= 0) {
+            return place;
+        }
+    }
+    return (koksma__place_of_use){.group = -1, .dim = uses_table[u].dim};
+}
+
+/* Only the uses of luminaires are several at a vertex, and only the first of them shares its set. */
+uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use)
+{
+    return place->group < 0 || use % KOKSMA__USES_A_BOUNCE > KOKSMA__USE_LIGHT
+               ? use
+               : use / KOKSMA__USES_A_BOUNCE * KOKSMA__USES_A_BOUNCE + place->lead;
+}
+
+bool koksma__use_is_there(const koksma__use_list *uses, int u)
+{
+    switch (numbers[u]) {
+    case KOKSMA__USE_PIXEL:
+        return true;
+    case KOKSMA__USE_LENS:
+        return uses->lens;
+    case KOKSMA__USE_TIME:
+        return uses->time;
+    case KOKSMA__USE_LIGHT:
+        return uses->lights > 0;
+    case KOKSMA__USE_LIGHT_CHOICE:
+        return uses->light_choice;
+    default:
+        return uses->vertices > 1;
+    }
+}
+
+/* A vertex has: the luminaires, which of them, lobe, lobe choice, roulette. */
+int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
+{
+    const int vertex = (int)(use / KOKSMA__USES_A_BOUNCE), number = (int)(use % KOKSMA__USES_A_BOUNCE);
+    const int lens = 2, time = lens + 2 * uses->lens, first = time + uses->time;
+    const int choice = 2 * uses->lights, lobe = choice + uses->light_choice;
+    const int each = lobe + (uses->vertices > 1 ? 4 : 0), start = first + vertex * each;
+    if (use == UINT32_MAX) {
+        return first + each * uses->vertices;
+    }
+    switch (number) {
+    case KOKSMA__USE_PIXEL:
+        return 0;
+    case KOKSMA__USE_LENS:
+        return lens;
+    case KOKSMA__USE_TIME:
+        return time;
+    case KOKSMA__USE_LIGHT_CHOICE:
+        return start + choice;
+    case KOKSMA__USE_LOBE:
+        return start + lobe;
+    case KOKSMA__USE_LOBE_CHOICE:
+        return start + lobe + 2;
+    case KOKSMA__USE_ROULETTE:
+        return start + lobe + 3;
+    default:
+        return start + 2 * (number - KOKSMA__USE_LIGHT);
+    }
+}
+
+koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler)
+{
+    static const koksma_run alone = {.threads = 1};
+    const size_t n = sampler->most, counters = (n + 3) / 4;
+    const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
+    const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
+    *room = (koksma__sample_room){
+        .xs = malloc(2 * n * sizeof *room->xs),
+        .pairs = malloc(2 * n * sizeof *room->pairs),
+        .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
+        .kept = malloc((kept + 1) * sizeof *room->kept),
+        .kept_keys = calloc(sampler->kept_slots * sampler->kept_sets + 1, sizeof *room->kept_keys),
+        .run = sampler->run ? sampler->run : &alone,
+    };
+    if (!room->xs || !room->pairs || !room->words || !room->kept || !room->kept_keys) {
+        koksma__sample_room_fini(room);
+        return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * kept);
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__sample_room_fini(koksma__sample_room *room)
+{
+    free(room->xs);
+    free(room->pairs);
+    free(room->words);
+    free(room->kept);
+    free(room->kept_keys);
+    *room = (koksma__sample_room){0};
+}

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Rank regression with cross-validation over scenes (Hastie, Tibshirani and Friedman, The Elements of Statistical
+ * Learning, 2009: ridge regression 3.4.1, cross-validation 7.10, of which 7.10.2: whatever is chosen, is chosen
+ * without the scene that is predicted). Inside a case ranks have the mean 0 and the length 1, so that a scene says
+ * all by two sums over its cases: G = Z'Z / cases, the correlations of the k measures with each other, and c = Z'y /
+ * cases, those with the error. Sums over scenes are those of the fit; a fit on the others is the sum without one.
+ * With weights b the squared error per case is 1 - 2 b'c + b'G b.
+ *
+ *   single   the measure of the least squared error, c_j^2 / G_jj the largest; only its sign is fitted
+ *   pair     the same over all k (k - 1) / 2 pairs: c' G^-1 c of the pair the largest
+ *   all      ridge: (G + penalty I) b = c; the penalty of least error in a cross-validation among the other scenes
+ */
+#include "stats/rank_regression.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+
+enum { PENALTIES = 9 };
+
+static const double penalties[PENALTIES] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10};
+
+/* G (k x k), then c (k), of each scene; and numbers to work with. */
+typedef struct sums {
+    size_t k, n_scenes, size;               /* size: of one scene's numbers */
+    double *of;                             /* n_scenes of them */
+    size_t *cases;                          /* by scene */
+    double *all, *train, *factor, *weights; /* the sum over all; over some; a Cholesky factor; k numbers */
+} sums;
+
+static void sums_fini(sums *s)
+{
+    free(s->of);
+    free(s->cases);
+}
+
+static koksma_status sums_init(size_t k, size_t n_scenes, sums *s)
+{
+    const size_t size = k * (k + 1), total = (n_scenes + 2) * size + k * k + k;
+    *s = (sums){.k = k, .n_scenes = n_scenes, .size = size};
+    s->of = calloc(total, sizeof *s->of);
+    s->cases = calloc(n_scenes + 1, sizeof *s->cases);
+    if (!s->of || !s->cases) {
+        sums_fini(s);
+        return koksma__fail_memory(total * sizeof *s->of);
+    }
+    s->all = s->of + n_scenes * size;
+    s->train = s->all + size;
+    s->factor = s->train + size;
+    s->weights = s->factor + k * k;
+    return KOKSMA_OK;
+}
+
+static double dot(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+static void add_cases(sums *s, const koksma__rank_case *cases, size_t n_cases)
+{
+    const size_t k = s->k;
+    for (size_t i = 0; i < n_cases; i++) {
+        const koksma__rank_case *at = &cases[i];
+        double *g = s->of + at->scene * s->size, *c = g + k * k;
+        for (size_t a = 0; a < k; a++) {
+            for (size_t b = 0; b < k; b++) {
+                g[a * k + b] += dot(at->ranks + a * at->n, at->ranks + b * at->n, at->n);
+            }
+            c[a] += dot(at->ranks + a * at->n, at->ranks + k * at->n, at->n);
+        }
+        s->cases[at->scene]++;
+    }
+    for (size_t scene = 0; scene < s->n_scenes; scene++) {
+        for (size_t i = 0; s->cases[scene] && i < s->size; i++) {
+            s->of[scene * s->size + i] /= (double)s->cases[scene];
+            s->all[i] += s->of[scene * s->size + i];
+        }
+    }
+}
+
+/* Sets s->train to the sum over all scenes but two (the same twice: one). */
+static void leave_out(sums *s, size_t scene, size_t other)
+{
+    for (size_t i = 0; i < s->size; i++) {
+        s->train[i] = s->all[i] - s->of[scene * s->size + i] - (other != scene ? s->of[other * s->size + i] : 0);
+    }
+}
+
+/* Solves (train's G + penalty count I) b = c by Cholesky's factors: positive definite, as the penalty is above 0. */
+static void fit_ridge(sums *s, double penalty, size_t count)
+{
+    const size_t k = s->k;
+    double *l = s->factor, *b = s->weights;
+    for (size_t i = 0; i < k; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            const double rest =
+                s->train[i * k + j] + (i == j ? penalty * (double)count : 0) - dot(l + i * k, l + j * k, j);
+            l[i * k + j] = i == j ? sqrt(rest) : rest / l[j * k + j];
+        }
+        b[i] = (s->train[k * k + i] - dot(l + i * k, b, i)) / l[i * k + i];
+    }
+    for (size_t i = k; i-- > 0;) {
+        for (size_t j = i + 1; j < k; j++) {
+            b[i] -= l[j * k + i] * b[j];
+        }
+        b[i] /= l[i * k + i];
+    }
+}
+
+/* The squared error of the weights in a scene, less the 1 that no weights change. */
+static double error_in(const sums *s, size_t scene)
+{
+    const size_t k = s->k;
+    const double *g = s->of + scene * s->size;
+    double error = -2 * dot(s->weights, g + k * k, k);
+    for (size_t i = 0; i < k; i++) {
+        error += s->weights[i] * dot(g + i * k, s->weights, k);
+    }
+    return error;
+}
+
+/* The penalty that predicts best among the scenes without `scene`; of equal ones the larger. */
+static double choose_penalty(sums *s, size_t scene, size_t n_used)
+{
+    double best = penalties[PENALTIES - 1], least = INFINITY;
+    for (int p = PENALTIES - 1; p >= 0; p--) {
+        double error = 0;
+        for (size_t other = 0; other < s->n_scenes; other++) {
+            if (other != scene && s->cases[other]) {
+                leave_out(s, scene, other);
+                fit_ridge(s, penalties[p], n_used - 2);
+                error += error_in(s, other);
+            }
+        }
+        if (error < least) {
+            least = error;
+            best = penalties[p];
+        }
+    }
+    return best;
+}
+
+/* What a pair explains of s->train, and its weights; a singular one nothing. */
+static double explained(const sums *s, size_t a, size_t b, double weights[2])
+{
+    const size_t k = s->k;
+    const double aa = s->train[a * k + a], bb = s->train[b * k + b], ab = s->train[a * k + b];
+    const double ca = s->train[k * k + a], cb = s->train[k * k + b], det = aa * bb - ab * ab;
+    if (!(det > 1e-9 * aa * bb)) {
+        return -1;
+    }
+    weights[0] = (bb * ca - ab * cb) / det;
+    weights[1] = (aa * cb - ab * ca) / det;
+    return weights[0] * ca + weights[1] * cb;
+}
+
+static void choose_single(const sums *s, koksma__held_out *out, double *sign)
+{
+    const size_t k = s->k;
+    double most = -1;
+    for (size_t j = 0; j < k; j++) {
+        const double g = s->train[j * k + j], c = s->train[k * k + j], of = g > 0 ? c * c / g : 0;
+        if (of > most) {
+            most = of;
+            out->single = j;
+            *sign = c < 0 ? -1 : 1;
+        }
+    }
+}
+
+static void choose_pair(const sums *s, koksma__held_out *out, double weights[2])
+{
+    double most = -1, w[2] = {0, 0};
+    for (size_t a = 0; a < s->k; a++) {
+        for (size_t b = a + 1; b < s->k; b++) {
+            const double of = explained(s, a, b, w);
+            if (of > most) {
+                most = of;
+                out->pair[0] = a;
+                out->pair[1] = b;
+                weights[0] = w[0];
+                weights[1] = w[1];
+            }
+        }
+    }
+}
+
+/* Spearman's correlation of the sum of weighted ranks with the error's ranks; where all sums are equal they order
+   nothing: 0. */
+static double predict(const koksma__rank_case *at, size_t k, const size_t *which, const double *weights, size_t n,
+                      double *scores)
+{
+    for (size_t i = 0; i < at->n; i++) {
+        scores[i] = 0;
+        for (size_t j = 0; j < n; j++) {
+            scores[i] += weights[j] * at->ranks[(which ? which[j] : j) * at->n + i];
+        }
+    }
+    const double rho = koksma__spearman(scores, at->ranks + k * at->n, at->n);
+    return isnan(rho) ? 0 : rho;
+}
+
+static void predict_scene(sums *s, const koksma__rank_case *cases, size_t n_cases, size_t scene, size_t n_used,
+                          double *scores, koksma__held_out *out)
+{
+    const size_t k = s->k;
+    double sign = 1, pair[2] = {0, 0};
+    *out = (koksma__held_out){.cases = s->cases[scene]};
+    out->penalty = choose_penalty(s, scene, n_used);
+    leave_out(s, scene, scene);
+    fit_ridge(s, out->penalty, n_used - 1);
+    choose_single(s, out, &sign);
+    out->pair[0] = out->pair[1] = out->single;
+    pair[0] = pair[1] = sign;
+    choose_pair(s, out, pair);
+    for (size_t j = 0; j < k; j++) {
+        const double rho = s->of[scene * s->size + k * k + j];
+        if (j == 0 || fabs(rho) > fabs(out->rho_hindsight)) {
+            out->hindsight = j;
+            out->rho_hindsight = rho;
+        }
+    }
+    out->rho_hindsight = fabs(out->rho_hindsight);
+    const double share = 1 / (double)out->cases;
+    for (size_t i = 0; i < n_cases; i++) {
+        if (cases[i].scene == scene) {
+            out->rho_single += share * predict(&cases[i], k, &out->single, &sign, 1, scores);
+            out->rho_pair += share * predict(&cases[i], k, out->pair, pair, 2, scores);
+            out->rho_all += share * predict(&cases[i], k, NULL, s->weights, k, scores);
+        }
+    }
+}
+
+koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_cases, size_t k, size_t n_scenes,
+                                      koksma__held_out *out)
+{
+    sums s;
+    size_t n_used = 0, most = 0;
+    koksma_status status = sums_init(k, n_scenes, &s);
+    if (status) {
+        return status;
+    }
+    add_cases(&s, cases, n_cases);
+    for (size_t scene = 0; scene < n_scenes; scene++) {
+        n_used += s.cases[scene] > 0;
+    }
+    for (size_t i = 0; i < n_cases; i++) {
+        most = cases[i].n > most ? cases[i].n : most;
+    }
+    double *scores = malloc((most + 1) * sizeof *scores);
+    if (!scores) {
+        status = koksma__fail_memory((most + 1) * sizeof *scores);
+    } else if (n_used < 3) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "rank regression: %zu scenes have cases; 3 would do", n_used);
+    }
+    for (size_t scene = 0; !status && scene < n_scenes; scene++) {
+        out[scene] = (koksma__held_out){0};
+        if (s.cases[scene]) {
+            predict_scene(&s, cases, n_cases, scene, n_used, scores, &out[scene]);
+        }
+    }
+    free(scores);
+    sums_fini(&s);
+    return status;
+}

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Convergence: slopes in log-log, and how many samples reach an error. */
+#include <math.h>
+
+#include <koksma/series.h>
+
+#include "stats/quantiles.h"
+#include "stats/statistics.h"
+
+#define NORMAL_99 2.3263478740408408 /* what a normal number exceeds in 1 % of cases */
+
+/* Standard error of the log of a mean, to first order; NaN: one trial of what varies, 0: what doesn't. */
+static double log_error(const koksma__summary *s)
+{
+    return s->sd / sqrt((double)s->n) / s->mean;
+}
+
+/* Whether every log_error is known, one is above 0, and every one is. */
+typedef struct errors {
+    bool known, some, all;
+} errors;
+
+static errors errors_of(const koksma__summary *y, size_t count)
+{
+    errors e = {true, false, true};
+    for (size_t i = 0; i < count; i++) {
+        const double error = log_error(&y[i]);
+        e.known &= !isnan(error);
+        e.some |= error > 0;
+        e.all &= error > 0;
+    }
+    return e;
+}
+
+/* y = intercept + slope x by least squares, with weights 1 / sigma^2, or without. */
+typedef struct fit {
+    double x, y, sxx, slope, total; /* x, y: the means; total: of the weights */
+} fit;
+
+static double weight(const koksma__summary *y, bool weighted)
+{
+    return weighted ? 1 / (log_error(y) * log_error(y)) : 1;
+}
+
+static fit fit_of(const double *n, const koksma__summary *y, size_t count, bool weighted)
+{
+    fit f = {0};
+    for (size_t i = 0; i < count; i++) {
+        const double w = weight(&y[i], weighted);
+        f.total += w;
+        f.x += w * log(n[i]);
+        f.y += w * log(y[i].mean);
+    }
+    f.x /= f.total;
+    f.y /= f.total;
+    double sxy = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double w = weight(&y[i], weighted), t = log(n[i]) - f.x;
+        f.sxx += w * t * t;
+        sxy += w * t * (log(y[i].mean) - f.y);
+    }
+    f.slope = sxy / f.sxx;
+    return f;
+}
+
+static double squared_residuals(const fit *f, const double *n, const koksma__summary *y, size_t count, bool weighted)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double r = log(y[i].mean) - f->y - f->slope * (log(n[i]) - f->x);
+        sum += weight(&y[i], weighted) * r * r;
+    }
+    return sum;
+}
+
+/* Half the interval of sum c_i y_i, c_i = (x_i - x') / sxx: its variance is V = sum c_i^2 sigma_i^2, of
+   V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite 1946; Welch 1947). */
+static double half_of_trials(const fit *f, const double *n, const koksma__summary *y, size_t count)
+{
+    double variance = 0, fourth = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double error = log_error(&y[i]), c = (log(n[i]) - f->x) / f->sxx;
+        if (error > 0) {
+            const double v = c * c * error * error;
+            variance += v;
+            fourth += v * v / (double)(y[i].n - 1);
+        }
+    }
+    return fourth > 0 ? koksma__student_quantile(0.975, variance * variance / fourth) * sqrt(variance) : 0;
+}
+
+/* Half the interval where the residuals' scatter is all that is known. */
+static double half_of_residuals(const fit *f, const double *n, const koksma__summary *y, size_t count)
+{
+    if (count < 3) {
+        return NAN;
+    }
+    const double scatter = squared_residuals(f, n, y, count, false) / (double)(count - 2);
+    return koksma_student_975(count - 2) * sqrt(scatter / f->sxx);
+}
+
+/* Lack of fit of the weighted line, Q = sum w_i r_i^2 with w_i = 1 / sigma_i^2, whose sigmas are estimates: with
+   p = count - 2, the leverages h_i and A = sum (1 - h_i)^2 / (trials_i - 1), Q / (p + 2 A - 6 A / (p + 2)) is about F
+   of p and p (p + 2) / (3 A) degrees of freedom (Johansen 1980; of means, Welch 1951). F's tail by the cube root
+   (Paulson 1942). */
+static bool lies_off_line(const double *n, const koksma__summary *y, size_t count)
+{
+    const fit f = fit_of(n, y, count, true);
+    const double p = (double)count - 2, q = squared_residuals(&f, n, y, count, true);
+    double a = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double w = weight(&y[i], true), t = log(n[i]) - f.x, h = w / f.total + w * t * t / f.sxx;
+        a += (1 - h) * (1 - h) / (double)(y[i].n - 1);
+    }
+    const double u = 2 / (9 * p), v = 2 * a / (3 * p * (p + 2)), root = cbrt(q / (p + 2 * a - 6 * a / (p + 2)));
+    return (1 - v) * root - (1 - u) > NORMAL_99 * sqrt(v * root * root + u);
+}
+
+koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, size_t count)
+{
+    koksma__trend trend = {.slope = {NAN, NAN, NAN}};
+    const fit f = count ? fit_of(n, mean, count, false) : (fit){0};
+    if (!(f.sxx > 0)) {
+        return trend;
+    }
+    const errors e = errors_of(mean, count);
+    const bool trials = e.known && e.some;
+    const double half = trials ? half_of_trials(&f, n, mean, count) : half_of_residuals(&f, n, mean, count);
+    trend.slope = (koksma__estimate){f.slope, f.slope - half, f.slope + half};
+    trend.off_line = count > 2 && e.all && lies_off_line(n, mean, count);
+    return trend;
+}
+
+/* Between sizes a and b the error is taken for c n^slope. The interval comes from the standard errors of the three
+   means by first-order propagation in the logs. */
+koksma__estimate koksma__samples_for(const koksma__convergence *p, double target, double target_error, bool *outside)
+{
+    koksma__estimate none = {NAN, NAN, NAN};
+    *outside = true;
+    if (p->count < 2 || !(target > 0)) {
+        return none;
+    }
+    size_t a = 0;
+    while (a + 2 < p->count && p->mean[a + 1] > target) {
+        a++;
+    }
+    const size_t b = a + 1;
+    const double x0 = log(p->n[a]), x1 = log(p->n[b]), y0 = log(p->mean[a]), y1 = log(p->mean[b]);
+    const double slope = (y1 - y0) / (x1 - x0), y = log(target), share = (y - y0) / (y1 - y0);
+    if (!(slope < 0)) {
+        return none;
+    }
+    *outside = share < 0 || share > 1;
+    const double e = target_error / target, e0 = p->error[a] / p->mean[a], e1 = p->error[b] / p->mean[b];
+    const double dx = sqrt(e * e + (1 - share) * (1 - share) * e0 * e0 + share * share * e1 * e1) / -slope;
+    const double x = x0 + share * (x1 - x0);
+    return (koksma__estimate){exp(x), exp(x - 1.959963984540054 * dx), exp(x + 1.959963984540054 * dx)};
+}

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "stats/statistics.h"
+
+#include <math.h>
+
+#include <koksma/series.h>
+
+#include "core/sum.h"
+
+/* Values that are equal in exact arithmetic differ by less, in measures that are good to their last digits. */
+#define ROUNDING 1e-12
+
+int koksma__compare(double a, double b)
+{
+    return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b)) ? 0 : (a > b) - (a < b);
+}
+
+/* a[i] - b[i], or a[i] without b. */
+static double item(const double *a, const double *b, size_t i)
+{
+    return !b ? a[i] : koksma__compare(a[i], b[i]) || isnan(a[i] - b[i]) ? a[i] - b[i] : 0;
+}
+
+koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride)
+{
+    koksma__summary s = {n, NAN, NAN, NAN, NAN, NAN};
+    if (n == 0) {
+        return s;
+    }
+    koksma__sum sum = {0}, squares = {0};
+    double size = 0;
+    s.max = item(a, b, 0);
+    for (size_t i = 0; i < n; i++) {
+        const double value = item(a, b, i * stride);
+        koksma__sum_add(&sum, value);
+        s.max = fmax(s.max, value);
+        size = fmax(size, fmax(fabs(a[i * stride]), b ? fabs(b[i * stride]) : 0));
+    }
+    s.mean = koksma__sum_value(&sum) / (double)n;
+    for (size_t i = 0; i < n; i++) {
+        const double t = item(a, b, i * stride) - s.mean;
+        koksma__sum_add(&squares, t * t);
+    }
+    if (n < 2) {
+        return s;
+    }
+    s.sd = sqrt(koksma__sum_value(&squares) / (double)(n - 1));
+    if (s.sd <= ROUNDING * size) {
+        s.sd = 0;
+    }
+    const double half = koksma_student_975(n - 1) * s.sd / sqrt((double)n);
+    s.low = s.mean - half;
+    s.high = s.mean + half;
+    return s;
+}
+
+/* The quotient q of the means errs by about the mean of a - q base over the mean of base (Cochran 1977, section 6.3):
+   that base varies, too, is in it. */
+koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n)
+{
+    const double mean_a = koksma__summarize(a, n, 1).mean, mean = koksma__summarize(base, n, 1).mean;
+    const double quotient = koksma__compare(mean_a, mean) ? mean_a / mean : 1;
+    koksma__sum squares = {0};
+    for (size_t i = 0; i < n; i++) {
+        const double expected = quotient * base[i], t = koksma__compare(a[i], expected) ? a[i] - expected : 0;
+        koksma__sum_add(&squares, t * t);
+    }
+    if (n < 2) {
+        return (koksma__estimate){quotient - 1, NAN, NAN};
+    }
+    const double error = sqrt(koksma__sum_value(&squares) / ((double)(n - 1) * (double)n));
+    const double half = error > 0 ? koksma_student_975(n - 1) * error / fabs(mean) : 0;
+    return (koksma__estimate){quotient - 1, quotient - 1 - half, quotient - 1 + half};
+}
+
+koksma__summary koksma__exactly(double value)
+{
+    return (koksma__summary){1, value, 0, value, value, value};
+}
+
+koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
+{
+    return koksma__paired(values, NULL, n, stride);
+}
+
+void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd)
+{
+    koksma_tally largest = {0};
+    for (size_t b = 0; b < n / block; b++) {
+        koksma_tally_add(&largest, koksma__summarize(values + b * block * stride, block, stride).max);
+    }
+    *mean = largest.count > 0 ? largest.mean : (double)NAN;
+    *sd = koksma_tally_sd(&largest);
+}

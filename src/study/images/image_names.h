@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Pictures known by their names: a path with places in braces, as in out_{spp}_{trial}.exr. */
+#ifndef KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
+#define KOKSMA_STUDY_IMAGES_IMAGE_NAMES_H
+
+#include <stdbool.h>
+
+#include <koksma/study.h>
+
+/* What a path says at the places: {spp} and {trial} take digits; others, as "name=text name=text", are the group. */
+typedef struct koksma__image_name {
+    char group[KOKSMA_IMAGES_GROUP];
+    long long spp, trial;
+} koksma__image_name;
+
+/* The pattern of glob() for all paths that may fit. Errors: ARGUMENT (no places, or too long). */
+koksma_status koksma__image_names_pattern(const char *places, char *pattern, size_t size);
+
+/* Whether a path fits places that have a pattern. Errors: MEMORY. */
+koksma_status koksma__image_name_read(const char *places, const char *path, koksma__image_name *out, bool *fits);
+
+#endif

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The tables of a study for images that another renderer made, known by their file names. All images are compared
+ * with the reference at once; the coherence of the errors, which takes 16 bytes a pixel, is found row by row.
+ */
+#include <glob.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/series.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "stats/statistics.h"
+#include "study/images/image_names.h"
+#include "study/run/study.h"
+
+/* One file. */
+typedef struct picture {
+    const char *path;
+    koksma__image_name name;
+    _Alignas(8) koksma_image_error error; /* also where a double needs less, so that a picture is a row of doubles */
+} picture;
+_Static_assert(sizeof(picture) % sizeof(double) == 0, "the statistics step over pictures by doubles");
+
+typedef struct pictures {
+    size_t n;
+    picture *at;
+    koksma_image reference;
+} pictures;
+
+static int compare_pictures(const void *a, const void *b)
+{
+    const picture *p = a, *q = b;
+    const int group = strcmp(p->name.group, q->name.group);
+    if (group || p->name.spp != q->name.spp) {
+        return group ? group : p->name.spp < q->name.spp ? -1 : 1;
+    }
+    return p->name.trial != q->name.trial ? (p->name.trial < q->name.trial ? -1 : 1) : strcmp(p->path, q->path);
+}
+
+static koksma_status collect(const char *places, const glob_t *found, pictures *out)
+{
+    out->at = calloc(found->gl_pathc + 1, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(found->gl_pathc * sizeof *out->at);
+    }
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < found->gl_pathc; i++) {
+        picture p = {.path = found->gl_pathv[i]};
+        bool fits;
+        status = koksma__image_name_read(places, p.path, &p.name, &fits);
+        if (!status && fits) {
+            out->at[out->n++] = p;
+        }
+    }
+    if (status) {
+        return status;
+    }
+    qsort(out->at, out->n, sizeof *out->at, compare_pictures);
+    return out->n ? KOKSMA_OK : koksma__fail(KOKSMA_MISSING, "%s: no such images", places);
+}
+
+/* ---- Errors -------------------------------------------------------------------------------------------- */
+
+static koksma_status compare_one(void *context, size_t i)
+{
+    pictures *all = context;
+    koksma_image image;
+    koksma_status status = koksma_image_read(all->at[i].path, &image);
+    if (!status) {
+        status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
+        /* One pixel that is no number would make a whole group's error none. */
+        status =
+            status ? koksma__fail_in(status, all->at[i].path) : koksma_image_check_finite(&image, all->at[i].path);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+/* Gives the rows of one group their slope. */
+static koksma_status add_slope(koksma_images_row *rows, size_t n)
+{
+    koksma__summary *means = calloc(n, sizeof *means);
+    double *spp = calloc(n, sizeof *spp);
+    size_t used = 0;
+    for (size_t i = 0; means && spp && i < n; i++) {
+        if (rows[i].spp > 0 && rows[i].mean > 0) {
+            const double t = rows[i].trials > 1 ? koksma_student_975(rows[i].trials - 1) : (double)NAN;
+            spp[used] = (double)rows[i].spp;
+            means[used++] = (koksma__summary){.n = rows[i].trials,
+                                              .mean = rows[i].mean,
+                                              .sd = (rows[i].high - rows[i].mean) / t * sqrt((double)rows[i].trials)};
+        }
+    }
+    const bool made = means && spp;
+    const koksma__estimate slope = koksma__trend_of(spp, means, used).slope;
+    for (size_t i = 0; made && i < n; i++) {
+        rows[i].slope = slope.value;
+        rows[i].slope_low = slope.low;
+        rows[i].slope_high = slope.high;
+    }
+    free(means);
+    free(spp);
+    return made ? KOKSMA_OK : koksma__fail_memory(n * (sizeof *means + sizeof *spp));
+}
+
+static void fill_row(const picture *first, size_t n, koksma_images_row *row)
+{
+    const size_t stride = sizeof *first / sizeof(double);
+    const koksma__summary mean = koksma__summarize(&first->error.mean, n, stride);
+    snprintf(row->group, sizeof row->group, "%s", first->name.group);
+    row->spp = first->name.spp;
+    row->trials = n;
+    row->mean = mean.mean;
+    row->low = mean.low;
+    row->high = mean.high;
+    row->sd = koksma__summarize(&first->error.sd, n, stride).mean;
+    row->max = koksma__summarize(&first->error.max, n, stride).mean;
+    row->rmse = koksma__summarize(&first->error.rmse, n, stride).mean;
+}
+
+static koksma_status make_rows(const pictures *all, koksma_images_row **rows, size_t *n)
+{
+    *rows = calloc(all->n, sizeof **rows);
+    if (!*rows) {
+        return koksma__fail_memory(all->n * sizeof **rows);
+    }
+    for (size_t i = 0, end; i < all->n; i = end) {
+        for (end = i + 1; end < all->n && !strcmp(all->at[end].name.group, all->at[i].name.group) &&
+                          all->at[end].name.spp == all->at[i].name.spp;) {
+            end++;
+        }
+        fill_row(&all->at[i], end - i, &(*rows)[(*n)++]);
+    }
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0, end; !status && i < *n; i = end) {
+        for (end = i + 1; end < *n && !strcmp((*rows)[end].group, (*rows)[i].group);) {
+            end++;
+        }
+        status = add_slope(*rows + i, end - i);
+    }
+    return status;
+}
+
+/* The coherence of each row, whose images follow each other in `all`. */
+static koksma_status add_coherence(const pictures *all, const koksma_run *run, koksma_images_row *rows, size_t n)
+{
+    koksma_status status = KOKSMA_OK;
+    const picture *p = all->at;
+    for (size_t i = 0; !status && i < n; i++) {
+        koksma_coherence coherence;
+        status = koksma_coherence_init(&coherence, all->reference.width, all->reference.height);
+        for (size_t k = 0; !status && k < rows[i].trials; k++, p++) {
+            koksma_image image = {0};
+            status = koksma__keep_going(run, 1) ? koksma_image_read(p->path, &image) : koksma__fail_interrupted();
+            if (!status) {
+                status = koksma_coherence_add(&coherence, &image, &all->reference);
+                koksma_image_fini(&image);
+            }
+        }
+        koksma_coherence_find(&coherence, &rows[i].coherence);
+        koksma_coherence_fini(&coherence);
+    }
+    return status;
+}
+
+koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
+                                  koksma_images_row **rows, size_t *n)
+{
+    char pattern[KOKSMA__PATH];
+    glob_t found = {0};
+    pictures all = {0};
+    *rows = NULL;
+    *n = 0;
+    koksma_status status = koksma__image_names_pattern(places, pattern, sizeof pattern);
+    if (status) {
+        return status;
+    }
+    status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
+                                                            : collect(places, &found, &all);
+    status = status ? status : koksma_image_read(reference, &all.reference);
+    status = status ? status : koksma_image_check_finite(&all.reference, reference);
+    status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
+    status = status ? status : make_rows(&all, rows, n);
+    status = status ? status : add_coherence(&all, run, *rows, *n);
+    if (status) {
+        free(*rows);
+        *rows = NULL;
+        *n = 0;
+    }
+    koksma_image_fini(&all.reference);
+    free(all.at);
+    globfree(&found);
+    return status;
+}

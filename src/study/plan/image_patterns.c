@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan/image_patterns.h"
+
+#include <string.h>
+
+#include "core/status.h"
+#include "render/samples/sampler.h"
+
+koksma_status koksma__image_pattern_set(const char *text, koksma_render_options *options)
+{
+    memset(&options->pattern, 0, sizeof options->pattern);
+    memset(options->patterns, 0, sizeof options->patterns);
+    memset(options->groups, 0, sizeof options->groups);
+    const koksma_status status = koksma_pattern_spec("n-rooks", &options->pattern);
+    return status ? status : koksma_render_patterns(text, options);
+}
+
+koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_render_options options = {0};
+    char all[KOKSMA_MAX_PATTERNS_TEXT];
+    const koksma_status status = koksma__image_pattern_set(text, &options);
+    if (status) {
+        return status;
+    }
+    koksma_render_patterns_text(&options, all);
+    if (strlen(all) >= KOKSMA_MAX_SPEC) {
+        return koksma__fail(KOKSMA_ARGUMENT, "'%.40s...': the patterns of an image take at most %d characters", all,
+                            KOKSMA_MAX_SPEC - 1);
+    }
+    memcpy(out, all, strlen(all) + 1);
+    return KOKSMA_OK;
+}
+
+bool koksma__image_pattern_is_one(const char *text)
+{
+    koksma_render_options options = {0};
+    bool one = !koksma__image_pattern_set(text, &options);
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        one = one && !options.patterns[u].pattern;
+    }
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        one = one && !options.groups[g].n_uses;
+    }
+    return one;
+}
+
+koksma_status koksma__image_pattern_try(const char *text, size_t n, const koksma_run *run)
+{
+    koksma_render_options options = {0};
+    const koksma_status status = koksma__image_pattern_set(text, &options);
+    return status ? status : koksma__try_use_patterns(&options, n, run);
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Plans are JSON (studies/README.md has the fields). Everything in a plan is checked here, before any work. */
+#include "study/plan/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/render.h>
+#include <koksma/study.h>
+#include <koksma/warp.h>
+
+#include "study/plan/image_patterns.h"
+#include "study/plan/plan_section.h"
+#include "study/plan/plans_embedded.h"
+#include "study/plan/variants.h"
+#include "json/json.h"
+
+enum { MAX_TRIALS = 100000000, MAX_SPP = 1 << 20, MAX_NAME = 64 };
+
+const char *koksma_plan_name_at(size_t i)
+{
+    return i < sizeof embedded_texts / sizeof *embedded_texts ? embedded_texts[i].name : NULL;
+}
+
+const char *koksma__plan_shipped(const char *name, size_t *size)
+{
+    for (size_t i = 0; koksma_plan_name_at(i); i++) {
+        if (!strcmp(embedded_texts[i].name, name)) {
+            *size = embedded_texts[i].size;
+            return embedded_texts[i].text;
+        }
+    }
+    return NULL;
+}
+
+/* ---- The parts that discrepancies and images share ------------------------------------------------------- */
+
+/* How often a block is done: by the run, by its `quick` in a quick run, by its `trials`. */
+static koksma_status parse_trials(const koksma__json_node *node, const koksma__plan_trials *given, long long *out)
+{
+    long long quick = 0;
+    koksma_status status = koksma__json_get_whole(node, "trials", true, 1, MAX_TRIALS, out);
+    status = status ? status : koksma__json_get_whole(node, "quick", false, 1, MAX_TRIALS, &quick);
+    *out = given->quick && quick ? quick : *out;
+    *out = given->trials > 0 ? given->trials : *out;
+    return status;
+}
+
+/* A warp must know every measure: that is tried on one point. */
+static koksma_status check_warps(const koksma__json_node *node, const koksma__discrepancy_block *b)
+{
+    double xs[] = {0.5, 0.5};
+    const koksma_points point = {1, 2, xs};
+    for (size_t w = 0; w < b->warps.n; w++) {
+        const koksma_warp *warp = koksma_warp_find(b->warps.at[w]);
+        if (!warp) {
+            return koksma__json_fail(node, "no warp '%s'; 'koksma measure --help' names them", b->warps.at[w]);
+        }
+        for (size_t m = 0; m < b->measures.n; m++) {
+            koksma_spec spec;
+            koksma_value value;
+            koksma_status status = koksma_measure_spec(b->measures.at[m], &spec);
+            status = status ? status : koksma_warp_evaluate(warp, &spec, &point, NULL, &value);
+            if (status) {
+                return koksma__json_fail_in(node, status);
+            }
+        }
+    }
+    return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps take dim 2") : KOKSMA_OK;
+}
+
+static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "id",  "patterns", "measures", "warps",
+                                       "n",       "dim", "trials",   "quick",    NULL};
+    koksma__discrepancy_block *b = item;
+    long long dim = 2;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_id(node, false, &b->id);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma__pattern_text, &b->patterns);
+    status = status ? status : koksma__plan_specs(node, "measures", koksma__measure_text, &b->measures);
+    if (!status && koksma__json_has(node, "warps")) {
+        status = koksma__plan_texts(node, "warps", &b->warps);
+    }
+    status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
+    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
+    status = status ? status : parse_trials(node, trials, &b->trials);
+    b->dim = (int)dim;
+    status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
+    status = status ? status : koksma__plan_check_measures(node, b);
+    koksma__plan_sort(&b->n);
+    return status ? status : check_warps(node, b);
+}
+
+static koksma_status parse_reference(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "name", "pattern", "spp", "replicates", NULL};
+    (void)trials;
+    koksma__reference *r = item;
+    r->replicates = 1;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_text(node, "name", true, &r->name);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
+    status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
+    status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
+    if (!status && strlen(r->name) > MAX_NAME) {
+        return koksma__json_fail(node, "its name has more than %d letters", MAX_NAME);
+    }
+    return status ? status : koksma__plan_check_reference(node, r);
+}
+
+/* A scene that opens; its own errors are handed on with the plan's line. */
+static koksma_status check_scene(const koksma__json_node *node, const char *name)
+{
+    koksma_scene *scene;
+    const koksma_status status = koksma_scene_open(name, &scene);
+    if (!status) {
+        koksma_scene_close(scene);
+    }
+    return status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
+}
+
+static koksma_status check_scenes(const koksma__json_node *node, const koksma__texts *scenes)
+{
+    koksma__json_node list;
+    koksma_status status = koksma__json_member(node, "scenes", &list);
+    for (size_t i = 0; !status && i < scenes->n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = check_scene(&item, scenes->at[i]);
+    }
+    return status;
+}
+
+static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp", "options",
+                                       "size",    "trials", "quick",  "references", NULL};
+    koksma__image_block *b = item;
+    double size[2] = {0, 0};
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_id(node, false, &b->id);
+    status = status ? status : koksma__plan_texts(node, "scenes", &b->scenes);
+    status = status ? status : check_scenes(node, &b->scenes);
+    status = status ? status : koksma__plan_specs(node, "patterns", koksma__image_pattern_text, &b->patterns);
+    status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
+    status = status ? status : koksma__variants_parse(node, &b->variants);
+    status = status ? status : koksma__plan_check_spp(node, b);
+    koksma__plan_sort(&b->spp);
+    status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
+    status = status ? status : parse_trials(node, trials, &b->trials);
+    b->width = (int)size[0];
+    b->height = (int)size[1];
+    return status ? status
+                  : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,
+                                      (void **)&b->references, &b->n_references);
+}
+
+/* ---- The whole ------------------------------------------------------------------------------------------- */
+
+bool koksma__texts_have(const koksma__texts *texts, const char *text)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        if (!strcmp(texts->at[i], text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
+{
+    for (size_t i = 0; i < wholes->n; i++) {
+        if (wholes->at[i] == value) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim)
+{
+    return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
+           koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
+}
+
+static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
+{
+    static const char *const keys[] = {"comment", "name",   "title",   "about",     "order", "discrepancies",
+                                       "images",  "tables", "figures", "questions", NULL};
+    koksma_status status = koksma__json_only(root, keys);
+    status = status ? status : koksma__plan_text(root, "name", true, &p->name);
+    status = status ? status : koksma__plan_text(root, "title", true, &p->title);
+    status = status ? status : koksma__plan_text(root, "about", false, &p->about);
+    status = status ? status : koksma__plan_text(root, "order", false, &p->order);
+    status = status ? status
+                    : koksma__plan_list(root, "discrepancies", false, sizeof *p->discrepancies, parse_discrepancy,
+                                        trials, (void **)&p->discrepancies, &p->n_discrepancies);
+    status = status ? status
+                    : koksma__plan_list(root, "images", false, sizeof *p->images, parse_image, trials,
+                                        (void **)&p->images, &p->n_images);
+    status = status ? status
+                    : koksma__plan_list(root, "tables", false, sizeof *p->tables, koksma__plan_table, trials,
+                                        (void **)&p->tables, &p->n_tables);
+    status = status ? status
+                    : koksma__plan_list(root, "figures", false, sizeof *p->figures, koksma__plan_figure, trials,
+                                        (void **)&p->figures, &p->n_figures);
+    status = status ? status
+                    : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
+                                        (void **)&p->questions, &p->n_questions);
+    status = status ? status : koksma__plan_check_questions(root, p);
+    if (!status && p->n_discrepancies + p->n_images == 0) {
+        return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
+    }
+    status = status ? status : koksma__plan_check_tables(root, p);
+    return status ? status : koksma__plan_own(p);
+}
+
+koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
+                                 koksma__plan *plan)
+{
+    static const koksma__plan_trials as_planned = {0};
+    koksma__json *document;
+    *plan = (koksma__plan){0};
+    koksma_status status = koksma__json_open("plan", name, text, size, &document);
+    if (status) {
+        return status;
+    }
+    const koksma__json_node root = koksma__json_root(document);
+    status = parse(&root, trials ? trials : &as_planned, plan);
+    koksma__json_close(document);
+    if (status) {
+        koksma__plan_fini(plan);
+    }
+    return status;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The figures of a plan: points, or a scene, or how a pixel of it was subdivided. */
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/adaptive.h>
+#include <koksma/warp.h>
+
+#include "core/status.h"
+#include "study/plan/image_patterns.h"
+#include "study/plan/plan_section.h"
+#include "study/plan/variants.h"
+
+enum { MAX_N = 1 << 20 };
+#define MIN_EXPOSURE 1e-3
+#define MAX_EXPOSURE 1e3
+
+static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long *out)
+{
+    koksma__json_node list;
+    size_t length;
+    koksma_status status = koksma__json_member(node, key, &list);
+    status = status ? status : koksma__json_length(&list, n, &length);
+    if (!status && length != n) {
+        return koksma__json_fail(&list, "it takes %zu numbers", n);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
+    }
+    return status;
+}
+
+static koksma_status check_words(const koksma__json_node *node, const koksma__figure *f)
+{
+    koksma_adaptive_options adaptive;
+    koksma_scene *scene;
+    koksma_status status = f->scene ? koksma_scene_open(f->scene, &scene) : KOKSMA_OK;
+    if (f->scene && !status) {
+        koksma_scene_close(scene);
+    }
+    if (!status && f->adaptive) {
+        status = koksma_adaptive_parse(f->adaptive, &adaptive);
+        if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive=%s: it takes one pattern for all uses", f->pattern,
+                                  f->adaptive);
+        }
+    }
+    if (status) {
+        return koksma__json_fail_in(node, status);
+    }
+    if (f->warp && !koksma_warp_find(f->warp)) {
+        return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", f->warp);
+    }
+    if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
+        return koksma__json_fail(node, "options, adaptive and detail go with a scene");
+    }
+    if (strstr(f->variant, "adaptive=")) {
+        return koksma__json_fail(node, "a figure's method is its own field 'adaptive', not one of its options");
+    }
+    if (f->strata[0] >= 0 && !f->adaptive) {
+        return koksma__json_fail(node, "strata go with an adaptive method");
+    }
+    if (f->spaces.n && f->strata[0] < 0) {
+        return koksma__json_fail(node, "spaces go with strata");
+    }
+    if (f->exposure != 1 && (!f->scene || f->strata[0] >= 0)) {
+        return koksma__json_fail(node, "exposure goes with the picture of a scene");
+    }
+    return KOKSMA_OK;
+}
+
+/* "lines": random lines in the square, or their duals. */
+static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
+{
+    char *word = NULL;
+    koksma_status status = koksma__plan_text(node, "lines", false, &word);
+    f->lines = word != NULL;
+    f->dual = word && !strcmp(word, "dual");
+    if (!status && word && !f->dual && strcmp(word, "primal") != 0) {
+        status = koksma__json_fail(node, "lines '%s': it takes primal or dual", word);
+    }
+    if (!status && f->lines && (f->scene || f->warp || f->cells)) {
+        status = koksma__json_fail(node, "lines go with neither scene, warp nor cells");
+    }
+    free(word);
+    return status;
+}
+
+koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "id",       "title",  "pattern",  "scene", "n",
+                                       "cells",   "adaptive", "strata", "detail",   "warp",  "options",
+                                       "lines",   "printed",  "spaces", "exposure", NULL};
+    koksma__figure *f = item;
+    koksma__texts variants = {0};
+    (void)trials;
+    f->strata[0] = f->strata[1] = -1;
+    f->exposure = 1;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_id(node, true, &f->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &f->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &f->scene);
+    status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
+    status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
+    status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
+    status = status ? status
+                    : koksma__plan_spec(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
+                                        true, &f->pattern);
+    status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
+    status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
+    status = status ? status : get_lines(node, f);
+    if (!status && koksma__json_has(node, "strata")) {
+        status = get_wholes(node, "strata", 2, f->strata);
+    }
+    if (!status && koksma__json_has(node, "detail")) {
+        status = get_wholes(node, "detail", 4, f->detail);
+    }
+    if (!status && koksma__json_has(node, "spaces")) {
+        status = koksma__plan_texts(node, "spaces", &f->spaces);
+    }
+    status =
+        status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
+    status = status ? status : koksma__variants_parse(node, &variants);
+    if (!status && variants.n != 1) {
+        status = koksma__json_fail(node, "a figure has one word an option");
+    }
+    if (!status) {
+        f->variant = variants.at[0];
+        variants.at[0] = NULL;
+    }
+    koksma__texts_fini(&variants);
+    return status ? status : check_words(node, f);
+}

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a plan owns: putting two together, and freeing. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/plan/plan.h"
+
+/* Moves the n_from items of *from behind the n of *to. */
+static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, size_t item_size)
+{
+    if (*n_from == 0) {
+        return KOKSMA_OK;
+    }
+    char *all = realloc(*to, (*n + *n_from) * item_size);
+    if (!all) {
+        return koksma__fail_memory((*n + *n_from) * item_size);
+    }
+    memcpy(all + *n * item_size, *from, *n_from * item_size);
+    free(*from);
+    *to = all;
+    *n += *n_from;
+    *from = NULL;
+    *n_from = 0;
+    return KOKSMA_OK;
+}
+
+/* *to may be NULL: then it becomes a copy. */
+static koksma_status join_text(char **to, const char *between, const char *from)
+{
+    if (!*to) {
+        *to = strdup(from);
+        return *to ? KOKSMA_OK : koksma__fail_memory(strlen(from));
+    }
+    const size_t size = strlen(*to) + strlen(between) + strlen(from) + 1;
+    char *text = malloc(size);
+    if (!text) {
+        return koksma__fail_memory(size);
+    }
+    snprintf(text, size, "%s%s%s", *to, between, from);
+    free(*to);
+    *to = text;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__plan_own(koksma__plan *p)
+{
+    koksma__plan_part *part = calloc(1, sizeof *part);
+    char *title = strdup(p->title), *about = p->about ? strdup(p->about) : NULL;
+    if (!part || !title || (p->about && !about)) {
+        free(part);
+        free(title);
+        free(about);
+        return koksma__fail_memory(sizeof *part + strlen(p->title));
+    }
+    *part = (koksma__plan_part){.title = title,
+                                .about = about,
+                                .order = p->order,
+                                .asks = p->n_tables || p->n_questions,
+                                .discrepancies = {0, p->n_discrepancies},
+                                .images = {0, p->n_images},
+                                .figures = {0, p->n_figures}};
+    p->order = NULL;
+    p->parts = part;
+    p->n_parts = 1;
+    return KOKSMA_OK;
+}
+
+/* The numbers of q's blocks and parts, once they stand behind p's. */
+static void shift(const koksma__plan *p, koksma__plan *q)
+{
+    for (size_t i = 0; i < q->n_parts; i++) {
+        for (int end = 0; end < 2; end++) {
+            q->parts[i].discrepancies[end] += p->n_discrepancies;
+            q->parts[i].images[end] += p->n_images;
+            q->parts[i].figures[end] += p->n_figures;
+        }
+    }
+    for (size_t t = 0; t < q->n_tables; t++) {
+        q->tables[t].images += p->n_images;
+        q->tables[t].part += p->n_parts;
+    }
+    for (size_t i = 0; i < q->n_questions; i++) {
+        q->questions[i].part += p->n_parts;
+    }
+}
+
+koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
+{
+    koksma_status status = join_text(&p->name, "+", q->name);
+    status = status ? status : join_text(&p->title, "; ", q->title);
+    shift(p, q);
+    if (!status && q->about) {
+        status = join_text(&p->about, " ", q->about);
+    }
+#define JOIN(items)                                                                                                  \
+    status = status ? status                                                                                         \
+                    : join((void **)&p->items, &p->n_##items, (void **)&q->items, &q->n_##items, sizeof *p->items)
+    JOIN(parts);
+    JOIN(discrepancies);
+    JOIN(images);
+    JOIN(tables);
+    JOIN(figures);
+    JOIN(questions);
+#undef JOIN
+    koksma__plan_fini(q);
+    return status;
+}
+
+void koksma__texts_fini(koksma__texts *texts)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        free(texts->at[i]);
+    }
+    free(texts->at);
+    *texts = (koksma__texts){0};
+}
+
+static void free_table(koksma__table *t)
+{
+    for (size_t r = 0; r < t->n_rows; r++) {
+        free(t->rows[r].pattern);
+        free(t->rows[r].label);
+    }
+    for (size_t n = 0; n < t->n_notes; n++) {
+        free(t->notes[n].pattern);
+        free(t->notes[n].reason);
+    }
+    free(t->n.at);
+    free(t->rows);
+    free(t->notes);
+    free(t->id);
+    free(t->title);
+    free(t->scene);
+    free(t->measure);
+    free(t->also);
+}
+
+static void free_image_block(koksma__image_block *b)
+{
+    free(b->id);
+    koksma__texts_fini(&b->scenes);
+    koksma__texts_fini(&b->variants);
+    koksma__texts_fini(&b->patterns);
+    free(b->spp.at);
+    for (size_t r = 0; r < b->n_references; r++) {
+        free(b->references[r].name);
+        free(b->references[r].pattern);
+    }
+    free(b->references);
+}
+
+void koksma__plan_fini(koksma__plan *p)
+{
+    for (size_t i = 0; i < p->n_discrepancies; i++) {
+        free(p->discrepancies[i].id);
+        koksma__texts_fini(&p->discrepancies[i].patterns);
+        koksma__texts_fini(&p->discrepancies[i].measures);
+        koksma__texts_fini(&p->discrepancies[i].warps);
+        free(p->discrepancies[i].n.at);
+    }
+    for (size_t i = 0; i < p->n_images; i++) {
+        free_image_block(&p->images[i]);
+    }
+    for (size_t i = 0; i < p->n_tables; i++) {
+        free_table(&p->tables[i]);
+    }
+    for (size_t i = 0; i < p->n_figures; i++) {
+        free(p->figures[i].id);
+        free(p->figures[i].title);
+        free(p->figures[i].pattern);
+        free(p->figures[i].scene);
+        free(p->figures[i].variant);
+        free(p->figures[i].adaptive);
+        free(p->figures[i].warp);
+        free(p->figures[i].printed);
+        koksma__texts_fini(&p->figures[i].spaces);
+    }
+    for (size_t i = 0; i < p->n_questions; i++) {
+        free(p->questions[i].id);
+        free(p->questions[i].title);
+        free(p->questions[i].discrepancies);
+        free(p->questions[i].images);
+        for (size_t g = 0; g < p->questions[i].n_groups; g++) {
+            free(p->questions[i].groups[g].title);
+            koksma__texts_fini(&p->questions[i].groups[g].scenes);
+        }
+        free(p->questions[i].groups);
+    }
+    for (size_t i = 0; i < p->n_parts; i++) {
+        free(p->parts[i].title);
+        free(p->parts[i].about);
+        free(p->parts[i].order);
+    }
+    free(p->parts);
+    free(p->questions);
+    free(p->discrepancies);
+    free(p->images);
+    free(p->tables);
+    free(p->figures);
+    free(p->name);
+    free(p->title);
+    free(p->about);
+    free(p->order);
+    *p = (koksma__plan){0};
+}

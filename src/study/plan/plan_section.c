@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan/plan_section.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+enum { MAX_ITEMS = 4096 };
+
+static koksma_status copy(const char *text, char **out)
+{
+    *out = strdup(text);
+    return *out ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+}
+
+koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_spec spec;
+    const koksma_status status = koksma_pattern_spec(text, &spec);
+    if (!status) {
+        koksma_spec_text(&spec, out);
+    }
+    return status;
+}
+
+koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_spec spec;
+    const koksma_status status = koksma_measure_spec(text, &spec);
+    if (!status) {
+        koksma_spec_text(&spec, out);
+    }
+    return status;
+}
+
+static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, char **out)
+{
+    const char *text;
+    char name[KOKSMA_MAX_SPEC];
+    koksma_status status = koksma__json_text(node, &text);
+    if (status) {
+        return status;
+    }
+    status = parser(text, name);
+    return status ? koksma__json_fail_in(node, status) : copy(name, out);
+}
+
+koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)
+{
+    const char *text = NULL;
+    const koksma_status status = koksma__json_get_text(node, key, needed, &text);
+    return status || !text ? status : copy(text, out);
+}
+
+koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
+{
+    static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
+    const koksma_status status = koksma__plan_text(node, "id", needed, out);
+    if (!status && *out && (!**out || (*out)[strspn(*out, allowed)])) {
+        return koksma__json_fail(node, "id '%.40s': it takes letters, digits, '.', '-' and '_'", *out);
+    }
+    return status;
+}
+
+koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                bool needed, char **out)
+{
+    koksma__json_node member;
+    if (!needed && !koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__json_member(node, key, &member);
+    return status ? status : canonical(&member, parser, out);
+}
+
+/* The list, its length, at least 1, and room for as many items (to be freed with the plan). */
+static koksma_status open_list(const koksma__json_node *node, const char *key, size_t item_size,
+                               koksma__json_node *list, size_t *length, void **items)
+{
+    koksma_status status = koksma__json_member(node, key, list);
+    if (!status) {
+        status = koksma__json_length(list, MAX_ITEMS, length);
+    }
+    if (!status && *length == 0) {
+        status = koksma__json_fail(list, "an empty list");
+    }
+    if (!status && !(*items = calloc(*length, item_size))) {
+        status = koksma__fail_memory(*length * item_size);
+    }
+    return status;
+}
+
+static koksma_status read_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                koksma__texts *out)
+{
+    koksma__json_node list;
+    size_t length;
+    void *room = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
+    out->at = room;
+    for (; !status && out->n < length; out->n++) {
+        const koksma__json_node item = koksma__json_item(&list, out->n);
+        const char *text;
+        if (parser) {
+            status = canonical(&item, parser, &out->at[out->n]);
+        } else if (!(status = koksma__json_text(&item, &text))) {
+            status = copy(text, &out->at[out->n]);
+        }
+        for (size_t i = 0; !status && i < out->n; i++) {
+            if (!strcmp(out->at[i], out->at[out->n])) {
+                status = koksma__json_fail(&item, "'%s' stands twice", out->at[i]);
+            }
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out)
+{
+    return read_texts(node, key, NULL, out);
+}
+
+koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
+                                 koksma__texts *out)
+{
+    return read_texts(node, key, parser, out);
+}
+
+koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
+                                  koksma__wholes *out)
+{
+    koksma__json_node list;
+    size_t length;
+    void *room = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
+    out->at = room;
+    for (; !status && out->n < length; out->n++) {
+        const koksma__json_node item = koksma__json_item(&list, out->n);
+        status = koksma__json_whole(&item, min, max, &out->at[out->n]);
+        for (size_t i = 0; !status && i < out->n; i++) {
+            if (out->at[i] == out->at[out->n]) {
+                status = koksma__json_fail(&item, "%lld stands twice", out->at[i]);
+            }
+        }
+    }
+    return status;
+}
+
+static int compare_wholes(const void *a, const void *b)
+{
+    const long long x = *(const long long *)a, y = *(const long long *)b;
+    return (x > y) - (x < y);
+}
+
+void koksma__plan_sort(koksma__wholes *wholes)
+{
+    if (wholes->n) {
+        qsort(wholes->at, wholes->n, sizeof *wholes->at, compare_wholes);
+    }
+}
+
+koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, bool needed, size_t item_size,
+                                koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
+                                size_t *n)
+{
+    koksma__json_node list;
+    size_t length;
+    if (!needed && !koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = open_list(node, key, item_size, &list, &length, items);
+    while (!status && *n < length) {
+        const koksma__json_node item = koksma__json_item(&list, *n);
+        status = parser(&item, trials, (char *)*items + (*n)++ * item_size);
+    }
+    return status;
+}

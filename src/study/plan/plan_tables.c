@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The published tables of a plan. A table has one number of points, and its rows a printed mean, SD and maximum; or
+ * it is over several numbers of points, and its rows have a printed mean for each. Printed numbers may be JSON
+ * strings, which keep a trailing 0: half of the last printed digit is what rounding may have done to them.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+#include "study/plan/image_patterns.h"
+#include "study/plan/plan_section.h"
+
+/* ---- Printed numbers ------------------------------------------------------------------------------------- */
+
+static koksma_status parse_printed(const koksma__json_node *node, koksma__printed *out)
+{
+    const char *text;
+    char number[sizeof out->text];
+    if (koksma__json_is_text(node)) {
+        koksma_status status = koksma__json_text(node, &text);
+        char *end = NULL;
+        out->value = status ? (double)NAN : koksma__strtod(text, &end);
+        if (!status &&
+            (end == text || *end || strspn(text, "0123456789.") != strlen(text) || !isfinite(out->value))) {
+            return koksma__json_fail(node, "'%s': it takes a number as printed, such as 0.0370", text);
+        }
+        if (!status && strlen(text) >= sizeof out->text) {
+            return koksma__json_fail(node, "a printed number has at most %zu characters", sizeof out->text - 1);
+        }
+        if (status) {
+            return status;
+        }
+    } else {
+        const koksma_status status = koksma__json_number(node, 0, 1e6, &out->value);
+        if (status) {
+            return status;
+        }
+        koksma__snprintf(number, sizeof number, "%.9g", out->value);
+        text = number;
+    }
+    const char *point = strchr(text, '.');
+    strcpy(out->text, text);
+    out->half_digit = 0.5 * pow(10, -(double)(point ? strlen(point + 1) : 0));
+    return KOKSMA_OK;
+}
+
+/* Mean, SD and maximum, or the means of a table over several n; what a paper does not print is left out at the end.
+ */
+static koksma_status parse_published(const koksma__json_node *node, koksma__table_row *row)
+{
+    koksma__json_node list;
+    size_t length = 0;
+    koksma_status status = koksma__json_member(node, "published", &list);
+    status = status ? status : koksma__json_length(&list, KOKSMA__TABLE_PRINTED, &length);
+    for (size_t i = 0; i < KOKSMA__TABLE_PRINTED; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        row->published[i] = (koksma__printed){.value = NAN};
+        status = !status && i < length ? parse_printed(&item, &row->published[i]) : status;
+    }
+    row->n_published = length;
+    return status;
+}
+
+/* ---- Tables ---------------------------------------------------------------------------------------------- */
+
+static koksma_status parse_row(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", NULL};
+    (void)trials;
+    koksma__table_row *r = item;
+    r->rate = NAN;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
+    status = status ? status : koksma__plan_text(node, "label", true, &r->label);
+    status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
+    return status ? status : parse_published(node, r);
+}
+
+static koksma_status parse_note(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "pattern", "n", "statistic", "reason", "explained", NULL};
+    static const char *const statistics[] = {"mean", "sd", "max"};
+    (void)trials;
+    koksma__note *n = item;
+    const char *statistic;
+    n->explained = true;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, false, &n->pattern);
+    status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
+    status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
+    status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
+    status = status ? status : koksma__json_get_text(node, "statistic", true, &statistic);
+    for (n->statistic = 0; !status && strcmp(statistics[n->statistic], statistic) != 0;) {
+        if (++n->statistic == 3) {
+            return koksma__json_fail(node, "statistic '%s': it takes mean, sd or max", statistic);
+        }
+    }
+    return status;
+}
+
+/* One number, or a list of several. */
+static koksma_status parse_sizes(const koksma__json_node *node, koksma__table *t)
+{
+    koksma__json_node n;
+    koksma_status status = koksma__json_member(node, "n", &n);
+    if (!status && koksma__json_is_array(&n)) {
+        status = koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &t->n);
+        return !status && t->n.n > KOKSMA__TABLE_PRINTED
+                   ? koksma__json_fail(&n, "a table is over at most %d numbers of points", KOKSMA__TABLE_PRINTED)
+                   : status;
+    }
+    t->n.at = calloc(1, sizeof *t->n.at);
+    t->n.n = t->n.at ? 1 : 0;
+    status = !status && !t->n.at ? koksma__fail_memory(sizeof *t->n.at) : status;
+    return status ? status
+                  : koksma__json_get_whole(node, "n", true, 1, (long long)KOKSMA_MAX_COORDINATES, &t->n.at[0]);
+}
+
+static koksma_status check_shape(const koksma__json_node *node, const koksma__table *t)
+{
+    const bool over_n = koksma__table_is_over_n(t);
+    if (!t->scene == !t->measure) {
+        return koksma__json_fail(node, "a table has either a scene or a measure");
+    }
+    if (t->scene && over_n) {
+        return koksma__json_fail(node, "a table of a scene has one number of samples");
+    }
+    if (t->measure && t->fitted) {
+        return koksma__json_fail(node, "'fitted' goes with a scene: a measure has nothing to fit");
+    }
+    for (size_t i = 0; i + 1 < t->n.n; i++) {
+        if (t->n.at[i] >= t->n.at[i + 1]) {
+            return koksma__json_fail(node, "a table's numbers of points rise: %lld comes before %lld", t->n.at[i],
+                                     t->n.at[i + 1]);
+        }
+    }
+    for (size_t r = 0; r < t->n_rows; r++) {
+        if (t->rows[r].n_published > (over_n ? t->n.n : 3)) {
+            return koksma__json_fail(node, "the row of %s has more printed numbers than the table has columns",
+                                     t->rows[r].pattern);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
+{
+    static const char *const keys[] = {"comment", "id",  "title",  "scene", "measure", "also",
+                                       "n",       "dim", "fitted", "rows",  "notes",   NULL};
+    koksma__table *t = item;
+    koksma_status status = koksma__json_only(node, keys);
+    status = status ? status : koksma__plan_id(node, true, &t->id);
+    status = status ? status : koksma__plan_text(node, "title", true, &t->title);
+    status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
+    status = status ? status : koksma__plan_spec(node, "measure", koksma__measure_text, false, &t->measure);
+    status = status ? status : koksma__plan_spec(node, "also", koksma__measure_text, false, &t->also);
+    status = status ? status : koksma__json_get_flag(node, "fitted", false, &t->fitted);
+    status = status ? status : parse_sizes(node, t);
+    t->dim = 2;
+    status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
+    status = status ? status
+                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, parse_row, trials, (void **)&t->rows,
+                                        &t->n_rows);
+    status = status ? status
+                    : koksma__plan_list(node, "notes", false, sizeof *t->notes, parse_note, trials,
+                                        (void **)&t->notes, &t->n_notes);
+    return status ? status : check_shape(node, t);
+}
+
+/* ---- Whether the plan's blocks make the rows ------------------------------------------------------------- */
+
+static bool makes_image(const koksma__image_block *i, const koksma__table *t, const char *pattern)
+{
+    return koksma__texts_have(&i->variants, "") && koksma__texts_have(&i->scenes, t->scene) &&
+           koksma__texts_have(&i->patterns, pattern) && koksma__wholes_have(&i->spp, t->n.at[0]);
+}
+
+/* The first image block that makes all rows of a table: they are compared with the same references, at one size. With
+   none the plan has no such block for *row. */
+static bool find_images(const koksma__plan *plan, koksma__table *t, size_t *row)
+{
+    *row = 0;
+    for (size_t b = 0; b < plan->n_images; b++) {
+        size_t r = 0;
+        while (r < t->n_rows && makes_image(&plan->images[b], t, t->rows[r].pattern)) {
+            r++;
+        }
+        if (r == t->n_rows) {
+            t->images = b;
+            return true;
+        }
+        *row = r > *row ? r : *row;
+    }
+    return false;
+}
+
+/* Whether discrepancy blocks make the measure of a row for every n of the table. */
+static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
+{
+    size_t made = 0;
+    for (size_t i = 0; i < t->n.n; i++) {
+        size_t b = 0;
+        while (b < plan->n_discrepancies &&
+               !koksma__plan_block_makes(&plan->discrepancies[b], measure, pattern, t->n.at[i], t->dim)) {
+            b++;
+        }
+        made += b < plan->n_discrepancies;
+    }
+    return made == t->n.n;
+}
+
+static bool find_discrepancies(const koksma__plan *plan, const koksma__table *t, size_t *row)
+{
+    for (*row = 0; *row < t->n_rows; ++*row) {
+        const char *pattern = t->rows[*row].pattern;
+        if (!is_made(plan, t, t->measure, pattern) || (t->also && !is_made(plan, t, t->also, pattern))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan)
+{
+    for (size_t i = 0; i < plan->n_tables; i++) {
+        koksma__table *t = &plan->tables[i];
+        size_t row;
+        if (!(t->scene ? find_images(plan, t, &row) : find_discrepancies(plan, t, &row))) {
+            koksma__json_node tables;
+            koksma__json_member(root, "tables", &tables);
+            const koksma__json_node table = koksma__json_item(&tables, i);
+            return row && t->scene
+                       ? koksma__json_fail(&table, "no block of the plan makes the row of %s with those before it",
+                                           t->rows[row].pattern)
+                       : koksma__json_fail(&table, "no block of the plan makes the row of %s", t->rows[row].pattern);
+        }
+    }
+    return KOKSMA_OK;
+}

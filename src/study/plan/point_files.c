@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan/point_files.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/read_file.h"
+
+static const char prefix[] = "file:";
+
+/* Where the path begins in a pattern or a reference's name, and how long it is; NULL: in none. */
+static const char *path_in(const char *spec, size_t *length)
+{
+    if (!strncmp(spec, prefix, strlen(prefix))) {
+        spec += strlen(prefix);
+        *length = strlen(spec);
+        return spec;
+    }
+    const char *inner = strstr(spec, ":file:"), *end = strrchr(spec, '@');
+    if (!inner || !end || end < inner + 6) {
+        return NULL;
+    }
+    *length = (size_t)(end - inner - 6);
+    return inner + 6;
+}
+
+static uint64_t hash_of_file(const char *path)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    uint64_t hash = 0;
+    if (strcmp(path, "-") != 0 && !koksma__read_file(path, SIZE_MAX / 4, &bytes, &size)) {
+        hash = koksma__hash(bytes, size);
+    }
+    free(bytes);
+    return hash;
+}
+
+/* Without memory for the list the file is read again the next time. */
+static uint64_t look_up(koksma__point_files *known, const char *path)
+{
+    for (size_t i = 0; known && i < known->n; i++) {
+        if (!strcmp(known->at[i].path, path)) {
+            return known->at[i].hash;
+        }
+    }
+    const uint64_t hash = hash_of_file(path);
+    koksma__point_file *more = known ? realloc(known->at, (known->n + 1) * sizeof *more) : NULL;
+    if (more) {
+        known->at = more;
+        more[known->n] = (koksma__point_file){strdup(path), hash};
+        known->n += more[known->n].path != NULL;
+    }
+    return hash;
+}
+
+void koksma__hash_with_points(koksma__point_files *known, const char *hash, const char *spec,
+                              char out[KOKSMA__HASH_TEXT])
+{
+    size_t length;
+    const char *at = path_in(spec, &length);
+    char *path = at ? strndup(at, length) : NULL;
+    snprintf(out, KOKSMA__HASH_TEXT, "%s", hash);
+    if (path) {
+        const size_t used = strlen(out);
+        snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "",
+                 (unsigned long long)look_up(known, path));
+    }
+    free(path);
+}
+
+void koksma__point_files_fini(koksma__point_files *known)
+{
+    for (size_t i = 0; i < known->n; i++) {
+        free(known->at[i].path);
+    }
+    free(known->at);
+    *known = (koksma__point_files){0};
+}

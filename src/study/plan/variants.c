@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/plan/variants.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/plan/plan_section.h"
+
+enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };
+
+/* Something that a variant sets; set checks a word. */
+typedef struct option {
+    const char *name, *fallback;
+    enum { NEVER, ALWAYS, UNLESS_BOX } changes_image; /* the exact one: then it has references of its own */
+    koksma_status (*set)(koksma__variant *variant, const char *word);
+} option;
+
+/* The index of a word among names, which end at NULL. */
+static koksma_status find(const char *what, const char *(*name_at)(int i), const char *word, int *index)
+{
+    char list[MAX_WORD] = "";
+    for (*index = 0; name_at(*index); (*index)++) {
+        if (!strcmp(name_at(*index), word)) {
+            return KOKSMA_OK;
+        }
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", name_at(*index));
+    }
+    return koksma__fail(KOKSMA_ARGUMENT, "%s '%s': it takes %s", what, word, list);
+}
+
+#define NAMES(function, call)                                                                                        \
+    static const char *function(int i)                                                                               \
+    {                                                                                                                \
+        return call;                                                                                                 \
+    }
+NAMES(pairing_at, koksma_pairing_name((koksma_pairing)i))
+NAMES(scope_at, koksma_scope_name((koksma_scope)i))
+NAMES(lights_at, koksma_light_selection_name((koksma_light_selection)i))
+NAMES(filter_at, koksma_filter_at((size_t)i) ? koksma_filter_at((size_t)i)->name : NULL)
+NAMES(integrator_at, koksma_integrator_at((size_t)i) ? koksma_integrator_at((size_t)i)->name : NULL)
+NAMES(flag_at, i == 0 ? "no" : i == 1 ? "yes" : NULL)
+#undef NAMES
+
+#define SETTER(name, field, value)                                                                                   \
+    static koksma_status set_##name(koksma__variant *variant, const char *word)                                      \
+    {                                                                                                                \
+        int i;                                                                                                       \
+        const koksma_status status = find(#name, name##_at, word, &i);                                               \
+        if (!status) {                                                                                               \
+            variant->render.field = value;                                                                           \
+        }                                                                                                            \
+        return status;                                                                                               \
+    }
+#define splat_at flag_at
+SETTER(pairing, pairing, (koksma_pairing)i)
+SETTER(scope, scope, (koksma_scope)i)
+SETTER(lights, lights, (koksma_light_selection)i)
+SETTER(filter, filter, koksma_filter_at((size_t)i))
+SETTER(integrator, integrator, koksma_integrator_at((size_t)i))
+SETTER(splat, splat, i == 1)
+#undef SETTER
+
+static koksma_status set_adaptive(koksma__variant *variant, const char *word)
+{
+    variant->adaptive.method = NULL;
+    return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
+}
+
+/* One line an option that studies may vary. Splatting stands before the filter, for in older folders it stood behind:
+   their rows of both were compared with references that weren't splatted, and no text of today finds them. */
+static const option known[] = {
+    {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
+    {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},
+    {"filter", "box", ALWAYS, set_filter},       {"integrator", "distribution", ALWAYS, set_integrator},
+    {"adaptive", "none", NEVER, set_adaptive},
+};
+
+enum { N_KNOWN = sizeof known / sizeof *known };
+
+/* ---- Canonical texts ----------------------------------------------------------------------------------- */
+
+/* Appends "name=word" unless the word is the default. */
+static void append(char *text, const option *o, const char *word)
+{
+    const size_t used = strlen(text);
+    if (strcmp(word, o->fallback) != 0) {
+        snprintf(text + used, KOKSMA__VARIANT_TEXT - used, "%s%s=%s", used ? ";" : "", o->name, word);
+    }
+}
+
+/* The word of an option in a canonical text, or its default. */
+static void word_of(const char *text, const option *o, char word[MAX_WORD])
+{
+    const size_t length = strlen(o->name);
+    snprintf(word, MAX_WORD, "%s", o->fallback);
+    for (const char *at = text; *at; at += strcspn(at, ";"), at += *at == ';') {
+        if (!strncmp(at, o->name, length) && at[length] == '=') {
+            snprintf(word, MAX_WORD, "%.*s", (int)strcspn(at + length + 1, ";"), at + length + 1);
+        }
+    }
+}
+
+/* Splatted pixels at the frame's edge have no samples from beyond it, where a filter wider than a pixel reaches. */
+static bool changes_image(const char *text, const option *o)
+{
+    char filter[MAX_WORD] = "box";
+    for (int i = 0; i < N_KNOWN && o->changes_image == UNLESS_BOX; i++) {
+        if (known[i].set == set_filter) {
+            word_of(text, &known[i], filter);
+        }
+    }
+    return o->changes_image == ALWAYS || strcmp(filter, "box") != 0;
+}
+
+koksma_status koksma__variant_apply(const char *text, bool of_reference, koksma__variant *variant)
+{
+    koksma_status status = KOKSMA_OK;
+    variant->adaptive.method = NULL;
+    for (int i = 0; !status && i < N_KNOWN; i++) {
+        char word[MAX_WORD];
+        word_of(text, &known[i], word);
+        if (!of_reference || changes_image(text, &known[i])) {
+            status = known[i].set(variant, word);
+        }
+    }
+    return status;
+}
+
+void koksma__variant_of_reference(const char *text, char *out)
+{
+    out[0] = '\0';
+    for (int i = 0; i < N_KNOWN; i++) {
+        char word[MAX_WORD];
+        word_of(text, &known[i], word);
+        if (changes_image(text, &known[i])) {
+            append(out, &known[i], word);
+        }
+    }
+}
+
+void koksma__variant_text(const koksma_integrator *integrator, const koksma_filter *filter,
+                          char out[KOKSMA__VARIANT_TEXT])
+{
+    out[0] = '\0';
+    for (int i = 0; i < N_KNOWN; i++) {
+        if (known[i].set == set_filter && filter) {
+            append(out, &known[i], filter->name);
+        } else if (known[i].set == set_integrator && integrator) {
+            append(out, &known[i], integrator->name);
+        }
+    }
+}
+
+/* ---- Rendering ----------------------------------------------------------------------------------------- */
+
+/* Samples of the first round: a method that begins with several sets takes a set for each. */
+static int first_spp(const koksma_adaptive_options *adaptive, int budget)
+{
+    const koksma_param *params = adaptive->method->params;
+    double sets = 1;
+    for (size_t i = 0; params[i].name; i++) {
+        sets = strcmp(params[i].name, "first") == 0 ? adaptive->params[i] : sets;
+    }
+    return (int)fmax(budget / (4 * sets), 1);
+}
+
+koksma_status koksma__variant_render(const koksma_scene *scene, const koksma__variant *variant, const koksma_run *run,
+                                     koksma_image *out)
+{
+    if (!variant->adaptive.method) {
+        return koksma_render(scene, &variant->render, run, out);
+    }
+    koksma_render_options options = variant->render;
+    koksma_adaptive_options adaptive = variant->adaptive;
+    koksma_layers layers;
+    adaptive.budget = options.spp;
+    options.spp = first_spp(&adaptive, options.spp);
+    const koksma_status status = koksma_render_adaptive(scene, &options, &adaptive, run, &layers, NULL);
+    if (!status) {
+        *out = layers.image;
+        layers.image = (koksma_image){0};
+        koksma_layers_fini(&layers);
+    }
+    return status;
+}
+
+/* ---- Parsing ------------------------------------------------------------------------------------------- */
+
+/* The words of one option; none when the plan doesn't name it. */
+static koksma_status parse_words(const koksma__json_node *node, const option *o, koksma__texts *words)
+{
+    if (!koksma__json_has(node, o->name)) {
+        return KOKSMA_OK;
+    }
+    koksma__json_node list;
+    koksma_status status = koksma__plan_texts(node, o->name, words);
+    status = status ? status : koksma__json_member(node, o->name, &list);
+    for (size_t i = 0; !status && i < words->n; i++) {
+        koksma__variant scratch;
+        memset(&scratch, 0, sizeof scratch);
+        const koksma__json_node item = koksma__json_item(&list, i);
+        status = o->set(&scratch, words->at[i]);
+        if (status) {
+            return koksma__json_fail_in(&item, status);
+        }
+        if (scratch.adaptive.method) { /* two texts of one method are one variant */
+            char text[KOKSMA_MAX_SPEC];
+            koksma_adaptive_text(&scratch.adaptive, text);
+            free(words->at[i]);
+            words->at[i] = strdup(text);
+            status = words->at[i] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+            for (size_t k = 0; !status && k < i; k++) {
+                status = strcmp(words->at[k], text) ? KOKSMA_OK : koksma__json_fail(&item, "'%s' stands twice", text);
+            }
+        }
+    }
+    return status;
+}
+
+/* Adaptive sampling has neither splatting nor patterns over the whole image. */
+static koksma_status check_together(const char *text)
+{
+    koksma__variant v;
+    memset(&v, 0, sizeof v);
+    const koksma_status status = koksma__variant_apply(text, false, &v);
+    return !status && v.adaptive.method && (v.render.splat || v.render.scope != KOKSMA_SCOPE_PIXEL)
+               ? koksma__fail(KOKSMA_ARGUMENT, "'%s': adaptive goes with neither splat nor scope image", text)
+               : status;
+}
+
+static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *out)
+{
+    size_t total = 1;
+    for (int i = 0; i < N_KNOWN; i++) {
+        total *= words[i].n ? words[i].n : 1;
+        if (total > MAX_COMBINATIONS) {
+            return koksma__fail(KOKSMA_ARGUMENT, "more than %d combinations of options", MAX_COMBINATIONS);
+        }
+    }
+    out->at = calloc(total, sizeof *out->at);
+    if (!out->at) {
+        return koksma__fail_memory(total * sizeof *out->at);
+    }
+    for (; out->n < total; out->n++) {
+        char text[KOKSMA__VARIANT_TEXT] = "";
+        size_t below = total, rest = out->n;
+        for (int i = 0; i < N_KNOWN; i++) {
+            if (words[i].n) {
+                below /= words[i].n;
+                append(text, &known[i], words[i].at[rest / below]);
+                rest %= below;
+            }
+        }
+        out->at[out->n] = strdup(text);
+        if (!out->at[out->n]) {
+            return koksma__fail_memory(strlen(text));
+        }
+        const koksma_status status = check_together(text);
+        if (status) {
+            out->n++; /* the text that was made must be freed */
+            return status;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__variants_parse(const koksma__json_node *node, koksma__texts *out)
+{
+    koksma__texts words[N_KNOWN] = {{0}};
+    const char *keys[N_KNOWN + 2] = {"comment"};
+    koksma__json_node options;
+    koksma_status status = KOKSMA_OK;
+    if (koksma__json_has(node, "options")) {
+        for (int i = 0; i < N_KNOWN; i++) {
+            keys[i + 1] = known[i].name;
+        }
+        status = koksma__json_member(node, "options", &options);
+        status = status ? status : koksma__json_only(&options, keys);
+        for (int i = 0; !status && i < N_KNOWN; i++) {
+            status = parse_words(&options, &known[i], &words[i]);
+        }
+    }
+    if (!status && (status = combine(words, out))) {
+        status = koksma__json_fail_in(node, status);
+    }
+    for (int i = 0; i < N_KNOWN; i++) {
+        koksma__texts_fini(&words[i]);
+    }
+    return status;
+}

@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which pattern leaves the least error in a scene. The sequence of work is
+ *     1. a contest of all patterns at the size itself, until the best is decided, and then until the best of those is
+ *        whose error is not coherent;
+ *     2. contests of the first three of those (of all, where every error is coherent) at half and at twice the size,
+ *        until the best is decided there;
+ *     3. the first contest again, until every pair is decided.
+ * A time limit ends it anywhere, and rows are made of what is there. Every part is a function of the options alone
+ * (ranking_contest.c, on patterns that are too slow for a limit, and ranking_decisions.c, on the statistics), so that
+ * the speed of the machine decides how much is known, and never what.
+ *
+ * The probability of any wrong decision, 5 % in all, is dealt out as 4 % to the first contest and 1/2 % to each
+ * check.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "study/ranking/ranking_contest.h"
+
+#define ALPHA 0.04
+#define CHECK_ALPHA 0.005
+enum { MOST_PIXELS = 160 * 120, CHECKED = 3, NOBODY = KOKSMA__RANK_NOBODY };
+
+typedef struct ranking {
+    const koksma_rank_options *options;
+    koksma__study_scene scene;
+    char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter, where they are others than by default */
+    koksma__watch watch;
+    double start_s;
+    koksma__contest contest;
+} ranking;
+
+/* ---- Checks at other sizes ------------------------------------------------------------------------------ */
+
+/* Who is checked: what is advised, or the leader where every error is coherent. NOBODY: that is not decided. */
+static size_t checked(const koksma__contest *c)
+{
+    bool all_coherent = true;
+    for (size_t i = 0; i < c->n; i++) {
+        all_coherent &= c->table.entrants[i].out || c->table.entrants[i].coherent;
+    }
+    return all_coherent || c->table.leader == NOBODY ? c->table.leader : c->table.advised;
+}
+
+/* The mean error of contestant i after the round in which `best` was decided, or after its own last one before;
+   infinite for those that are not advised in its stead. */
+static double early_mean(const koksma__rank_table *table, size_t i, size_t best)
+{
+    const koksma__rank_entrant *e = &table->entrants[i];
+    const int last = table->entrants[best].n_rounds;
+    return (e->coherent && !table->entrants[best].coherent) || e->out || !e->n_rounds
+               ? (double)INFINITY
+               : e->rounds[(e->n_rounds < last ? e->n_rounds : last) - 1].mean;
+}
+
+/* The one that is checked, and then those with the smallest errors. */
+static size_t first_patterns(const koksma__contest *c, size_t first[CHECKED])
+{
+    const size_t best = checked(c);
+    size_t n = 1;
+    first[0] = best;
+    for (size_t i = 0; i < c->n; i++) {
+        if (i == best || isinf(early_mean(&c->table, i, best))) {
+            continue;
+        }
+        size_t at = n;
+        for (; at > 1 && early_mean(&c->table, i, best) < early_mean(&c->table, first[at - 1], best); at--) {
+            if (at < CHECKED) {
+                first[at] = first[at - 1];
+            }
+        }
+        if (at < CHECKED) {
+            first[at] = i;
+        }
+        n += n < CHECKED;
+    }
+    return n;
+}
+
+static void conclude(const koksma__contest *c, koksma_rank_check *check)
+{
+    const koksma__rank_table *table = &c->table;
+    const size_t leader = table->leader;
+    for (size_t i = 0; i < c->n; i++) {
+        const long long trials = (long long)koksma__contest_errors(c, i).n;
+        check->trials = trials > check->trials ? trials : check->trials;
+    }
+    if (leader == NOBODY || table->entrants[0].out) {
+        check->state = KOKSMA_RANK_UNSETTLED;
+    } else if (leader == 0 || table->pairs[leader * c->n].verdict == KOKSMA__RANK_SAME) {
+        check->state = KOKSMA_RANK_CONFIRMED;
+        check->coherent = c->contestants[0].coherence.coherent;
+    } else {
+        const koksma__estimate q = koksma__rank_compare(table, 0, leader);
+        check->state = KOKSMA_RANK_OVERTURNED;
+        check->pattern = c->contestants[leader].pattern;
+        check->coherent = c->contestants[leader].coherence.coherent;
+        check->behind = q.value - 1;
+        check->behind_low = q.low - 1;
+        check->behind_high = q.high - 1;
+    }
+}
+
+static koksma_status check_size(ranking *r, koksma_rank_check *check)
+{
+    size_t first[CHECKED], patterns[CHECKED];
+    koksma__contest contest;
+    koksma__study_scene scene = r->scene;
+    const size_t n = first_patterns(&r->contest, first);
+    scene.width = check->width;
+    scene.height = check->height;
+    if (n < 2 || scene.width < 1 || scene.height < 1 || scene.width > KOKSMA_MAX_IMAGE_SIDE ||
+        scene.height > KOKSMA_MAX_IMAGE_SIDE) {
+        return KOKSMA_OK;
+    }
+    for (size_t i = 0; i < n; i++) {
+        patterns[i] = r->contest.contestants[first[i]].pattern;
+    }
+    koksma_status status =
+        koksma__contest_init(&contest, r->options, &scene, r->variant, &r->watch, patterns, n, CHECK_ALPHA);
+    status = status ? status : koksma__contest_run(&contest, KOKSMA__RANK_FIND_LEADER);
+    if (!status) {
+        conclude(&contest, check);
+    }
+    koksma__contest_fini(&contest);
+    return status;
+}
+
+/* ---- How much more it would take ------------------------------------------------------------------------ */
+
+/* Thread seconds of a trial of contestant i so far; of one that has none, what it has taken without an end. */
+static double trial_s(const koksma__contest *c, size_t i)
+{
+    const size_t n = koksma__contest_errors(c, i).n;
+    return 1e-9 * (double)atomic_load(&c->contestants[i].busy_ns) / (double)(n ? n : 1);
+}
+
+/* The trials that would decide the best pattern: of that with the smallest error against all others. */
+static size_t trials_to_lead(const koksma__rank_table *table)
+{
+    size_t best = NOBODY, needed = 0;
+    for (size_t i = 0; i < table->n; i++) {
+        const koksma__rank_errors *e = koksma__rank_latest(table, i);
+        if (e && !table->entrants[i].out && koksma__rank_position(table, i) == 1 &&
+            (best == NOBODY || e->mean < koksma__rank_latest(table, best)->mean)) {
+            best = i;
+        }
+    }
+    for (size_t j = 0; best != NOBODY && j < table->n; j++) {
+        const koksma__rank_errors *e = koksma__rank_latest(table, j);
+        if (e && j != best && !table->entrants[j].out && !table->pairs[best * table->n + j].verdict) {
+            const size_t n = koksma__rank_trials_needed(koksma__rank_latest(table, best), e, table->level);
+            if (!n) {
+                return 0;
+            }
+            needed = n > needed ? n : needed;
+        }
+    }
+    return needed;
+}
+
+static void estimate_need(const ranking *r, koksma_ranking *out)
+{
+    const koksma__contest *c = &r->contest;
+    const double threads = r->watch.run.threads, elapsed_s = koksma__now_s() - r->start_s;
+    size_t waiting = 0, open = 0;
+    double threads_s = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        const koksma__rank_entrant *e = &c->table.entrants[i];
+        open += !e->out;
+        waiting += !e->out && !e->n_rounds;
+    }
+    const size_t needed = waiting ? KOKSMA__RANK_FIRST_ROUND : trials_to_lead(&c->table);
+    out->needed_trials = (long long)needed;
+    if (!needed) {
+        return;
+    }
+    if (c->reference.made < KOKSMA__RANK_REPLICATES) { /* trials cost as many times it as they have samples */
+        const double part = fmax(c->reference.made + r->watch.fraction, 0.01) / KOKSMA__RANK_REPLICATES;
+        const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp);
+        const double trials = (double)(needed * open) * r->options->spp / samples;
+        out->needed_s = elapsed_s * (1 + trials) / part;
+        return;
+    }
+    for (size_t i = 0; i < c->n; i++) {
+        const size_t made = koksma__contest_errors(c, i).n;
+        bool more = !c->table.entrants[i].n_rounds;
+        for (size_t j = 0; j < c->n; j++) {
+            more |= koksma__rank_matters(&c->table, i, j, KOKSMA__RANK_FIND_LEADER);
+        }
+        if (more && !c->table.entrants[i].out && made < needed) {
+            threads_s += (double)(needed - made) * trial_s(c, i);
+        }
+    }
+    out->needed_s = elapsed_s + threads_s / threads;
+}
+
+/* ---- Rows ------------------------------------------------------------------------------------------------ */
+
+/* Whether a comes before b: the leader, then by position and mean, then those without a round. */
+static bool is_before(const koksma__contest *c, size_t a, size_t b)
+{
+    const koksma__rank_errors *mine = koksma__rank_latest(&c->table, a), *other = koksma__rank_latest(&c->table, b);
+    const bool a_out = c->table.entrants[a].out, b_out = c->table.entrants[b].out;
+    if (a_out || b_out || !mine || !other) {
+        return a_out != b_out ? b_out : !a_out && mine && !other;
+    }
+    const size_t place = koksma__rank_position(&c->table, a), other_place = koksma__rank_position(&c->table, b);
+    if (a == c->table.leader || b == c->table.leader) {
+        return a == c->table.leader;
+    }
+    return place != other_place ? place < other_place : mine->mean < other->mean;
+}
+
+static koksma_rank_decision decision_of(const koksma__rank_table *table, size_t i, size_t first)
+{
+    const koksma__rank_verdict verdict = table->pairs[i * table->n + first].verdict;
+    return i == first                     ? (table->leader == i ? KOKSMA_RANK_BEST : KOKSMA_RANK_UNDECIDED)
+           : verdict == KOKSMA__RANK_MORE ? KOKSMA_RANK_WORSE
+           : verdict == KOKSMA__RANK_SAME ? KOKSMA_RANK_EQUAL
+                                          : KOKSMA_RANK_UNDECIDED;
+}
+
+static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_rank_row *row)
+{
+    const koksma__rank_table *table = &c->table;
+    const koksma__rank_errors e = koksma__contest_errors(c, i), best = koksma__contest_errors(c, first);
+    *row = (koksma_rank_row){.pattern = c->contestants[i].pattern, .mean = NAN, .low = NAN, .high = NAN};
+    row->behind = row->behind_low = row->behind_high = NAN;
+    row->coherence = c->contestants[i].coherence;
+    row->trials = (long long)e.n;
+    row->state = table->entrants[i].out        ? KOKSMA_RANK_REFUSED
+                 : table->entrants[i].n_rounds ? KOKSMA_RANK_RANKED
+                                               : KOKSMA_RANK_TOO_SLOW;
+    if (row->state == KOKSMA_RANK_REFUSED) {
+        row->trials = 0;
+        koksma_coherence_find(&(koksma_coherence){0}, &row->coherence);
+        snprintf(row->reason, sizeof row->reason, "%s", c->contestants[i].reason);
+        return;
+    }
+    if (row->state == KOKSMA_RANK_TOO_SLOW) {
+        snprintf(row->reason, sizeof row->reason, "too slow: %zu of its first %d trials were done in the time", e.n,
+                 KOKSMA__RANK_FIRST_ROUND);
+    } else {
+        row->position = koksma__rank_position(table, i);
+        row->decision = decision_of(table, i, first);
+    }
+    if (e.n) {
+        const koksma__estimate mean = koksma__rank_error(&e, table->level);
+        row->mean = mean.value;
+        row->low = mean.low;
+        row->high = mean.high;
+    }
+    if (e.n && best.n) {
+        const koksma__estimate q = i == first      ? (koksma__estimate){1, 1, 1}
+                                   : row->position ? koksma__rank_compare(table, i, first)
+                                                   : koksma__rank_quotient(&e, &best, table->level);
+        row->behind = q.value - 1;
+        row->behind_low = q.low - 1;
+        row->behind_high = isinf(q.high) ? (double)NAN : q.high - 1;
+    }
+}
+
+static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, koksma_ranking *out)
+{
+    size_t *order = malloc(c->n * sizeof *order);
+    if (!order) {
+        return koksma__fail_memory(c->n * sizeof *order);
+    }
+    out->complete = true;
+    for (size_t i = 0; i < c->n; i++) {
+        size_t at = i;
+        for (; at > 0 && is_before(c, i, order[at - 1]); at--) {
+            order[at] = order[at - 1];
+        }
+        order[at] = i;
+    }
+    for (size_t k = 0; k < c->n; k++) {
+        fill_row(c, order[k], order[0], &rows[k]);
+        out->n += rows[k].state == KOKSMA_RANK_RANKED;
+        out->n_coherent += rows[k].state == KOKSMA_RANK_RANKED && rows[k].coherence.coherent;
+        if (order[k] == c->table.advised) {
+            out->advised = true;
+            out->advised_row = k;
+        }
+        out->n_slow += rows[k].state == KOKSMA_RANK_TOO_SLOW;
+        out->trials = rows[k].trials > out->trials ? rows[k].trials : out->trials;
+        for (size_t j = 0; j < c->n; j++) {
+            out->complete &= j == k || c->table.entrants[k].out || c->table.entrants[j].out ||
+                             c->table.pairs[k * c->n + j].verdict;
+        }
+    }
+    out->complete &= !out->n_slow;
+    out->settled = c->table.leader != NOBODY;
+    free(order);
+    return KOKSMA_OK;
+}
+
+/* ---- The whole ------------------------------------------------------------------------------------------ */
+
+static koksma_status nobody_can_serve(const koksma__contest *c)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        if (!c->table.entrants[i].out) {
+            return KOKSMA_OK;
+        }
+    }
+    return koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", c->contestants[c->n - 1].reason);
+}
+
+static koksma_status do_sequence(ranking *r, koksma_ranking *out)
+{
+    koksma__contest *c = &r->contest;
+    koksma_status status = koksma__contest_try_patterns(c);
+    status = status ? status : nobody_can_serve(c);
+    status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
+    status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
+    status = status ? status : nobody_can_serve(c);
+    for (int i = 0; !status && !r->options->one_size && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
+        status = check_size(r, &out->checks[i]);
+    }
+    return status ? status : koksma__contest_run(c, KOKSMA__RANK_ORDER_ALL);
+}
+
+static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_ranking *out)
+{
+    const size_t n = r->options->n_patterns;
+    size_t *patterns = malloc(n * sizeof *patterns);
+    if (!patterns) {
+        return koksma__fail_memory(n * sizeof *patterns);
+    }
+    for (size_t p = 0; p < n; p++) {
+        patterns[p] = p;
+    }
+    koksma_status status =
+        koksma__contest_init(&r->contest, r->options, &r->scene, r->variant, &r->watch, patterns, n, ALPHA);
+    free(patterns);
+    status = status ? status : do_sequence(r, out);
+    if (status == KOKSMA_INTERRUPTED && koksma__watch_time_is_up(&r->watch)) {
+        out->cut_short = true;
+        status = KOKSMA_OK;
+    }
+    const bool whole = r->contest.reference.made == KOKSMA__RANK_REPLICATES;
+    out->reference_error = whole ? r->contest.reference.error : (double)NAN;
+    status = status ? status : fill_rows(&r->contest, rows, out);
+    if (!status && !out->settled) {
+        estimate_need(r, out);
+    }
+    koksma__contest_fini(&r->contest);
+    return status;
+}
+
+/* The sizes are part of the question: of the contest and the checks. */
+static void set_sizes(const koksma_rank_options *options, koksma__study_scene *scene, koksma_ranking *out)
+{
+    koksma_render_options defaults;
+    koksma_render_options_init(&defaults, scene->scene);
+    scene->width = options->width ? options->width : defaults.width;
+    scene->height = options->width ? options->height : defaults.height;
+    while (!options->width && (long long)scene->width * scene->height > MOST_PIXELS) {
+        scene->width = (scene->width + 1) / 2;
+        scene->height = (scene->height + 1) / 2;
+    }
+    out->width = scene->width;
+    out->height = scene->height;
+    out->checks[0] = (koksma_rank_check){.width = scene->width / 2, .height = scene->height / 2};
+    out->checks[1] = (koksma_rank_check){.width = 2 * scene->width, .height = 2 * scene->height};
+}
+
+koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
+                                   koksma_ranking *out)
+{
+    ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
+    koksma__watch_begin(run, options->time_limit_s, &r.watch);
+    *out = (koksma_ranking){.reference_error = NAN};
+    if (!options->n_patterns) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");
+    }
+    if (options->max_trials &&
+        (options->max_trials < KOKSMA__RANK_FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0",
+                            options->max_trials, KOKSMA__RANK_FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
+    }
+    koksma__variant_text(options->integrator, options->filter, r.variant);
+    koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
+    if (!status) {
+        set_sizes(options, &r.scene, out);
+        snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));
+        status = rank_scene(&r, rows, out);
+        koksma_scene_close(r.scene.scene);
+    }
+    out->seconds = koksma__now_s() - r.start_s;
+    return status;
+}

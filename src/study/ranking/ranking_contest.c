@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The next round is always the lowest that matters: of the patterns with an undecided pair that bears on the
+ * question, those with the fewest complete rounds make their next one, all together. Which patterns these are follows
+ * from the decisions alone. The clock enters in two places: it may end everything, and it may put a pattern off whose
+ * first round takes more thread time than its share, the time left times the threads over the patterns. The others go
+ * on as if it were not there, until it is known which of them leads; then what time is left is for those put off. As
+ * a pair's decision after a round depends on nothing else, both only change how far the ranking gets.
+ *
+ * The coherence of a pattern's error is that of the trials of round 0, however long the ranking runs: what noise has
+ * depends on their number. Trials are added in their order, whichever thread rendered them: those that are ahead
+ * wait. So every pattern that is ranked has one.
+ */
+#include "study/ranking/ranking_contest.h"
+#include "study/plan/image_patterns.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+#include "core/parallel.h"
+#include "core/status.h"
+#include "image/coherence.h"
+
+enum { BATCH = 64, FIRST = KOKSMA__RANK_FIRST_ROUND, ERRORS = KOKSMA__RANK_ERRORS };
+
+/* Trials of one round that are rendered at once. */
+typedef struct batch {
+    koksma__contest *contest;
+    const size_t *active; /* contestants */
+    size_t n_active, first, count;
+    bool first_round;
+    double
+        *errors; /* of active a, trial first + t: at (a * count + t) * ERRORS; the first round's are kept elsewhere */
+} batch;
+
+/* A piece of work that counts against a contestant's share of the time. */
+typedef struct timed {
+    koksma__contest *contest;
+    koksma__contestant *contestant;
+    double start_s;
+    bool late;
+} timed;
+
+static unsigned long long since_ns(double start_s)
+{
+    return (unsigned long long)fmax(1e9 * (koksma__now_s() - start_s), 0);
+}
+
+static bool keep_in_share(void *context, double fraction)
+{
+    timed *t = context;
+    const koksma__contest *c = t->contest;
+    if (!koksma__keep_going(&c->watch->job, fraction)) {
+        return false;
+    }
+    t->late = t->late || (c->share_ns && atomic_load(&t->contestant->busy_ns) + since_ns(t->start_s) > c->share_ns);
+    return !t->late;
+}
+
+static koksma_run run_in_share(timed *t)
+{
+    return (koksma_run){.threads = 1, .keep_going = keep_in_share, .context = t};
+}
+
+/* What ends only this contestant's part in the contest: OK, then. */
+static koksma_status take_out(const timed *t, size_t trial, koksma_status status)
+{
+    koksma__contest *c = t->contest;
+    koksma__contestant *p = t->contestant;
+    if (status == KOKSMA_INTERRUPTED && t->late) {
+        atomic_store(&p->late, true);
+        return KOKSMA_OK;
+    }
+    if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO ||
+        status == KOKSMA_SYSTEM) {
+        return status;
+    }
+    pthread_mutex_lock(&c->lock);
+    if (!atomic_load(&p->refused) || trial < p->refused_trial) {
+        snprintf(p->reason, sizeof p->reason, "%s", koksma_error_text());
+        p->refused_trial = trial;
+        atomic_store(&p->refused, true);
+    }
+    pthread_mutex_unlock(&c->lock);
+    return KOKSMA_OK;
+}
+
+/* ---- Trials --------------------------------------------------------------------------------------------- */
+
+/* Adds what is there in its turn. Takes the trial's errors over. */
+static koksma_status add_coherence(const koksma__contest *c, koksma__contestant *p, size_t trial, double *errors)
+{
+    koksma_status status = KOKSMA_OK;
+    pthread_mutex_lock(&p->lock);
+    p->waiting[trial] = errors;
+    if (!p->sums.error) {
+        status = koksma_coherence_init(&p->sums, c->scene.width, c->scene.height);
+    }
+    while (!status && p->added < FIRST && p->waiting[p->added]) {
+        status = koksma__coherence_add_errors(&p->sums, p->waiting[p->added]);
+        free(p->waiting[p->added]);
+        p->waiting[p->added++] = NULL;
+    }
+    if (!status && p->added == FIRST) {
+        koksma_coherence_find(&p->sums, &p->coherence);
+        koksma_coherence_fini(&p->sums);
+    }
+    pthread_mutex_unlock(&p->lock);
+    return status;
+}
+
+static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p, size_t trial,
+                                       const koksma_image *image)
+{
+    double *errors = malloc(c->reference.pixels * sizeof *errors);
+    if (!errors) {
+        return koksma__fail_memory(c->reference.pixels * sizeof *errors);
+    }
+    koksma__rank_reference_subtract(&c->reference, image, errors);
+    return add_coherence(c, p, trial, errors);
+}
+
+/* The errors of a trial, of the first round with their coherence. */
+static koksma_status render_trial(koksma__contest *c, koksma__contestant *p, size_t trial, const koksma_run *run,
+                                  double errors[ERRORS])
+{
+    const char *pattern = c->options->patterns[p->pattern];
+    koksma_image image;
+    const koksma__picture picture = {.pattern = pattern,
+                                     .variant = c->variant,
+                                     .spp = c->options->spp,
+                                     .width = c->scene.width,
+                                     .height = c->scene.height,
+                                     .seed = koksma__job_seed("rank|%s|%s|%s|%d|%dx%d|%zu", c->scene.hash, pattern,
+                                                              c->variant, c->options->spp, c->scene.width,
+                                                              c->scene.height, trial)};
+    koksma_status status = koksma__study_render(&c->scene, &picture, run, &image);
+    if (!status) {
+        koksma__rank_reference_compare(&c->reference, &image, errors);
+        status = isfinite(errors[0])
+                     ? KOKSMA_OK
+                     : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
+        status = status || trial >= FIRST ? status : measure_coherence(c, p, trial, &image);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+static koksma_status do_trial(void *context, size_t i)
+{
+    const batch *b = context;
+    const size_t a = i % b->n_active, t = i / b->n_active;
+    koksma__contest *c = b->contest;
+    koksma__contestant *p = &c->contestants[b->active[a]];
+    if (atomic_load(&p->late) || atomic_load(&p->refused) || (b->first_round && atomic_load(&p->done[t]))) {
+        return KOKSMA_OK;
+    }
+    timed work = {.contest = c, .contestant = p, .start_s = koksma__now_s()};
+    const koksma_run run = run_in_share(&work);
+    double *errors = b->first_round ? p->first[t] : b->errors + (a * b->count + t) * ERRORS;
+    const koksma_status status = render_trial(c, p, b->first + t, &run, errors);
+    atomic_fetch_add(&p->busy_ns, since_ns(work.start_s));
+    if (!status && b->first_round) {
+        atomic_store(&p->done[t], true);
+    }
+    return take_out(&work, b->first + t, status);
+}
+
+/* Welford's (1962) updates, in the order of the trials. */
+static void add_trial(koksma__contestant *p, const double errors[ERRORS])
+{
+    const double off = errors[0] - p->mean;
+    p->n++;
+    p->mean += off / (double)p->n;
+    p->squares += off * (errors[0] - p->mean);
+    for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
+        p->without[r] += errors[1 + r];
+    }
+}
+
+static koksma__rank_errors summary(const koksma__contestant *p)
+{
+    koksma__rank_errors e = {.n = p->n, .mean = p->mean};
+    e.variance = p->n > 1 ? p->squares / (double)(p->n - 1) : (double)NAN;
+    for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
+        e.without[r] = p->n ? p->without[r] / (double)p->n : (double)NAN;
+    }
+    return e;
+}
+
+koksma__rank_errors koksma__contest_errors(const koksma__contest *c, size_t i)
+{
+    koksma__contestant sums = {.n = 0};
+    const koksma__rank_errors *latest = koksma__rank_latest(&c->table, i);
+    for (size_t t = 0; !latest && t < FIRST && atomic_load(&c->contestants[i].done[t]); t++) {
+        add_trial(&sums, c->contestants[i].first[t]);
+    }
+    return latest ? *latest : summary(&sums);
+}
+
+/* ---- Rounds --------------------------------------------------------------------------------------------- */
+
+static koksma_status do_batch(batch *b)
+{
+    const koksma_status status = koksma__parallel(&b->contest->watch->run, b->n_active * b->count, do_trial, b);
+    for (size_t a = 0; !status && a < b->n_active; a++) {
+        koksma__contestant *p = &b->contest->contestants[b->active[a]];
+        for (size_t t = 0; !atomic_load(&p->late) && !atomic_load(&p->refused) && t < b->count; t++) {
+            add_trial(p, b->first_round ? p->first[t] : b->errors + (a * b->count + t) * ERRORS);
+        }
+    }
+    return status;
+}
+
+static koksma_status do_round(koksma__contest *c, int round, const size_t *active, size_t n_active)
+{
+    const size_t end = (size_t)FIRST << round;
+    batch b = {.contest = c, .active = active, .n_active = n_active, .first = round ? end / 2 : 0};
+    b.first_round = round == 0;
+    b.errors = b.first_round ? NULL : malloc(n_active * BATCH * ERRORS * sizeof *b.errors);
+    koksma_status status =
+        b.errors || b.first_round ? KOKSMA_OK : koksma__fail_memory(n_active * BATCH * ERRORS * sizeof *b.errors);
+    for (; !status && b.first < end; b.first += b.count) {
+        b.count = end - b.first < BATCH ? end - b.first : BATCH;
+        status = do_batch(&b);
+    }
+    free(b.errors);
+    for (size_t a = 0; !status && a < n_active; a++) {
+        koksma__rank_entrant *e = &c->table.entrants[active[a]];
+        koksma__contestant *p = &c->contestants[active[a]];
+        e->out = atomic_load(&p->refused);
+        e->aside = atomic_load(&p->late);
+        if (!e->out && !e->aside) {
+            e->coherent = p->coherence.coherent;
+            e->rounds[e->n_rounds++] = summary(p);
+        }
+    }
+    if (!status) {
+        koksma__rank_decide(&c->table);
+    }
+    return status;
+}
+
+/* Whether contestant i needs another round for the question. */
+static bool needs_round(const koksma__contest *c, size_t i, koksma__rank_goal goal)
+{
+    const koksma__rank_entrant *e = &c->table.entrants[i];
+    bool needs = !e->n_rounds;
+    for (size_t j = 0; !needs && j < c->n; j++) {
+        needs = !c->table.entrants[j].aside && koksma__rank_matters(&c->table, i, j, goal);
+    }
+    return needs && !e->out && !e->aside && e->n_rounds < c->max_rounds;
+}
+
+/* Those that make the next round, into active; -1: nobody. */
+static int next_round(const koksma__contest *c, koksma__rank_goal goal, size_t *active, size_t *n_active)
+{
+    int round = -1;
+    *n_active = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        const int mine = c->table.entrants[i].n_rounds;
+        if (!needs_round(c, i, goal) || (round >= 0 && mine > round)) {
+            continue;
+        }
+        if (mine < round) {
+            *n_active = 0;
+        }
+        round = mine;
+        active[(*n_active)++] = i;
+    }
+    return round;
+}
+
+/* Whether one leads all that were not put off, and some were. */
+static bool others_are_led(const koksma__contest *c)
+{
+    bool led = false, any = false;
+    for (size_t i = 0; i < c->n; i++) {
+        any |= c->table.entrants[i].aside;
+        led |= !c->table.entrants[i].aside && koksma__rank_leads(&c->table, i, true);
+    }
+    return any && led;
+}
+
+/* Those that were put off take part again, without a limit of their own. */
+static bool call_back(koksma__contest *c)
+{
+    bool any = false;
+    c->share_ns = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        any |= c->table.entrants[i].aside;
+        c->table.entrants[i].aside = false;
+        atomic_store(&c->contestants[i].late, false);
+    }
+    return any;
+}
+
+/* What is left of the time, dealt out evenly. */
+static void set_share(koksma__contest *c, double part)
+{
+    const double left_s = c->watch->end_s - koksma__now_s();
+    c->share_ns = c->watch->end_s > 0 && c->n > 1
+                      ? (unsigned long long)fmax(1e9 * part * left_s * c->watch->run.threads / (double)c->n, 1)
+                      : 0;
+}
+
+koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t *active = malloc(c->n * sizeof *active), n_active;
+    if (!active) {
+        return koksma__fail_memory(c->n * sizeof *active);
+    }
+    if (!c->reference.pixels) {
+        const double start_s = koksma__now_s();
+        status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->watch->run);
+        c->reference_s = koksma__now_s() - start_s;
+        set_share(c, 1);
+    }
+    while (!status && !koksma__rank_reached(&c->table, goal)) {
+        const int round = others_are_led(c) ? -1 : next_round(c, goal, active, &n_active);
+        if (round >= 0) {
+            status = do_round(c, round, active, n_active);
+        } else if (!call_back(c)) {
+            break;
+        }
+    }
+    free(active);
+    return status;
+}
+
+/* ---- The whole ------------------------------------------------------------------------------------------ */
+
+koksma_status koksma__contest_try_patterns(koksma__contest *c)
+{
+    koksma_status status = KOKSMA_OK;
+    set_share(c, 0.25);
+    for (size_t i = 0; !status && i < c->n; i++) {
+        timed work = {.contest = c, .contestant = &c->contestants[i], .start_s = koksma__now_s()};
+        const koksma_run run = run_in_share(&work);
+        char text[KOKSMA_MAX_SPEC];
+        status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
+        if (!status) {
+            status = take_out(&work, 0, koksma__image_pattern_try(text, (size_t)c->options->spp, &run));
+        }
+        c->table.entrants[i].out = atomic_load(&work.contestant->refused);
+        c->table.entrants[i].aside = atomic_load(&work.contestant->late);
+    }
+    return status;
+}
+
+koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options *options,
+                                   const koksma__study_scene *scene, const char *variant, koksma__watch *watch,
+                                   const size_t *patterns, size_t n, double alpha)
+{
+    const size_t most = options->max_trials ? (size_t)options->max_trials : 4096;
+    *c = (koksma__contest){.options = options,
+                           .scene = *scene,
+                           .variant = variant,
+                           .watch = watch,
+                           .n = n,
+                           .contestants = calloc(n, sizeof *c->contestants)};
+    pthread_mutex_init(&c->lock, NULL);
+    while (c->max_rounds < KOKSMA__RANK_ROUNDS && (size_t)FIRST << c->max_rounds <= most) {
+        c->max_rounds++;
+    }
+    if (!c->contestants) {
+        return koksma__fail_memory(n * sizeof *c->contestants);
+    }
+    for (size_t i = 0; i < n; i++) {
+        c->contestants[i].pattern = patterns[i];
+        pthread_mutex_init(&c->contestants[i].lock, NULL);
+        koksma_coherence_find(&c->contestants[i].sums, &c->contestants[i].coherence);
+    }
+    return koksma__rank_table_init(&c->table, n, alpha);
+}
+
+void koksma__contest_fini(koksma__contest *c)
+{
+    for (size_t i = 0; c->contestants && i < c->n; i++) {
+        for (size_t t = 0; t < FIRST; t++) {
+            free(c->contestants[i].waiting[t]);
+        }
+        koksma_coherence_fini(&c->contestants[i].sums);
+        pthread_mutex_destroy(&c->contestants[i].lock);
+    }
+    if (c->contestants) {
+        pthread_mutex_destroy(&c->lock);
+    }
+    koksma__rank_reference_fini(&c->reference);
+    koksma__rank_table_fini(&c->table);
+    free(c->contestants);
+    *c = (koksma__contest){0};
+}

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What a ranking may conclude. A pair of patterns is judged after each round by the interval of the quotient of their
+ * mean errors. The pair is the same when the interval lies within 1/1.02 .. 1.02 (two one-sided tests, Schuirmann
+ * 1987), different when it excludes 1, and open else. With half-widths below 1 % every pair is one or the other.
+ *
+ * All conclusions of a ranking, of all pairs and rounds, hold together with probability 1 - alpha (Bonferroni): with
+ * n (n + 1) / 2 pairs and single patterns and 14 rounds, each bound errs with probability
+ *     level = alpha / 14 / (n (n + 1) / 2) / 2.
+ * A pair errs by at most two bounds: where the means are equal, by either bound of the difference; where they are
+ * not, by the one bound that allows "same" and the one that allows the wrong order. Sharper procedures exist: Holm's
+ * (1979) gives no intervals, Tukey's needs equal variances and gains 3 % in width for seven patterns. The number of
+ * rounds is that of the longest possible ranking, so that no decision depends on the time or the number of trials
+ * allowed.
+ *
+ * A bound is that of a contrast theta = x A - y B of two mean errors, of independent trials:
+ *     theta - bias  -  t(level, nu) sqrt(x^2 s_A^2 / n + y^2 s_B^2 / n + v)  -  |bias|
+ * with Welch's and Satterthwaite's degrees of freedom nu. v and bias are what the reference's own error does, by the
+ * jackknife over its k independent replicates (Efron & Stein 1981): with theta_r against the reference without
+ * replicate r and theta_. their mean,
+ *     bias = (k - 1) (theta_. - theta),   v = (k - 1) / k  sum (theta_r - theta_.)^2.
+ * The bias is proportional to 1/k where the pattern's error is smooth in the reference, and is removed; where the
+ * pattern is exact, it is proportional to 1/sqrt k, and half of it is removed: |bias| covers the other half. A
+ * reference that is too noisy therefore leaves pairs open.
+ *
+ * The bounds of the quotient are the zeros of the contrasts A - q B (Fieller 1954): by bisection, and consistent with
+ * the decisions. Student's t needs nearly normal means: an image's error is itself a mean over its pixels.
+ */
+#include "study/ranking/ranking_decisions.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "stats/quantiles.h"
+
+/* Differences of values that are equal in exact arithmetic are smaller. */
+#define ROUNDING 1e-12
+
+/* From 128 trials on v is known well enough to give a pair up for it: of fewer it has much of the trials' own noise.
+ */
+enum { SURE_ROUND = 4 };
+
+double koksma__rank_level(double alpha, size_t n_patterns)
+{
+    const double comparisons = 0.5 * (double)n_patterns * (double)(n_patterns + 1);
+    return alpha / (2 * KOKSMA__RANK_ROUNDS * comparisons);
+}
+
+/* ---- One contrast --------------------------------------------------------------------------------------- */
+
+typedef struct contrast {
+    double value, bias, error, degrees; /* value: without the bias */
+} contrast;
+
+static double whole_or_zero(double x, double size)
+{
+    return fabs(x) <= ROUNDING * size ? 0 : x;
+}
+
+/* x A - y B; b may be NULL. */
+static contrast contrast_of(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y)
+{
+    const double k = KOKSMA__RANK_REPLICATES, n_a = (double)a->n, n_b = b ? (double)b->n : 2;
+    const double size = x * a->mean + (b ? y * b->mean : 0), theta = x * a->mean - (b ? y * b->mean : 0);
+    double without[KOKSMA__RANK_REPLICATES], mean = 0, squares = 0;
+    for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
+        without[r] = whole_or_zero(x * a->without[r] - (b ? y * b->without[r] : 0) - theta, size);
+        mean += without[r] / k;
+    }
+    for (int r = 0; r < KOKSMA__RANK_REPLICATES; r++) {
+        squares += (without[r] - mean) * (without[r] - mean);
+    }
+    const double bias = (k - 1) * mean, of_reference = (k - 1) / k * squares;
+    const double of_a = x * x * a->variance / n_a, of_b = b ? y * y * b->variance / n_b : 0;
+    const double variance = of_a + of_b + of_reference;
+    const double spread = of_a * of_a / (n_a - 1) + of_b * of_b / (n_b - 1) + of_reference * of_reference / (k - 1);
+    return (contrast){.value = whole_or_zero(theta - bias, size),
+                      .bias = bias,
+                      .error = whole_or_zero(sqrt(variance), size),
+                      .degrees = spread > 0 ? variance * variance / spread : (double)INFINITY};
+}
+
+static double half_width(const contrast *c, double level)
+{
+    return (c->error > 0 ? koksma__student_quantile(1 - level, fmin(c->degrees, 1e12)) * c->error : 0) +
+           fabs(c->bias);
+}
+
+/* The lower bound of x A - y B; none of fewer than two trials. */
+static double lower(const koksma__rank_errors *a, double x, const koksma__rank_errors *b, double y, double level)
+{
+    if (a->n < 2 || (b && b->n < 2)) {
+        return -INFINITY;
+    }
+    const contrast c = contrast_of(a, x, b, y);
+    return c.value - half_width(&c, level);
+}
+
+/* ---- Intervals and verdicts ----------------------------------------------------------------------------- */
+
+koksma__estimate koksma__rank_error(const koksma__rank_errors *a, double level)
+{
+    const contrast c = contrast_of(a, 1, NULL, 0);
+    const double value = fmax(c.value, 0);
+    if (a->n < 2) {
+        return (koksma__estimate){value, NAN, NAN};
+    }
+    const double half = half_width(&c, level);
+    return (koksma__estimate){value, fmax(value - half, 0), value + half};
+}
+
+/* The largest q for which A - q B is surely positive; 0 when it is for none. */
+static double least_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+{
+    double lo = 0, hi = 1;
+    if (!(lower(a, 1, b, 0, level) > 0)) {
+        return 0;
+    }
+    while (lower(a, 1, b, hi, level) > 0 && hi < 1e12) {
+        lo = hi;
+        hi *= 2;
+    }
+    for (int i = 0; i < 200 && hi - lo > 1e-7 * hi; i++) {
+        const double middle = 0.5 * (lo + hi);
+        if (lower(a, 1, b, middle, level) > 0) {
+            lo = middle;
+        } else {
+            hi = middle;
+        }
+    }
+    return 0.5 * (lo + hi);
+}
+
+koksma__estimate koksma__rank_quotient(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+{
+    const double mean_a = contrast_of(a, 1, NULL, 0).value, mean_b = contrast_of(b, 1, NULL, 0).value;
+    if (!koksma__compare(mean_a, mean_b) && koksma__rank_judge(a, b, level) == KOKSMA__RANK_SAME &&
+        !(mean_a > 0)) { /* no error at all */
+        return (koksma__estimate){1, 1, 1};
+    }
+    if (a->n < 2 || b->n < 2) {
+        return (koksma__estimate){mean_a / mean_b, NAN, NAN};
+    }
+    const double inverse = least_quotient(b, a, level);
+    return (koksma__estimate){mean_a / mean_b, least_quotient(a, b, level),
+                              inverse > 0 ? 1 / inverse : (double)INFINITY};
+}
+
+koksma__estimate koksma__rank_both(koksma__estimate first, koksma__estimate second)
+{
+    const double low = fmax(first.low, second.low), high = fmin(first.high, second.high);
+    return low <= high ? (koksma__estimate){fmin(fmax(second.value, low), high), low, high} : second;
+}
+
+koksma__rank_verdict koksma__rank_judge(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+{
+    if (lower(a, KOKSMA__RANK_EQUAL, b, 1, level) >= 0 && lower(b, KOKSMA__RANK_EQUAL, a, 1, level) >= 0) {
+        return KOKSMA__RANK_SAME;
+    }
+    return lower(b, 1, a, 1, level) > 0   ? KOKSMA__RANK_LESS
+           : lower(a, 1, b, 1, level) > 0 ? KOKSMA__RANK_MORE
+                                          : KOKSMA__RANK_OPEN;
+}
+
+size_t koksma__rank_trials_needed(const koksma__rank_errors *a, const koksma__rank_errors *b, double level)
+{
+    koksma__rank_errors later_a = *a, later_b = *b;
+    size_t n = KOKSMA__RANK_FIRST_ROUND;
+    for (int round = 0; round < KOKSMA__RANK_ROUNDS; round++, n *= 2) {
+        later_a.n = later_b.n = n;
+        if (n >= a->n && koksma__rank_judge(&later_a, &later_b, level)) {
+            return n;
+        }
+    }
+    return 0;
+}
+
+/* ---- A whole ranking ------------------------------------------------------------------------------------ */
+
+koksma_status koksma__rank_table_init(koksma__rank_table *table, size_t n, double alpha)
+{
+    *table = (koksma__rank_table){.n = n,
+                                  .level = koksma__rank_level(alpha, n),
+                                  .entrants = calloc(n, sizeof *table->entrants),
+                                  .pairs = calloc(n * n, sizeof *table->pairs),
+                                  .leader = KOKSMA__RANK_NOBODY,
+                                  .advised = KOKSMA__RANK_NOBODY};
+    return table->entrants && table->pairs ? KOKSMA_OK : koksma__fail_memory(n * n * sizeof *table->pairs);
+}
+
+void koksma__rank_table_fini(koksma__rank_table *table)
+{
+    free(table->entrants);
+    free(table->pairs);
+    *table = (koksma__rank_table){0};
+}
+
+const koksma__rank_errors *koksma__rank_latest(const koksma__rank_table *table, size_t i)
+{
+    const koksma__rank_entrant *e = &table->entrants[i];
+    return e->n_rounds ? &e->rounds[e->n_rounds - 1] : NULL;
+}
+
+static void judge_pair(koksma__rank_table *table, size_t i, size_t j)
+{
+    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
+    koksma__rank_pair *pair = &table->pairs[i * table->n + j], *mirrored = &table->pairs[j * table->n + i];
+    for (; !pair->verdict && pair->judged < a->n_rounds && pair->judged < b->n_rounds; pair->judged++) {
+        pair->round = pair->judged;
+        pair->verdict = koksma__rank_judge(&a->rounds[pair->round], &b->rounds[pair->round], table->level);
+        pair->hopeless = !pair->verdict && pair->round >= SURE_ROUND &&
+                         !koksma__rank_trials_needed(&a->rounds[pair->round], &b->rounds[pair->round], table->level);
+    }
+    *mirrored = *pair;
+    mirrored->verdict = pair->verdict == KOKSMA__RANK_LESS   ? KOKSMA__RANK_MORE
+                        : pair->verdict == KOKSMA__RANK_MORE ? KOKSMA__RANK_LESS
+                                                             : pair->verdict;
+}
+
+koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j)
+{
+    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
+    const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
+    const int last = (a->n_rounds < b->n_rounds ? a->n_rounds : b->n_rounds) - 1;
+    const koksma__estimate latest = koksma__rank_quotient(&a->rounds[last], &b->rounds[last], table->level);
+    return !pair->verdict || pair->round == last
+               ? latest
+               : koksma__rank_both(
+                     koksma__rank_quotient(&a->rounds[pair->round], &b->rounds[pair->round], table->level), latest);
+}
+
+bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
+{
+    const koksma__rank_entrant *mine = &table->entrants[i];
+    bool leads = mine->n_rounds && !mine->out;
+    for (size_t j = 0; leads && j < table->n; j++) {
+        const koksma__rank_entrant *other = &table->entrants[j];
+        const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
+        leads = j == i || other->out || (present && other->aside) || verdict == KOKSMA__RANK_LESS ||
+                verdict == KOKSMA__RANK_SAME;
+    }
+    return leads;
+}
+
+/* Whether i leads all others whose error is not coherent either. Of those without a round that is not known yet, and
+   so nobody does. */
+static bool leads_incoherent(const koksma__rank_table *table, size_t i)
+{
+    const koksma__rank_entrant *mine = &table->entrants[i];
+    bool leads = mine->n_rounds && !mine->out && !mine->coherent;
+    for (size_t j = 0; leads && j < table->n; j++) {
+        const koksma__rank_entrant *other = &table->entrants[j];
+        const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
+        leads = j == i || other->out || (other->n_rounds && other->coherent) || verdict == KOKSMA__RANK_LESS ||
+                verdict == KOKSMA__RANK_SAME;
+    }
+    return leads;
+}
+
+/* The round after which all pairs of i that count for the goal were decided. */
+static int last_round(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
+{
+    int round = 0;
+    for (size_t j = 0; j < table->n; j++) {
+        const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
+        const bool counts = goal == KOKSMA__RANK_FIND_LEADER || !table->entrants[j].coherent;
+        round = j != i && counts && pair->verdict && pair->round > round ? pair->round : round;
+    }
+    return round;
+}
+
+/* Of several that lead, being the same, the one that was the first to; then the one with the smaller mean then. */
+static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goal)
+{
+    size_t leader = KOKSMA__RANK_NOBODY;
+    for (size_t i = 0; i < table->n; i++) {
+        const bool leads =
+            goal == KOKSMA__RANK_FIND_LEADER ? koksma__rank_leads(table, i, false) : leads_incoherent(table, i);
+        if (leads) {
+            const int round = last_round(table, i, goal),
+                      first = leader < table->n ? last_round(table, leader, goal) : round + 1;
+            if (round < first || (round == first && table->entrants[i].rounds[round].mean <
+                                                        table->entrants[leader].rounds[round].mean)) {
+                leader = i;
+            }
+        }
+    }
+    return leader;
+}
+
+void koksma__rank_decide(koksma__rank_table *table)
+{
+    for (size_t i = 0; i < table->n; i++) {
+        for (size_t j = i + 1; j < table->n; j++) {
+            if (!table->entrants[i].out && !table->entrants[j].out) {
+                judge_pair(table, i, j);
+            }
+        }
+    }
+    if (table->leader == KOKSMA__RANK_NOBODY) {
+        table->leader = find_leader(table, KOKSMA__RANK_FIND_LEADER);
+    }
+    if (table->advised == KOKSMA__RANK_NOBODY) {
+        table->advised = find_leader(table, KOKSMA__RANK_FIND_ADVISED);
+    }
+}
+
+/* Whether nobody that counts for the goal is decided to leave less. */
+static bool may_lead(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
+{
+    bool may = true;
+    for (size_t j = 0; may && j < table->n; j++) {
+        const koksma__rank_entrant *other = &table->entrants[j];
+        const bool counts = !other->out && (goal == KOKSMA__RANK_FIND_LEADER || !other->coherent);
+        may = !counts || table->pairs[i * table->n + j].verdict != KOKSMA__RANK_MORE;
+    }
+    return may;
+}
+
+bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal)
+{
+    const koksma__rank_entrant *a = &table->entrants[i], *b = &table->entrants[j];
+    const koksma__rank_pair *pair = &table->pairs[i * table->n + j];
+    if (i == j || a->out || b->out || pair->verdict || pair->hopeless) {
+        return false;
+    }
+    return goal == KOKSMA__RANK_ORDER_ALL || ((goal == KOKSMA__RANK_FIND_LEADER || (!a->coherent && !b->coherent)) &&
+                                              (may_lead(table, i, goal) || may_lead(table, j, goal)));
+}
+
+bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal)
+{
+    return (goal == KOKSMA__RANK_FIND_LEADER && table->leader != KOKSMA__RANK_NOBODY) ||
+           (goal == KOKSMA__RANK_FIND_ADVISED && table->advised != KOKSMA__RANK_NOBODY);
+}
+
+size_t koksma__rank_position(const koksma__rank_table *table, size_t i)
+{
+    size_t position = 1;
+    for (size_t j = 0; j < table->n; j++) {
+        position += !table->entrants[j].out && table->pairs[i * table->n + j].verdict == KOKSMA__RANK_MORE;
+    }
+    return position;
+}

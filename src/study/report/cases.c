@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/report/cases.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/status.h"
+
+/* Plans have their sizes sorted. */
+static bool has_size(const koksma__wholes *sizes, long long n)
+{
+    size_t low = 0, high = sizes->n;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        *(sizes->at[middle] <= n ? &low : &high) = middle;
+    }
+    return sizes->n && sizes->at[low] == n;
+}
+
+/* ---- Measures ------------------------------------------------------------------------------------------ */
+
+static koksma_status add_measured(koksma__cases *c, const char *measure, int dim)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        if (c->measured[i].dim == dim && !strcmp(c->measured[i].measure, measure)) {
+            return KOKSMA_OK;
+        }
+    }
+    koksma__measured *measured = koksma__room_for_one(c->measured, c->n, &c->room, 16, sizeof *measured);
+    if (!measured) {
+        return KOKSMA_MEMORY;
+    }
+    c->measured = measured;
+    koksma__measured *m = &measured[c->n++];
+    koksma_spec spec;
+    *m = (koksma__measured){.measure = measure, .dim = dim};
+    m->larger = !koksma_measure_spec(measure, &spec) && spec.measure->larger_is_better;
+    const int length = snprintf(m->label, sizeof m->label, "%s", measure);
+    if (dim != 2) {
+        snprintf(m->label + length, sizeof m->label - (size_t)length, " (%dD)", dim);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__cases_open(koksma_study *study, const koksma__topic *topic, koksma__cases *cases)
+{
+    koksma_status status = KOKSMA_OK;
+    *cases = (koksma__cases){.study = study, .topic = topic};
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = topic->discrepancies[b];
+        for (size_t m = 0; !status && !d->warps.n && m < d->measures.n; m++) {
+            status = add_measured(cases, d->measures.at[m], d->dim);
+        }
+    }
+    return status;
+}
+
+void koksma__cases_close(koksma__cases *cases)
+{
+    free(cases->measured);
+    *cases = (koksma__cases){0};
+}
+
+/* Whether a block measures points of the case. */
+static bool measures_it(const koksma__discrepancy_block *d, const koksma__case *at)
+{
+    return !d->warps.n && d->dim == at->of->dim && has_size(&d->n, at->spp) &&
+           koksma__texts_have(&d->measures, at->of->measure);
+}
+
+/* The topic's block that measures a pattern's points, of several the one with the most sets; NULL: none does. */
+static const koksma__discrepancy_block *measured_in(const koksma__topic *topic, const koksma__case *at,
+                                                    const char *pattern)
+{
+    const koksma__discrepancy_block *most = NULL;
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *d = topic->discrepancies[b];
+        if ((!most || d->trials > most->trials) && measures_it(d, at) && koksma__texts_have(&d->patterns, pattern)) {
+            most = d;
+        }
+    }
+    return most;
+}
+
+/* ---- Images -------------------------------------------------------------------------------------------- */
+
+/* Whether both compare pictures of the scene of one size with the same last reference. */
+static bool same_pictures(const koksma_study *study, const koksma__image_block *a, const koksma__image_block *b,
+                          const char *scene)
+{
+    const koksma__study_scene *s = koksma__study_scene_of(study, scene);
+    char name[KOKSMA__REFERENCE_NAME], other[KOKSMA__REFERENCE_NAME];
+    int width[2], height[2];
+    koksma__block_size(a, s, &width[0], &height[0]);
+    koksma__block_size(b, s, &width[1], &height[1]);
+    koksma__reference_name(&a->references[a->n_references - 1], name);
+    koksma__reference_name(&b->references[b->n_references - 1], other);
+    return width[0] == width[1] && height[0] == height[1] && !strcmp(name, other);
+}
+
+/* Whether a block renders the pictures of the case. */
+static bool renders_it(const koksma_study *study, const koksma__image_block *i, const koksma__case *at)
+{
+    return i == at->image ||
+           (has_size(&i->spp, at->spp) && koksma__texts_have(&i->variants, at->variant) &&
+            koksma__texts_have(&i->scenes, at->scene) && same_pictures(study, i, at->image, at->scene));
+}
+
+/* The topic's block from b on that renders a pattern of the case, of several the one with the most trials. */
+static const koksma__image_block *rendered_in(const koksma__cases *c, const koksma__case *at, const char *pattern,
+                                              size_t b)
+{
+    const koksma__image_block *most = c->topic->images[b];
+    for (; b < c->topic->n_images; b++) {
+        const koksma__image_block *i = c->topic->images[b];
+        if (i->trials > most->trials && koksma__texts_have(&i->patterns, pattern) && renders_it(c->study, i, at)) {
+            most = i;
+        }
+    }
+    return most;
+}
+
+/* ---- Cases --------------------------------------------------------------------------------------------- */
+
+/* A block before b that renders the case, and, unless NULL, the pattern. */
+static bool is_before(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b)
+{
+    for (size_t k = 0; k < b; k++) {
+        const koksma__image_block *i = c->topic->images[k];
+        if ((!pattern || koksma__texts_have(&i->patterns, pattern)) && renders_it(c->study, i, at)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static koksma_status visit_measures(const koksma__cases *c, koksma__case *at, koksma__case_visitor visit,
+                                    void *context)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t m = 0; m < c->n; m++) {
+        bool measured = false;
+        at->of = &c->measured[m];
+        for (size_t b = 0; !measured && b < c->topic->n_discrepancies; b++) {
+            measured = measures_it(c->topic->discrepancies[b], at);
+        }
+        if (!status && measured) {
+            status = visit(c, context, at);
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor visit, void *context)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t b = 0; b < c->topic->n_images; b++) {
+        const koksma__image_block *i = c->topic->images[b];
+        for (size_t k = 0; !status && k < i->scenes.n * i->variants.n * i->spp.n; k++) {
+            koksma__case at = {.image = i,
+                               .scene = i->scenes.at[k / (i->variants.n * i->spp.n)],
+                               .variant = i->variants.at[k / i->spp.n % i->variants.n],
+                               .spp = i->spp.at[k % i->spp.n]};
+            if (!is_before(c, &at, NULL, b)) {
+                status = visit_measures(c, &at, visit, context);
+            }
+        }
+    }
+    return status;
+}
+
+/* Adds a pattern that block b is the first to render; one without rows of both, or beyond the room, only counts. */
+static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
+                              koksma__pairs *out)
+{
+    const koksma__discrepancy_block *d = measured_in(c->topic, at, pattern);
+    koksma__summary x, y;
+    out->patterns_in_all++;
+    if (!d || out->n == KOKSMA__CASE_PATTERNS) {
+        return KOKSMA_OK;
+    }
+    const koksma__image_block *i = rendered_in(c, at, pattern, b);
+    koksma_status status = koksma__discrepancy_mean(c->study, d, "", pattern, at->spp, at->of->measure, NULL, &x);
+    status = status ? status : koksma__image_mean(c->study, i, at->scene, at->variant, pattern, at->spp, NULL, &y);
+    if (!status && x.n && y.n) {
+        out->x[out->n] = x.mean;
+        out->y[out->n] = y.mean;
+        out->x_error[out->n] = x.sd / sqrt((double)x.n);
+        out->y_error[out->n] = y.sd / sqrt((double)y.n);
+        out->low[out->n] = y.low;
+        out->high[out->n] = y.high;
+        out->patterns[out->n++] = pattern;
+    }
+    return status;
+}
+
+koksma_status koksma__case_pairs(const koksma__cases *c, const koksma__case *at, koksma__pairs *out)
+{
+    koksma_status status = KOKSMA_OK;
+    out->n = out->patterns_in_all = 0;
+    for (size_t b = 0; b < c->topic->n_images; b++) {
+        const koksma__image_block *i = c->topic->images[b];
+        if (!renders_it(c->study, i, at)) {
+            continue;
+        }
+        for (size_t p = 0; !status && p < i->patterns.n; p++) {
+            if (!is_before(c, at, i->patterns.at[p], b)) {
+                status = add_pair(c, at, i->patterns.at[p], b, out);
+            }
+        }
+    }
+    return status;
+}

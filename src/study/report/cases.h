@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The cases in which a question sets measures of points against errors of images: a measure in a number of
+ * dimensions, and a scene with its options and samples. Blocks that share an id may share a case: it is one, with
+ * the patterns of all of them.
+ */
+#ifndef KOKSMA_STUDY_REPORT_CASES_H
+#define KOKSMA_STUDY_REPORT_CASES_H
+
+#include "study/report/answers.h"
+
+/* The bootstrap's time goes with the square of the patterns. */
+enum { KOKSMA__CASE_PATTERNS = 256 };
+
+/* A measure of points of dim dimensions: one in three is another than the one in two. */
+typedef struct koksma__measured {
+    const char *measure;
+    int dim;
+    bool larger;                      /* is better */
+    char label[KOKSMA_MAX_SPEC + 16]; /* "l2-star", "l2-star (3D)" */
+} koksma__measured;
+
+typedef struct koksma__cases {
+    koksma_study *study;
+    const koksma__topic *topic;
+    size_t n, room;
+    koksma__measured *measured; /* by their first places in the topic's blocks */
+} koksma__cases;
+
+typedef struct koksma__case {
+    const koksma__image_block *image; /* the first that renders it */
+    const char *scene, *variant;
+    long long spp;
+    const koksma__measured *of;
+} koksma__case;
+
+/* A measure's mean and an error's, with its interval, by pattern. */
+typedef struct koksma__pairs {
+    size_t n, patterns_in_all; /* that the blocks have, also those beyond the room */
+    double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
+        high[KOKSMA__CASE_PATTERNS];
+    double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */
+    const char *patterns[KOKSMA__CASE_PATTERNS];
+} koksma__pairs;
+
+/* Errors: MEMORY. */
+koksma_status koksma__cases_open(koksma_study *study, const koksma__topic *topic, koksma__cases *cases);
+void koksma__cases_close(koksma__cases *cases);
+
+/* Calls `visit` for every scene, variant, number of samples and measure, each once. */
+typedef koksma_status (*koksma__case_visitor)(const koksma__cases *cases, void *context, const koksma__case *at);
+koksma_status koksma__cases_visit(const koksma__cases *cases, koksma__case_visitor visit, void *context);
+
+/* The patterns that have rows of both. */
+koksma_status koksma__case_pairs(const koksma__cases *cases, const koksma__case *at, koksma__pairs *out);
+
+#endif

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Collects the ranks of a question's cases, a measure at a time, and reports what rank_regression.c makes of them:
+   for each scene the single measure, the pair and the combination of all measures that the other scenes choose, and
+   how well each orders this scene's errors. */
+#include "study/report/combinations.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/status.h"
+
+static koksma_status open_case(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found)
+{
+    koksma__combined *all = koksma__room_for_one(c->of, c->n, &c->room, 16, sizeof *all);
+    if (!all) {
+        return KOKSMA_MEMORY;
+    }
+    c->of = all;
+    koksma__combined *of = &all[c->n];
+    *of = (koksma__combined){.scene = at->scene,
+                             .variant = at->variant,
+                             .spp = at->spp,
+                             .n = found->n,
+                             .patterns = malloc((found->n + 1) * sizeof *of->patterns),
+                             .ranks = calloc((c->cases->n + 1) * (found->n + 1), sizeof *of->ranks)};
+    if (!of->patterns || !of->ranks) {
+        free(of->patterns);
+        free(of->ranks);
+        return koksma__fail_memory((c->cases->n + 1) * found->n * sizeof *of->ranks);
+    }
+    memcpy(of->patterns, found->patterns, found->n * sizeof *of->patterns);
+    koksma__unit_ranks(found->y, found->n, of->ranks + c->cases->n * found->n);
+    c->n++;
+    return KOKSMA_OK;
+}
+
+static bool has_patterns(const koksma__combined *of, const koksma__pairs *found)
+{
+    bool same = of->n == found->n;
+    for (size_t i = 0; same && i < of->n; i++) {
+        same = !strcmp(of->patterns[i], found->patterns[i]);
+    }
+    return same;
+}
+
+koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found)
+{
+    const koksma__combined *last = c->n ? &c->of[c->n - 1] : NULL;
+    if (!last || last->spp != at->spp || strcmp(last->scene, at->scene) != 0 ||
+        strcmp(last->variant, at->variant) != 0) {
+        const koksma_status status = open_case(c, at, found);
+        if (status) {
+            return status;
+        }
+    }
+    koksma__combined *of = &c->of[c->n - 1];
+    if (has_patterns(of, found)) {
+        koksma__unit_ranks(found->x, found->n, of->ranks + (size_t)(at->of - c->cases->measured) * of->n);
+        of->n_measures++;
+    }
+    return KOKSMA_OK;
+}
+
+/* Whether a case has all measures, and errors that differ. */
+static bool is_complete(const koksma__combinations *c, const koksma__combined *of)
+{
+    bool differ = false;
+    for (size_t i = 0; i < of->n; i++) {
+        differ |= of->ranks[c->cases->n * of->n + i] != 0;
+    }
+    return differ && of->n_measures == c->cases->n;
+}
+
+/* ---- What was found ------------------------------------------------------------------------------------ */
+
+typedef struct findings {
+    size_t n_cases, n_scenes; /* complete cases; their scenes */
+    const char **scenes;
+    koksma__rank_case *cases;
+    koksma__held_out *held_out;
+} findings;
+
+static void findings_fini(findings *f)
+{
+    free(f->scenes);
+    free(f->cases);
+    free(f->held_out);
+    *f = (findings){0};
+}
+
+static koksma_status findings_init(const koksma__combinations *c, findings *f)
+{
+    *f = (findings){.scenes = calloc(c->n + 1, sizeof *f->scenes),
+                    .cases = calloc(c->n + 1, sizeof *f->cases),
+                    .held_out = calloc(c->n + 1, sizeof *f->held_out)};
+    if (!f->scenes || !f->cases || !f->held_out) {
+        findings_fini(f);
+        return koksma__fail_memory(c->n * sizeof *f->held_out);
+    }
+    for (size_t i = 0; i < c->n; i++) {
+        const koksma__combined *of = &c->of[i];
+        size_t scene = 0;
+        if (!is_complete(c, of)) {
+            continue;
+        }
+        while (scene < f->n_scenes && strcmp(f->scenes[scene], of->scene) != 0) {
+            scene++;
+        }
+        f->scenes[scene] = of->scene;
+        f->n_scenes += scene == f->n_scenes;
+        f->cases[f->n_cases++] = (koksma__rank_case){scene, of->n, of->ranks};
+    }
+    return KOKSMA_OK;
+}
+
+static void add_difference(koksma__html *h, const koksma__summary *s)
+{
+    koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
+}
+
+/* Of correlations, which end at 1. */
+static void add_mean(koksma__html *h, const koksma__summary *s)
+{
+    koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
+}
+
+/* In how many scenes the choice of scene i was made. */
+static size_t times_chosen(const findings *f, size_t i, bool pair)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < f->n_scenes; s++) {
+        const koksma__held_out *a = &f->held_out[i], *b = &f->held_out[s];
+        n += pair ? a->pair[0] == b->pair[0] && a->pair[1] == b->pair[1] : a->single == b->single;
+    }
+    return n;
+}
+
+static void add_chosen(koksma__html *h, const koksma__cases *cases, const findings *f, bool pair)
+{
+    size_t most = 0;
+    for (size_t i = 1; i < f->n_scenes; i++) {
+        most = times_chosen(f, i, pair) > times_chosen(f, most, pair) ? i : most;
+    }
+    const koksma__held_out *of = &f->held_out[most];
+    koksma__html_add(h, " (<code>");
+    koksma__html_text(h, cases->measured[pair ? of->pair[0] : of->single].label);
+    if (pair) {
+        koksma__html_add(h, "</code> with <code>");
+        koksma__html_text(h, cases->measured[of->pair[1]].label);
+    }
+    koksma__html_add(h, "</code> in %zu of %zu)", times_chosen(f, most, pair), f->n_scenes);
+}
+
+static void add_sentence(koksma__html *h, const koksma__cases *cases, const findings *f)
+{
+    enum { STRIDE = sizeof *f->held_out / sizeof(double) };
+    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "values a whole number of doubles apart");
+    const size_t n = f->n_scenes;
+    const koksma__held_out *of = f->held_out;
+    const koksma__summary single = koksma__summarize(&of->rho_single, n, STRIDE);
+    const koksma__summary pair = koksma__summarize(&of->rho_pair, n, STRIDE);
+    const koksma__summary all = koksma__summarize(&of->rho_all, n, STRIDE);
+    const koksma__summary gain = koksma__paired(&of->rho_pair, &of->rho_single, n, STRIDE);
+    const koksma__summary gain_of_all = koksma__paired(&of->rho_all, &of->rho_single, n, STRIDE);
+    const koksma__summary best = koksma__summarize(&of->rho_hindsight, n, STRIDE);
+    koksma__html_add(h,
+                     "<p>Each scene's errors are predicted from the ranks of the measures, with what the other %zu "
+                     "scenes choose and fit (%zu cases). Mean Spearman correlation of the prediction with the "
+                     "error in the scene left out: the best single measure",
+                     n - 1, f->n_cases);
+    add_chosen(h, cases, f, false);
+    koksma__html_add(h, " ");
+    add_mean(h, &single);
+    koksma__html_add(h, ", the best pair");
+    add_chosen(h, cases, f, true);
+    koksma__html_add(h, " ");
+    add_mean(h, &pair);
+    koksma__html_add(h, ", ridge regression on all %zu measures ", cases->n);
+    add_mean(h, &all);
+    koksma__html_add(h, ". Beside the single measure the pair changes it by ");
+    add_difference(h, &gain);
+    koksma__html_add(h, ", all by ");
+    add_difference(h, &gain_of_all);
+    koksma__html_add(h,
+                     ". With the single measure that is best in each scene itself, which no one knows before, it "
+                     "would be %+.2f. Intervals are by Student's t over the scenes; their fits share scenes, and "
+                     "all share the patterns, so that they are approximate.</p>\n",
+                     best.mean);
+}
+
+static void add_table(koksma__html *h, const char *id, const koksma__cases *cases, const findings *f)
+{
+    static const char *const heads[] = {
+        "scene left out",  "cases",          "single measure", "its Spearman",      "pair",
+        "pair's Spearman", "penalty of all", "all's Spearman", "best in hindsight", "hindsight's Spearman"};
+    koksma__grid grid;
+    char text[2 * KOKSMA_MAX_SPEC + 64];
+    snprintf(text, sizeof text, "combinations-%.40s", id);
+    koksma__grid_open(&grid, h, text);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
+        koksma__grid_head(&grid, heads[i]);
+    }
+    for (size_t s = 0; s < f->n_scenes; s++) {
+        const koksma__held_out *of = &f->held_out[s];
+        koksma__grid_row(&grid);
+        koksma__grid_text(&grid, f->scenes[s]);
+        koksma__grid_number(&grid, (double)of->cases, 7);
+        koksma__grid_text(&grid, cases->measured[of->single].label);
+        koksma__grid_number(&grid, of->rho_single, 3);
+        snprintf(text, sizeof text, "%s + %s", cases->measured[of->pair[0]].label,
+                 cases->measured[of->pair[1]].label);
+        koksma__grid_text(&grid, text);
+        koksma__grid_number(&grid, of->rho_pair, 3);
+        koksma__grid_number(&grid, of->penalty, 2);
+        koksma__grid_number(&grid, of->rho_all, 3);
+        koksma__grid_text(&grid, cases->measured[of->hindsight].label);
+        koksma__grid_number(&grid, of->rho_hindsight, 3);
+    }
+    koksma__grid_close(&grid);
+}
+
+koksma_status koksma__combinations_report(koksma__html *h, const char *id, const koksma__combinations *c)
+{
+    findings f;
+    koksma_status status = findings_init(c, &f);
+    if (!status && f.n_scenes >= 3 && c->cases->n >= 2) {
+        status = koksma__rank_regression(f.cases, f.n_cases, c->cases->n, f.n_scenes, f.held_out);
+        if (!status) {
+            koksma__html_add(h, "<h4>Combinations of measures, tried on the scene left out</h4>\n");
+            add_sentence(h, c->cases, &f);
+            add_table(h, id, c->cases, &f);
+        }
+    }
+    findings_fini(&f);
+    return status;
+}
+
+void koksma__combinations_fini(koksma__combinations *c)
+{
+    for (size_t i = 0; i < c->n; i++) {
+        free(c->of[i].patterns);
+        free(c->of[i].ranks);
+    }
+    free(c->of);
+}

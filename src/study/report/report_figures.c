@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/adaptive.h>
+#include <koksma/plot.h>
+#include <koksma/warp.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+#include "study/plan/image_patterns.h"
+#include "study/plan/variants.h"
+#include "study/report/report.h"
+
+enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
+
+static koksma_status add_points(koksma__html *h, const koksma__figure *f)
+{
+    koksma_spec spec;
+    koksma_points points;
+    unsigned char *svg;
+    size_t size;
+    koksma_status status = koksma_pattern_spec(f->pattern, &spec);
+    if (!status) {
+        status = koksma_points_init(&points, (size_t)f->n, 2);
+    }
+    if (status) {
+        return status;
+    }
+    status = koksma_generate(&spec, koksma__job_seed("figure|%s|%lld", f->pattern, f->n), NULL, &points);
+    koksma_scatter_options options = {.size = POINTS_WIDTH, .warp = f->warp ? koksma_warp_find(f->warp) : NULL};
+    if (f->cells) { /* the strata: n x n rows and columns, or the cells of a grid */
+        options.columns = options.rows =
+            spec.pattern->claims & KOKSMA_CLAIM_LATIN ? (size_t)f->n : (size_t)sqrt((double)f->n);
+    }
+    if (!status) {
+        status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
+    }
+    if (!status) {
+        koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
+        free(svg);
+    }
+    koksma_points_fini(&points);
+    return status;
+}
+
+static koksma_status add_space(koksma__html *h, const koksma__figure *f, const koksma_space *space)
+{
+    unsigned char *svg;
+    size_t size;
+    char text[96];
+    koksma__snprintf(text, sizeof text, "%zu strata in the space: %s", space->n, space->name);
+    const koksma_strata_panel panel = {.strata = space->strata,
+                                       .n = space->n,
+                                       .splits = space->splits,
+                                       .n_splits = space->n_splits,
+                                       .caption = text};
+    const koksma_status status = koksma_plot_strata(&panel, 1, POINTS_WIDTH, KOKSMA_PLOT_SVG, &svg, &size);
+    if (!status) {
+        koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
+        free(svg);
+    }
+    return status;
+}
+
+static const koksma_space *find_space(const koksma_strata *strata, const char *name)
+{
+    for (size_t i = 0; i < strata->n_spaces; i++) {
+        if (!strcmp(strata->spaces[i].name, name)) {
+            return &strata->spaces[i];
+        }
+    }
+    return NULL;
+}
+
+/* One picture a space, side by side where there is room. */
+static koksma_status add_strata(koksma__html *h, const koksma__figure *f, koksma_strata *strata)
+{
+    koksma_status status = KOKSMA_OK;
+    koksma__html_add(h, "<div class=\"spaces\">\n");
+    for (size_t i = 0; !status && i < (f->spaces.n ? f->spaces.n : strata->n_spaces); i++) {
+        const koksma_space *space = f->spaces.n ? find_space(strata, f->spaces.at[i]) : &strata->spaces[i];
+        status =
+            space ? add_space(h, f, space)
+                  : koksma__fail(KOKSMA_ARGUMENT, "figure %s: no space '%s' in %s", f->id, f->spaces.at[i], f->scene);
+    }
+    koksma__html_add(h, "</div>\n");
+    koksma_strata_fini(strata);
+    return status;
+}
+
+/* The part of an image that the figure shows, the larger the smaller it is, and the brighter by its exposure. */
+static koksma_status add_part(koksma__html *h, const koksma__figure *f, const koksma_image *image)
+{
+    koksma_image part;
+    const bool whole = !f->detail[2];
+    const int x = (int)f->detail[0], y = (int)f->detail[1], width = whole ? image->width : (int)f->detail[2],
+              height = whole ? image->height : (int)f->detail[3];
+    if (x + width > image->width || y + height > image->height) {
+        return koksma__fail(KOKSMA_ARGUMENT, "figure %s: its detail lies beyond the image", f->id);
+    }
+    koksma_status status = koksma_image_init(&part, width, height, image->channels);
+    if (status) {
+        return status;
+    }
+    const size_t channels = (size_t)image->channels, row_size = (size_t)width * channels;
+    for (int row = 0; row < height; row++) {
+        const float *from = image->pixels + ((size_t)(y + row) * (size_t)image->width + (size_t)x) * channels;
+        for (size_t k = 0; k < row_size; k++) {
+            part.pixels[(size_t)row * row_size + k] = (float)f->exposure * from[k];
+        }
+    }
+    status = koksma__html_image(h, &part, SCENE_SCALE * image->width / width, f->title);
+    koksma_image_fini(&part);
+    return status;
+}
+
+/* What the method did to the whole image, for the caption: the first paper's numbers, and its argument as one. */
+static void describe_adaptive(const koksma__figure *f, double pixels, const koksma_adaptive_report *report,
+                              char note[NOTE])
+{
+    const int length = koksma__snprintf(note, NOTE, " (image: %lld samples a pixel at first, %.1f more in the mean",
+                                        f->n, (double)(report->samples - report->first) / pixels);
+    if (report->splits) {
+        koksma__snprintf(note + length, (size_t)(NOTE - length), "; %.0f %% of %llu splits needless)",
+                         100 * (double)report->needless / (double)report->splits, (unsigned long long)report->splits);
+    } else {
+        snprintf(note + length, (size_t)(NOTE - length), ")");
+    }
+}
+
+static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
+                                  uint64_t seed, const koksma_run *run, char note[NOTE])
+{
+    koksma__variant variant;
+    koksma_render_options *options = &variant.render;
+    koksma_adaptive_options adaptive;
+    koksma_adaptive_report report;
+    koksma_layers layers;
+    koksma_strata strata = {.x = (int)f->strata[0], .y = (int)f->strata[1]};
+    koksma_render_options_init(options, scene->scene);
+    koksma_status status = koksma__image_pattern_set(f->pattern, options);
+    status = status ? status : koksma__variant_apply(f->variant, false, &variant);
+    status = status ? status : koksma_adaptive_parse(f->adaptive, &adaptive);
+    options->spp = (int)f->n;
+    options->seed = seed;
+    options->width = scene->width;
+    options->height = scene->height;
+    adaptive.strata = f->strata[0] >= 0 ? &strata : NULL;
+    adaptive.probes = adaptive.method->own_samples ? PROBES : 0;
+    if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
+        return status;
+    }
+    status = adaptive.strata ? add_strata(h, f, &strata) : add_part(h, f, &layers.image);
+    describe_adaptive(f, (double)scene->width * (double)scene->height, &report, note);
+    koksma_layers_fini(&layers);
+    return status;
+}
+
+static koksma_status add_scene(const koksma_study *study, koksma__html *h, const koksma__figure *f,
+                               const koksma_run *run, char note[NOTE])
+{
+    koksma_image image;
+    const koksma__study_scene *scene = koksma__study_scene_of(study, f->scene);
+    const koksma__picture picture = {.pattern = f->pattern,
+                                     .variant = f->variant,
+                                     .spp = f->n,
+                                     .width = scene->width,
+                                     .height = scene->height,
+                                     .seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n)};
+    if (f->adaptive) {
+        return add_adaptive(scene, h, f, picture.seed, run, note);
+    }
+    koksma_status status = koksma__study_render(scene, &picture, run, &image);
+    if (!status) {
+        status = add_part(h, f, &image);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
+                                     const koksma_run *run)
+{
+    koksma_status status = KOKSMA_OK;
+    if (part->figures[0] == part->figures[1]) {
+        return status;
+    }
+    koksma__html_add(html, "<h2>Figures</h2>\n<div class=\"figures\">\n");
+    for (size_t i = part->figures[0]; !status && i < part->figures[1]; i++) {
+        const koksma__figure *f = &study->plan.figures[i];
+        char note[NOTE] = "";
+        koksma__html_add(html, "<figure");
+        koksma__html_id(html, "figure", f->id);
+        koksma__html_add(html, ">");
+        if (f->lines) {
+            koksma__report_lines(html, f, koksma__job_seed("figure|lines|%lld", f->n));
+        } else {
+            status = f->scene ? add_scene(study, html, f, run, note) : add_points(html, f);
+        }
+        koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
+        koksma__html_text(html, f->title);
+        koksma__html_text(html, note);
+        if (f->exposure != 1) {
+            koksma__html_add(html, ". Shown %g times as bright as rendered", f->exposure);
+        }
+        if (f->printed) {
+            koksma__html_add(html, ". In the text: ");
+            koksma__html_text(html, f->printed);
+        }
+        koksma__html_add(html, "</figcaption></figure>\n");
+    }
+    koksma__html_add(html, "</div>\n");
+    return status;
+}

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The same means over parts of the cases: a scene, a group of scenes that the plan names, a number of samples. A row
+   has the mean of every measure, the best of them, and those that are surely worse than it by Holm over the pairs of
+   measures in that row. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/report/rho_words.h"
+
+/* A part of the cases: one table has many. */
+typedef struct part {
+    char name[160];
+    bool *scenes; /* NULL: all */
+    long long spp;
+} part;
+
+/* Appends to a text of limited size; what has no room is left out. */
+static void append(char *text, size_t size, const char *between, const char *more)
+{
+    const size_t used = strlen(text);
+    if (used + strlen(between) + strlen(more) + 1 < size) {
+        snprintf(text + used, size - used, "%s%s", used ? between : "", more);
+    }
+}
+
+static void add_heads(koksma__grid *g, const koksma__rho_means *s, const char *what)
+{
+    koksma__grid_head(g, what);
+    koksma__grid_head(g, "cases");
+    koksma__grid_head(g, "best");
+    koksma__grid_head(g, "surely worse than the best");
+    for (size_t m = 0; m < s->n; m++) {
+        koksma__grid_head_interval(g, s->of[m].measure);
+    }
+}
+
+static koksma_status add_row(koksma__grid *g, const koksma__rho_means *s, const part *of)
+{
+    koksma__rho_ranking r;
+    const koksma_status status = koksma__rho_rank(s, &(koksma__rho_subset){of->scenes, of->spp}, &r);
+    if (status || !r.n) {
+        koksma__rho_ranking_fini(&r);
+        return status;
+    }
+    char worse[512] = "";
+    for (size_t i = 1; i < r.n; i++) {
+        if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
+            append(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
+        }
+    }
+    koksma__grid_row(g);
+    koksma__grid_text(g, of->name);
+    koksma__grid_number(g, (double)r.at[0].cases, 7);
+    koksma__grid_text(g, s->of[r.at[0].measure].measure);
+    koksma__grid_text(g, worse[0] ? worse : "none");
+    for (size_t m = 0; m < s->n; m++) {
+        koksma__estimate mean = {NAN, NAN, NAN};
+        for (size_t i = 0; i < r.n; i++) {
+            mean = r.at[i].measure == m ? r.at[i].mean : mean;
+        }
+        koksma__grid_interval(g, mean, 2);
+    }
+    koksma__rho_ranking_fini(&r);
+    return KOKSMA_OK;
+}
+
+static koksma_status add_table(koksma__html *h, const koksma__rho_means *s, const char *name, const char *id,
+                               const char *title, const part *parts, size_t n)
+{
+    koksma__grid grid;
+    char file[64];
+    koksma_status status = KOKSMA_OK;
+    snprintf(file, sizeof file, "correlation-%.10s-%.40s", name, id);
+    koksma__html_add(h, "<h4>%s</h4>\n", title);
+    koksma__grid_open(&grid, h, file);
+    add_heads(&grid, s, name);
+    for (size_t i = 0; !status && i < n; i++) {
+        status = add_row(&grid, s, &parts[i]);
+    }
+    koksma__grid_close(&grid);
+    return status;
+}
+
+/* Sets parts by scene, by group and by number of samples, with `masks` for their scenes. */
+static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, part *parts, bool *masks)
+{
+    part *at = parts;
+    for (size_t i = 0; i < s->n_scenes; i++, at++, masks += s->n_scenes) {
+        snprintf(at->name, sizeof at->name, "%.150s", s->scenes[i]);
+        at->scenes = masks;
+        masks[i] = true;
+    }
+    for (size_t g = 0; g < topic->n_groups; g++, at++, masks += s->n_scenes) {
+        char names[256] = "";
+        at->scenes = masks;
+        for (size_t i = 0; i < s->n_scenes; i++) {
+            masks[i] = koksma__texts_have(&topic->groups[g].scenes, s->scenes[i]);
+            if (masks[i]) {
+                append(names, sizeof names, ", ", s->scenes[i]);
+            }
+        }
+        snprintf(at->name, sizeof at->name, "%.70s (%.80s)", topic->groups[g].title, names);
+    }
+    for (size_t k = 0; k < s->n_sizes; k++, at++) {
+        snprintf(at->name, sizeof at->name, "%lld", s->sizes[k]);
+        at->spp = s->sizes[k];
+    }
+}
+
+koksma_status koksma__rho_breakdowns(koksma__html *h, const koksma__topic *topic, const koksma__rho_means *s)
+{
+    const size_t n = s->n_scenes + topic->n_groups + s->n_sizes;
+    part *parts = calloc(n + 1, sizeof *parts);
+    bool *masks = calloc((s->n_scenes + topic->n_groups + 1) * (s->n_scenes + 1), sizeof *masks);
+    koksma_status status = parts && masks ? KOKSMA_OK : koksma__fail_memory(n * sizeof *parts);
+    if (!status) {
+        set_parts(topic, s, parts, masks);
+    }
+    if (!status && topic->n_groups) {
+        status = add_table(h, s, "group", topic->id, "By what dominates the scenes' error", parts + s->n_scenes,
+                           topic->n_groups);
+    }
+    if (!status && s->n_scenes > 1) {
+        status = add_table(h, s, "scene", topic->id, "By scene", parts, s->n_scenes);
+    }
+    if (!status && s->n_sizes > 1) {
+        status = add_table(h, s, "samples", topic->id, "By number of samples", parts + s->n_scenes + topic->n_groups,
+                           s->n_sizes);
+    }
+    free(masks);
+    free(parts);
+    return status;
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Rankings of measures. The mean over the chosen cases is a sum of cells, in each resample too; two means differ
+ * surely where their difference's p from the resamples, by Holm over all pairs of measures, is up to 0.05: all pairs,
+ * not only those with the best, as the best is found in the same data. A statement about all scenes is one only where
+ * it holds again without each of them: the jackknife's subsets (Efron 1982), used as a check, not for a variance.
+ */
+#include "study/report/rho_ranking.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+
+static const double LEVEL = 0.05;
+
+static bool is_in(const koksma__rho_subset *of, const koksma__rho_cell *cell)
+{
+    return (!of->scenes || of->scenes[cell->scene]) && (!of->spp || of->spp == cell->spp);
+}
+
+/* A measure's mean over the subset, and its resamples; cases 0: none. */
+static koksma_status stand(const koksma__rho_sums *m, const koksma__rho_subset *of, double *draws,
+                           koksma__rho_standing *out)
+{
+    size_t few = 0;
+    double total = 0;
+    for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+        draws[i] = 0;
+    }
+    for (size_t c = 0; c < m->n_cells; c++) {
+        const koksma__rho_cell *cell = &m->cells[c];
+        if (is_in(of, cell)) {
+            out->cases += cell->all;
+            few += cell->few;
+            total += cell->total;
+            for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+                draws[i] += cell->draws[i];
+            }
+        }
+    }
+    const double share = out->cases ? 1 / (double)out->cases : 0;
+    for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+        draws[i] *= share;
+    }
+    const koksma__draws mean = {total * share, 1, draws}, zero = {0, 0, draws};
+    const koksma_status status = koksma__bootstrap_difference(&mean, &zero, KOKSMA__RHO_SAMPLES, &out->mean);
+    out->p = koksma__resampled_p(draws, 1, NULL, 0, KOKSMA__RHO_SAMPLES);
+    if (few) {
+        out->mean.low = out->mean.high = NAN;
+        out->p = 1;
+    }
+    return status;
+}
+
+/* The p of all pairs that can be compared, by Holm. */
+static koksma_status compare_pairs(koksma__rho_ranking *r, double *const *draws)
+{
+    const size_t n = r->n;
+    double *p = malloc((n * n + 1) * sizeof *p);
+    if (!p) {
+        return koksma__fail_memory((n * n + 1) * sizeof *p);
+    }
+    for (size_t a = 0; a < n; a++) {
+        for (size_t b = a; b < n; b++) {
+            const koksma__rho_standing *x = &r->at[a], *y = &r->at[b];
+            const bool compared = a != b && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
+            r->p[a * n + b] = r->p[b * n + a] = compared ? 1 : (double)NAN;
+            if (compared) {
+                p[r->n_pairs++] = koksma__resampled_p(draws[a], 1, draws[b], 1, KOKSMA__RHO_SAMPLES);
+            }
+        }
+    }
+    const koksma_status status = koksma__holm(p, r->n_pairs);
+    for (size_t a = 0, k = 0; a < n; a++) {
+        for (size_t b = a + 1; b < n; b++) {
+            if (!isnan(r->p[a * n + b])) {
+                r->p[a * n + b] = r->p[b * n + a] = p[k++];
+            }
+        }
+    }
+    free(p);
+    return status;
+}
+
+/* Sorts the standings and their resamples by mean. */
+static void order(koksma__rho_ranking *r, double **draws)
+{
+    for (size_t m = 1; m < r->n; m++) {
+        const koksma__rho_standing of = r->at[m];
+        double *values = draws[m];
+        size_t at = m;
+        for (; at > 0 && koksma__compare(r->at[at - 1].mean.value, of.mean.value) < 0; at--) {
+            r->at[at] = r->at[at - 1];
+            draws[at] = draws[at - 1];
+        }
+        r->at[at] = of;
+        draws[at] = values;
+    }
+}
+
+static koksma_status fill(const koksma__rho_means *s, const koksma__rho_subset *of, koksma__rho_ranking *r,
+                          double **draws)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t m = 0; !status && m < s->n; m++) {
+        koksma__rho_standing *standing = &r->at[r->n];
+        *standing = (koksma__rho_standing){.measure = m};
+        status = stand(&s->of[m], of, draws[r->n], standing);
+        r->n += standing->cases > 0;
+    }
+    if (status) {
+        return status;
+    }
+    order(r, draws);
+    double *p = malloc((r->n + 1) * sizeof *p);
+    if (!p) {
+        return koksma__fail_memory((r->n + 1) * sizeof *p);
+    }
+    for (size_t i = 0; i < r->n; i++) {
+        p[i] = r->at[i].p;
+    }
+    status = koksma__holm(p, r->n);
+    for (size_t i = 0; !status && i < r->n; i++) {
+        const koksma__draws mean = {r->at[i].mean.value, 1, draws[i]}, first = {r->at[0].mean.value, 1, draws[0]};
+        r->at[i].p = p[i];
+        status = koksma__bootstrap_difference(&mean, &first, KOKSMA__RHO_SAMPLES, &r->at[i].less);
+        if (i == 0 || isnan(r->at[i].mean.low) || isnan(r->at[0].mean.low)) {
+            r->at[i].less.low = r->at[i].less.high = NAN;
+        }
+    }
+    free(p);
+    return status ? status : compare_pairs(r, draws);
+}
+
+koksma_status koksma__rho_rank(const koksma__rho_means *s, const koksma__rho_subset *of, koksma__rho_ranking *r)
+{
+    const size_t size = KOKSMA__RHO_SAMPLES * sizeof(double);
+    *r = (koksma__rho_ranking){.at = calloc(s->n + 1, sizeof *r->at), .p = calloc(s->n * s->n + 1, sizeof *r->p)};
+    double **draws = calloc(s->n + 1, sizeof *draws);
+    koksma_status status = r->at && r->p && draws ? KOKSMA_OK : koksma__fail_memory(s->n * s->n * sizeof *r->p);
+    for (size_t m = 0; !status && m < s->n; m++) {
+        draws[m] = malloc(size);
+        status = draws[m] ? KOKSMA_OK : koksma__fail_memory(size);
+    }
+    status = status ? status : fill(s, of, r, draws);
+    for (size_t m = 0; draws && m < s->n; m++) {
+        free(draws[m]);
+    }
+    free(draws);
+    if (status) {
+        koksma__rho_ranking_fini(r);
+    }
+    return status;
+}
+
+void koksma__rho_ranking_fini(koksma__rho_ranking *r)
+{
+    free(r->at);
+    free(r->p);
+    *r = (koksma__rho_ranking){0};
+}
+
+/* The place of a measure; n: it has none. */
+static size_t place_of(const koksma__rho_ranking *r, size_t measure)
+{
+    size_t i = 0;
+    while (i < r->n && r->at[i].measure != measure) {
+        i++;
+    }
+    return i;
+}
+
+bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
+{
+    const size_t i = place_of(r, a), j = place_of(r, b);
+    return i < j && j < r->n && r->p[i * r->n + j] <= LEVEL && r->at[i].mean.value > r->at[j].mean.value;
+}
+
+bool koksma__rho_predicts(const koksma__rho_ranking *r, size_t measure)
+{
+    const size_t i = place_of(r, measure);
+    return i < r->n && r->at[i].p <= LEVEL && r->at[i].mean.value > 0;
+}
+
+/* ---- Without one scene --------------------------------------------------------------------------------- */
+
+koksma_status koksma__rho_leave_out(const koksma__rho_means *s, koksma__rho_jackknife *j)
+{
+    const size_t n = s->n_scenes > 1 ? 1 + s->n_scenes : 1;
+    bool *scenes = malloc((s->n_scenes + 1) * sizeof *scenes);
+    *j = (koksma__rho_jackknife){.of = calloc(n, sizeof *j->of)};
+    koksma_status status = scenes && j->of ? KOKSMA_OK : koksma__fail_memory(n * sizeof *j->of);
+    while (!status && j->n < n) {
+        for (size_t k = 0; k < s->n_scenes; k++) {
+            scenes[k] = j->n != 1 + k;
+        }
+        status = koksma__rho_rank(s, &(koksma__rho_subset){.scenes = scenes}, &j->of[j->n]);
+        j->n += !status;
+    }
+    free(scenes);
+    if (status) {
+        koksma__rho_jackknife_fini(j);
+    }
+    return status;
+}
+
+void koksma__rho_jackknife_fini(koksma__rho_jackknife *j)
+{
+    for (size_t i = 0; i < j->n; i++) {
+        koksma__rho_ranking_fini(&j->of[i]);
+    }
+    free(j->of);
+    *j = (koksma__rho_jackknife){0};
+}
+
+bool koksma__rho_always_better(const koksma__rho_jackknife *j, size_t a, size_t b)
+{
+    bool always = j->n > 0;
+    for (size_t i = 0; always && i < j->n; i++) {
+        always = koksma__rho_is_better(&j->of[i], a, b);
+    }
+    return always;
+}
+
+bool koksma__rho_always_predicts(const koksma__rho_jackknife *j, size_t measure)
+{
+    bool always = j->n > 0;
+    for (size_t i = 0; always && i < j->n; i++) {
+        always = koksma__rho_predicts(&j->of[i], measure);
+    }
+    return always;
+}
+
+bool koksma__rho_always_first(const koksma__rho_jackknife *j, size_t measure)
+{
+    bool always = j->n > 0;
+    for (size_t i = 0; always && i < j->n; i++) {
+        always = place_of(&j->of[i], measure) == 0;
+    }
+    return always;
+}
+
+bool koksma__rho_always_last(const koksma__rho_jackknife *j, size_t measure)
+{
+    bool always = j->n > 0;
+    for (size_t i = 0; always && i < j->n; i++) {
+        always = place_of(&j->of[i], measure) + 1 == j->of[i].n;
+    }
+    return always;
+}
+
+koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measure)
+{
+    koksma__estimate range = {NAN, NAN, NAN};
+    for (size_t i = 0; i < j->n; i++) {
+        const size_t at = place_of(&j->of[i], measure);
+        const double mean = at < j->of[i].n ? j->of[i].at[at].mean.value : (double)NAN;
+        range.value = i == 0 ? mean : range.value;
+        range.low = fmin(range.low, mean);
+        range.high = fmax(range.high, mean);
+    }
+    return range;
+}

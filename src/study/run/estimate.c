@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What a study would cost. Some jobs are timed until the time for it is up, and every other task is taken to cost
+ * what the nearest timed one of the same block and scene costs, by the power of n that its pattern showed between two
+ * timed numbers (before there are two: 1 for renders, 2 for point sets). Nearest is the one whose n, pattern and
+ * variant tell the most (distance()). First the smallest n of every block and scene is timed; then, again and again,
+ * the task whose cost in the study is the largest and the least certain, among those that fit into the time that is
+ * left.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/processor_clock.h"
+#include "core/status.h"
+#include "study/run/pool.h"
+#include "study/run/run_control.h"
+#include "study/run/tasks.h"
+
+/* Bytes of a row of table result with its share of the tree, and of each of its up to VALUES values (measured on 1e5
+   rows of each kind); of a reference's pixel. */
+static const double ROW = 34, VALUE = 8, REFERENCE_PIXEL = 4;
+enum { VALUES = KOKSMA__RESULT_VALUES };
+
+typedef struct guess {
+    koksma__task *task;
+    size_t nearest; /* the timed task that it is taken from; itself when it was timed, NONE */
+    double seconds; /* of a job */
+} guess;
+
+enum { NONE = -1 };
+
+typedef struct guesses {
+    guess *at; /* those of few points first */
+    size_t n;
+} guesses;
+
+static int by_n(const void *a, const void *b)
+{
+    const koksma__task *s = ((const guess *)a)->task, *t = ((const guess *)b)->task;
+    return s->n != t->n ? (s->n > t->n) - (s->n < t->n) : (s->place > t->place) - (s->place < t->place);
+}
+
+/* Tasks that tell something of each other. */
+static bool same_block(const koksma__task *s, const koksma__task *t)
+{
+    return s->image == t->image && s->discrepancy == t->discrepancy && s->scene == t->scene;
+}
+
+static bool same_kind(const koksma__task *s, const koksma__task *t)
+{
+    return same_block(s, t) && !strcmp(s->pattern, t->pattern) && !strcmp(s->variant, t->variant);
+}
+
+static bool is_timed(const guesses *g, size_t i)
+{
+    return g->at[i].nearest == i;
+}
+
+/* How little one task tells of another of its block: another variant about as little as 1.4 times the points, another
+   pattern as twice as many. */
+static double distance(const koksma__task *s, const koksma__task *t)
+{
+    return fabs(log2((double)s->n / (double)t->n)) + (strcmp(s->pattern, t->pattern) ? 1 : 0) +
+           (strcmp(s->variant, t->variant) ? 0.5 : 0);
+}
+
+/* The power of n by which timed task i grows towards n: to the timed one of its kind that is nearest to it. */
+static double power_at(const guesses *g, size_t i, long long n)
+{
+    const koksma__task *t = g->at[i].task;
+    const bool up = n > t->n;
+    double best = INFINITY, power = t->image ? 1 : 2;
+    for (size_t j = 0; j < g->n; j++) {
+        const koksma__task *other = g->at[j].task;
+        if (is_timed(g, j) && other->n != t->n && same_kind(other, t)) {
+            const double ratio = log((double)other->n / (double)t->n);
+            const double far = fabs(ratio) + ((ratio > 0) == up ? 0 : 100); /* the far side is better than nothing */
+            if (far < best) {
+                best = far;
+                power = log(g->at[j].seconds / g->at[i].seconds) / ratio;
+            }
+        }
+    }
+    return fmin(fmax(power, 0), 3);
+}
+
+/* What is known now of the tasks that task `timed` tells something of. */
+static void learn(guesses *g, size_t timed)
+{
+    g->at[timed].nearest = timed;
+    for (size_t i = 0; i < g->n; i++) {
+        guess *to = &g->at[i];
+        if (is_timed(g, i) || !same_block(to->task, g->at[timed].task)) {
+            continue;
+        }
+        if (to->nearest == (size_t)NONE ||
+            distance(to->task, g->at[timed].task) < distance(to->task, g->at[to->nearest].task)) {
+            to->nearest = timed;
+        }
+        const guess *from = &g->at[to->nearest];
+        const double ratio = (double)to->task->n / (double)from->task->n;
+        to->seconds =
+            from->seconds * (to->task->n == from->task->n ? 1 : pow(ratio, power_at(g, to->nearest, to->task->n)));
+    }
+}
+
+/* A picture of zeros in place of a reference: it only has to have its size. */
+static koksma_status stand_in(koksma_study *study, const koksma__task *task)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t r = 0; task->image && !status && r < task->n_series; r++) {
+        koksma__reference_image *reference = &study->references[task->references[r]];
+        if (!reference->image.pixels) {
+            status = koksma_image_init(&reference->image, reference->width, reference->height, 3);
+        }
+    }
+    return status;
+}
+
+/* One timing may be anything on a machine with other work: trials are timed until they took LONG_JOB together. */
+enum { MOST_LOOKS = 9 };
+static const double LONG_JOB = 0.02;
+
+static int compare_seconds(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The median of several trials, in processor time: that is what a thread of its own would take. */
+static koksma_status time_job(koksma_study *study, const koksma__task *task, const koksma_run *job, double *seconds)
+{
+    double looks[MOST_LOOKS], all = 0;
+    int n = 0;
+    koksma__result *results = calloc(task->n_series, sizeof *results);
+    koksma_status status = results ? stand_in(study, task) : koksma__fail_memory(task->n_series * sizeof *results);
+    for (; !status && n < MOST_LOOKS && (n == 0 || all < LONG_JOB); n++) {
+        const double start = koksma__thread_s();
+        status = koksma__task_do(study, task, n % task->trials, job, results);
+        status = status == KOKSMA_IMPOSSIBLE ? KOKSMA_OK : status; /* that takes its time, too */
+        looks[n] = koksma__thread_s() - start;
+        all += looks[n];
+    }
+    if (!status) {
+        qsort(looks, (size_t)n, sizeof *looks, compare_seconds);
+        *seconds = looks[n / 2];
+    }
+    free(results);
+    return status;
+}
+
+static void add_task(const koksma__task *t, double seconds, koksma_study_cost *cost)
+{
+    const double trials = (double)t->trials;
+    cost->rows += (uint64_t)t->trials * t->n_series;
+    cost->seconds += seconds * trials;
+    const size_t rows = t->image ? t->n_series : (t->n_series + VALUES - 1) / VALUES;
+    const size_t values = t->image ? VALUES * t->n_series : t->n_series;
+    cost->bytes += trials * (ROW * (double)rows + VALUE * (double)values);
+}
+
+/* A reference takes the time of the tasks that are compared with it, sample for sample. */
+static void add_references(koksma_study *study, const koksma__task *t, double seconds, bool *counted,
+                           koksma_study_cost *cost)
+{
+    for (size_t r = 0; t->image && r < t->n_series; r++) {
+        const koksma__reference_image *image = &study->references[t->references[r]];
+        if (!counted[t->references[r]]) {
+            counted[t->references[r]] = true;
+            const double samples = (double)image->reference->spp * (double)image->reference->replicates;
+            cost->references++;
+            cost->reference_seconds += seconds * samples / (double)t->n;
+            cost->bytes += (double)image->width * image->height * 3 * REFERENCE_PIXEL;
+        }
+    }
+}
+
+static koksma_status time_and_learn(koksma_study *study, guesses *g, size_t i, const koksma_run *job)
+{
+    const koksma_status status = time_job(study, g->at[i].task, job, &g->at[i].seconds);
+    if (!status) {
+        learn(g, i);
+    }
+    return status;
+}
+
+/* The task whose timing would tell the most and be done before the end; g->n: there is none. */
+static size_t choose(const guesses *g, double left_s)
+{
+    double most = 0;
+    size_t best = g->n;
+    for (size_t i = 0; i < g->n; i++) {
+        const guess *from = &g->at[i];
+        if (is_timed(g, i) || from->seconds > left_s) {
+            continue;
+        }
+        const double gain =
+            from->seconds * (double)from->task->trials * distance(from->task, g->at[from->nearest].task);
+        best = gain > most ? i : best;
+        most = fmax(gain, most);
+    }
+    return best;
+}
+
+static koksma_status time_tasks(koksma_study *study, guesses *g, const koksma_run *run, double budget_s)
+{
+    const double start_s = koksma__now_s();
+    koksma__watch w;
+    koksma__watch_begin(run, 0, &w);
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < g->n; i++) {
+        if (g->at[i].nearest == (size_t)NONE) {
+            status = koksma__keep_going(&w.run, 0) ? time_and_learn(study, g, i, &w.job) : koksma__fail_interrupted();
+        }
+    }
+    for (;;) {
+        const double passed_s = koksma__now_s() - start_s;
+        const size_t i = status || passed_s > budget_s ? g->n : choose(g, budget_s - passed_s);
+        if (i == g->n) {
+            return status;
+        }
+        status = koksma__keep_going(&w.run, passed_s / budget_s) ? time_and_learn(study, g, i, &w.job)
+                                                                 : koksma__fail_interrupted();
+    }
+}
+
+static koksma_status estimate_kind(koksma_study *study, bool images, const koksma_run *run, double budget_s,
+                                   koksma_study_cost *cost)
+{
+    koksma__tasks tasks;
+    koksma_status status = koksma__tasks_open(study, images, &tasks);
+    if (status) {
+        return status;
+    }
+    guesses g = {calloc(tasks.n + 1, sizeof *g.at), tasks.n};
+    bool *counted = calloc(study->n_references + 1, sizeof *counted);
+    status = g.at && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
+    for (size_t i = 0; !status && i < g.n; i++) {
+        g.at[i] = (guess){&tasks.at[i], (size_t)NONE, 0};
+    }
+    if (!status && tasks.n) {
+        qsort(g.at, g.n, sizeof *g.at, by_n);
+        status = time_tasks(study, &g, run, budget_s);
+    }
+    for (size_t i = g.n; !status && i-- > 0;) { /* a reference has many samples */
+        add_task(g.at[i].task, g.at[i].seconds, cost);
+        add_references(study, g.at[i].task, g.at[i].seconds, counted, cost);
+    }
+    cost->jobs += tasks.n_jobs;
+    free(g.at);
+    free(counted);
+    koksma__tasks_close(&tasks);
+    return status;
+}
+
+koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out)
+{
+    const double start_s = koksma__now_s(), budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
+    const bool both = study->plan.n_discrepancies && study->plan.n_images;
+    *out = (koksma_study_cost){0};
+    koksma__pool_release();
+    koksma_status status = estimate_kind(study, false, run, both ? budget_s / 2 : budget_s, out);
+    const double left_s = budget_s - (koksma__now_s() - start_s);
+    status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);
+    out->seconds += out->reference_seconds;
+    for (size_t i = 0; i < study->n_references; i++) { /* the stand-ins must not be taken for references */
+        koksma_image_fini(&study->references[i].image);
+    }
+    return status;
+}

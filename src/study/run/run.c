@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Runs the jobs of a study that are not done. Rows do not depend on threads, order or interruptions, because a job's
+   seed is a hash of its key. */
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+#include "core/parallel.h"
+#include "core/processor_clock.h"
+#include "core/status.h"
+#include "study/run/pool.h"
+
+/* ---- What was run, on what ----------------------------------------------------------------------------- */
+
+static void name_machine(char *text, size_t size)
+{
+    struct utsname system = {0};
+    char line[256], model[160] = "";
+    FILE *f = fopen("/proc/cpuinfo", "r");
+    while (f && fgets(line, sizeof line, f)) {
+        if (!strncmp(line, "model name", 10) && strchr(line, ':')) {
+            snprintf(model, sizeof model, "%.*s, ", (int)strcspn(strchr(line, ':') + 2, "\n"), strchr(line, ':') + 2);
+            break;
+        }
+    }
+    if (f) {
+        fclose(f);
+    }
+    uname(&system);
+    snprintf(text, size, "%s%.30s %.30s", model, system.sysname, system.machine);
+}
+
+static koksma_status record_run(koksma_study *study, const char *started, const koksma_study_summary *summary)
+{
+    koksma__run_record record = {.workers = summary->workers,
+                                 .jobs = (long long)summary->done_now,
+                                 .seconds = summary->seconds,
+                                 .idle_seconds = summary->idle_seconds,
+                                 .processor_seconds = summary->processor_seconds,
+                                 .store_seconds = summary->store_seconds};
+    if (summary->done_now == 0) {
+        return KOKSMA_OK;
+    }
+    snprintf(record.started, sizeof record.started, "%s", started);
+    snprintf(record.version, sizeof record.version, "%s", koksma_version());
+    name_machine(record.machine, sizeof record.machine);
+    const koksma_status status = koksma__store_put_run(study->store, &record);
+    return status ? status : koksma__store_commit(study->store);
+}
+
+/* ---- The whole ----------------------------------------------------------------------------------------- */
+
+/* What was refused, of both kinds of jobs. */
+static void add_refused(koksma__refused *all, const koksma__refused *more)
+{
+    if (more->n && !all->n) {
+        memcpy(all->text, more->text, sizeof all->text);
+    }
+    all->n += more->n;
+}
+
+/* With a status that is not OK already, only counts. */
+static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *watch, koksma_status before,
+                              koksma_study_summary *summary, koksma__refused *refused)
+{
+    koksma__tasks tasks;
+    koksma_status status = koksma__tasks_open(study, images, &tasks);
+    if (status) {
+        return status;
+    }
+    koksma__pool pool = {.tasks = &tasks,
+                         .watch = watch,
+                         .last = images || !study->plan.n_images,
+                         .refused = {.lock = PTHREAD_MUTEX_INITIALIZER}};
+    status = koksma__tasks_look_up(&tasks);
+    summary->jobs += tasks.n_jobs;
+    size_t done_before = 0;
+    for (size_t i = 0; i < tasks.n; i++) {
+        done_before += (size_t)tasks.at[i].done_before;
+    }
+    summary->done_before += done_before;
+    if (!status && !before && (done_before < tasks.n_jobs || (koksma__pool_size() > 1 && tasks.n_jobs))) {
+        status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool) : koksma__pool_threads(&pool);
+    }
+    summary->done_now += atomic_load(&pool.done);
+    summary->idle_seconds -= 1e-9 * (double)atomic_load(&pool.busy_ns);
+    summary->processor_seconds += pool.others_s;
+    add_refused(refused, &pool.refused);
+    pthread_mutex_destroy(&pool.refused.lock);
+    koksma__tasks_close(&tasks);
+    return before ? before : status;
+}
+
+koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
+{
+    koksma_study_summary unused;
+    char started[24];
+    const time_t now = time(NULL);
+    struct tm utc;
+    strftime(started, sizeof started, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    summary = summary ? summary : &unused;
+    *summary = (koksma_study_summary){0};
+    koksma__watch w;
+    koksma__watch_begin(run, run && study->store ? run->time_limit_s : 0, &w); /* rank 0 looks at the clock for all */
+    if (!study->store) {
+        return koksma__pool_work(study, &w.job);
+    }
+    const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
+    const double store_s = koksma__store_seconds(study->store);
+    koksma__refused refused = {.n = 0};
+    koksma_status status = run_kind(study, false, &w, KOKSMA_OK, summary, &refused);
+    status = run_kind(study, true, &w, status, summary, &refused);
+    summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : w.run.threads;
+    summary->seconds = koksma__now_s() - start_s;
+    summary->idle_seconds += summary->workers * summary->seconds;
+    summary->processor_seconds += koksma__processor_s() - processor_s;
+    summary->store_seconds = koksma__store_seconds(study->store) - store_s;
+    const bool all = !status;
+    summary->complete = all && !refused.n;
+    if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
+        const koksma_status recorded = record_run(study, started, summary);
+        status = status == KOKSMA_OK || koksma__watch_time_is_up(&w) ? recorded : status;
+    }
+    if (all && !status && refused.n) {
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", refused.n,
+                              summary->jobs, refused.text);
+    }
+    return status;
+}

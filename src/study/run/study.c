@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "core/read_file.h"
+#include "core/status.h"
+#include "study/run/pool.h"
+#include "study/run/study.h"
+
+enum { MAX_PLAN = 1 << 22 };
+
+static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
+                               char **text_out)
+{
+    const size_t length = strlen(name);
+    unsigned char *text = NULL;
+    size_t size = 0;
+    koksma_status status = KOKSMA_OK;
+    if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
+        const char *shipped = koksma__plan_shipped(name, &size);
+        if (!shipped) {
+            return koksma__fail(KOKSMA_UNKNOWN, "no plan '%s' ships; a plan of your own is a file, such as ./%s.json",
+                                name, name);
+        }
+        text = (unsigned char *)strdup(shipped);
+        status = text ? KOKSMA_OK : koksma__fail_memory(size);
+    } else {
+        status = koksma__read_file(name, MAX_PLAN, &text, &size);
+    }
+    status = status ? status : koksma__plan_parse(name, (const char *)text, size, trials, plan);
+    *text_out = (char *)text;
+    return status;
+}
+
+const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name)
+{
+    for (size_t i = 0; i < study->n_scenes; i++) {
+        if (!strcmp(study->scenes[i].name, name)) {
+            return &study->scenes[i];
+        }
+    }
+    return NULL;
+}
+
+static koksma_status open_scene(koksma_study *study, const char *name)
+{
+    if (koksma__study_scene_of(study, name)) {
+        return KOKSMA_OK;
+    }
+    koksma__study_scene *scenes = realloc(study->scenes, (study->n_scenes + 1) * sizeof *scenes);
+    if (!scenes) {
+        return koksma__fail_memory((study->n_scenes + 1) * sizeof *scenes);
+    }
+    study->scenes = scenes;
+    koksma__study_scene *s = &scenes[study->n_scenes];
+    *s = (koksma__study_scene){.name = name};
+    const koksma_status status = koksma_scene_open(name, &s->scene);
+    if (status) {
+        return status;
+    }
+    koksma_render_options options;
+    koksma_render_options_init(&options, s->scene);
+    s->width = options.width;
+    s->height = options.height;
+    snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(s->scene));
+    study->n_scenes++;
+    return KOKSMA_OK;
+}
+
+static koksma_status open_scenes(koksma_study *study)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t b = 0; b < study->plan.n_images; b++) {
+        for (size_t i = 0; !status && i < study->plan.images[b].scenes.n; i++) {
+            status = open_scene(study, study->plan.images[b].scenes.at[i]);
+        }
+    }
+    for (size_t f = 0; !status && f < study->plan.n_figures; f++) {
+        if (study->plan.figures[f].scene) {
+            status = open_scene(study, study->plan.figures[f].scene);
+        }
+    }
+    return status;
+}
+
+static koksma_status make_folder(koksma_study *study, const char *folder)
+{
+    if (strlen(folder) > 1000) {
+        return koksma__fail(KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
+    }
+    if (mkdir(folder, 0777) && errno != EEXIST) {
+        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", folder, strerror(errno));
+    }
+    study->folder = strdup(folder);
+    return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
+}
+
+/* The store keeps the texts of its plans and what the run said about trials, so that the folder is enough to make the
+   report again. */
+static koksma_status keep_plan(koksma_study *study, const koksma__plan_trials *trials, char *const *texts, size_t n)
+{
+    char key[32], value[32];
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < n; i++) {
+        snprintf(key, sizeof key, "plan-text-%zu", i);
+        status = koksma__store_set_text(study->store, key, texts[i]);
+    }
+    snprintf(value, sizeof value, "%zu %lld %d", n, trials->trials, trials->quick);
+    status = status ? status : koksma__store_set_text(study->store, "plan-texts", value);
+    return status ? status : koksma__store_commit(study->store);
+}
+
+static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
+{
+    if (!study->plan.name) {
+        study->plan = *plan;
+        *plan = (koksma__plan){0};
+        return KOKSMA_OK;
+    }
+    return koksma__plan_append(&study->plan, plan);
+}
+
+/* The plan of a folder that has results. */
+static koksma_status recall_plan(koksma_study *study)
+{
+    char *what, *text, key[32];
+    unsigned long n = 0;
+    int quick = 0;
+    koksma__plan_trials trials = {0};
+    koksma_status status = koksma__store_get_text(study->store, "plan-texts", &what);
+    if (!status && (!what || sscanf(what, "%lu %lld %d", &n, &trials.trials, &quick) != 3)) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s/results.sqlite: it doesn't say what its plan was", study->folder);
+    }
+    free(what);
+    trials.quick = quick;
+    for (unsigned long i = 0; !status && i < n; i++) {
+        koksma__plan plan = {0};
+        snprintf(key, sizeof key, "plan-text-%lu", i);
+        status = koksma__store_get_text(study->store, key, &text);
+        if (!status) {
+            status = koksma__plan_parse(study->folder, text ? text : "", text ? strlen(text) : 0, &trials, &plan);
+        }
+        free(text);
+        status = status ? status : append_plan(study, &plan);
+        koksma__plan_fini(&plan);
+    }
+    return status;
+}
+
+/* Whether plan i has the text of one before it: all its jobs would be done again, and its questions asked again. */
+static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
+{
+    for (size_t k = 0; k < i; k++) {
+        if (!strcmp(texts[k], texts[i])) {
+            return koksma__fail(KOKSMA_ARGUMENT, "plan '%s' stands twice", options->plans[i]);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status load_plans(koksma_study *study, const koksma_study_options *options, char **texts)
+{
+    const koksma__plan_trials trials = {options->trials, options->quick};
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < options->n_plans; i++) {
+        koksma__plan plan = {0};
+        status = load_plan(options->plans[i], &trials, &plan, &texts[i]);
+        status = status ? status : check_text(options, texts, i);
+        status = status ? status : append_plan(study, &plan);
+        koksma__plan_fini(&plan);
+    }
+    return status;
+}
+
+/* folder NULL: no results are kept (estimates; ranks of an MPI run but the first). */
+static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
+{
+    const koksma__plan_trials trials = {options->trials, options->quick};
+    char path[KOKSMA__PATH];
+    char **texts = calloc(options->n_plans, sizeof *texts);
+    if (!texts) {
+        return koksma__fail_memory(options->n_plans * sizeof *texts);
+    }
+    koksma_status status = load_plans(study, options, texts);
+    status = status ? status : open_scenes(study);
+    if (!status && options->folder) {
+        status = make_folder(study, options->folder);
+        snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
+        status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
+        status = status ? status : keep_plan(study, &trials, texts, options->n_plans);
+    }
+    for (size_t i = 0; i < options->n_plans; i++) {
+        free(texts[i]);
+    }
+    free(texts);
+    return status;
+}
+
+static koksma_status open_folder(koksma_study *study, const char *folder)
+{
+    char path[KOKSMA__PATH];
+    koksma__pool_release();
+    study->folder = strdup(folder);
+    if (!study->folder) {
+        return koksma__fail_memory(strlen(folder));
+    }
+    snprintf(path, sizeof path, "%s/results.sqlite", folder);
+    koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
+    status = status ? status : recall_plan(study);
+    return status ? status : open_scenes(study);
+}
+
+koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
+{
+    *out = NULL;
+    if (!options->n_plans && !options->folder) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study has a plan, or a folder with results");
+    }
+    koksma_study *study = calloc(1, sizeof *study);
+    if (!study) {
+        return koksma__fail_memory(sizeof *study);
+    }
+    koksma_status status = koksma__pool_check();
+    status = status             ? status
+             : options->n_plans ? open_with_plans(study, options)
+                                : open_folder(study, options->folder);
+    if (status) {
+        koksma_study_close(study);
+        return status;
+    }
+    *out = study;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_study_close(koksma_study *study)
+{
+    if (!study) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__store_close(study->store);
+    for (size_t i = 0; i < study->n_references; i++) {
+        koksma_image_fini(&study->references[i].image);
+    }
+    for (size_t i = 0; i < study->n_scenes; i++) {
+        koksma_scene_close(study->scenes[i].scene);
+    }
+    free(study->references);
+    free(study->scenes);
+    koksma__plan_fini(&study->plan);
+    free(study->folder);
+    free(study);
+    return status;
+}

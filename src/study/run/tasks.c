@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "study/run/tasks.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/warp.h>
+
+#include "core/capacity.h"
+#include "core/spec.h"
+#include "core/status.h"
+
+/* ---- The list ------------------------------------------------------------------------------------------ */
+
+/* A bit each for what is done and for what is in the store is 256 MiB. */
+static const long long MOST_JOBS = 1 << 30;
+
+static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
+{
+    koksma__task *at = koksma__room_for_one(tasks->at, tasks->n, &tasks->room, 64, sizeof *at);
+    if (!at) {
+        return KOKSMA_MEMORY;
+    }
+    tasks->at = at;
+    tasks->wanted += task->trials;
+    if (tasks->wanted > MOST_JOBS) {
+        return koksma__fail(KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs", tasks->study->plan.name, MOST_JOBS);
+    }
+    koksma__task *t = &tasks->at[tasks->n];
+    *t = *task;
+    t->place = tasks->n++;
+    t->series = calloc(t->n_series, sizeof *t->series);
+    t->references = calloc(t->n_series, sizeof *t->references);
+    t->done = calloc(((size_t)t->trials + 7) / 8, 1);
+    return t->series && t->references && t->done ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
+}
+
+bool koksma__has_one_set(const char *pattern)
+{
+    koksma_spec spec;
+    return !koksma_pattern_spec(pattern, &spec) && koksma__spec_is_deterministic(&spec);
+}
+
+static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discrepancy_block *b)
+{
+    const size_t warps = b->warps.n ? b->warps.n : 1;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < b->patterns.n * b->n.n * warps; i++) {
+        const koksma__task task = {.discrepancy = b,
+                                   .pattern = b->patterns.at[i / (b->n.n * warps)],
+                                   .n = b->n.at[i / warps % b->n.n],
+                                   .variant = b->warps.n ? b->warps.at[i % warps] : "",
+                                   .trials =
+                                       koksma__has_one_set(b->patterns.at[i / (b->n.n * warps)]) ? 1 : b->trials,
+                                   .n_series = b->measures.n};
+        status = add_task(tasks, &task);
+    }
+    return status;
+}
+
+static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block *b, const koksma__study_scene *scene)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < b->patterns.n * b->spp.n * b->variants.n; i++) {
+        koksma__task task = {.image = b,
+                             .scene = scene,
+                             .pattern = b->patterns.at[i / (b->spp.n * b->variants.n)],
+                             .n = b->spp.at[i / b->variants.n % b->spp.n],
+                             .variant = b->variants.at[i % b->variants.n],
+                             .trials = b->trials,
+                             .n_series = b->n_references};
+        koksma__block_size(b, scene, &task.width, &task.height);
+        status = add_task(tasks, &task);
+        for (size_t r = 0; !status && r < b->n_references; r++) {
+            status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
+                                             &tasks->at[tasks->n - 1].references[r]);
+        }
+    }
+    return status;
+}
+
+static int compare_tasks(const void *a, const void *b)
+{
+    const koksma__task *s = a, *t = b;
+    if (s->trials != t->trials) {
+        return s->trials > t->trials ? -1 : 1;
+    }
+    return s->place < t->place ? -1 : 1;
+}
+
+/* The order of the jobs: tasks with the most trials first, so that round t has the first tasks->rounds[s].tasks of
+   them. Equal numbers keep the plan's order. */
+static koksma_status order(koksma__tasks *tasks)
+{
+    if (tasks->n) {
+        qsort(tasks->at, tasks->n, sizeof *tasks->at, compare_tasks);
+    }
+    tasks->rounds = calloc(tasks->n + 1, sizeof *tasks->rounds);
+    if (!tasks->rounds) {
+        return koksma__fail_memory((tasks->n + 1) * sizeof *tasks->rounds);
+    }
+    long long trial = 0;
+    for (size_t left = tasks->n; left > 0;) {
+        const long long end = tasks->at[left - 1].trials;
+        if (end > trial) {
+            tasks->rounds[tasks->n_rounds++] = (koksma__rounds){tasks->n_jobs, trial, left};
+            tasks->n_jobs += (size_t)(end - trial) * left;
+            trial = end;
+        }
+        while (left > 0 && tasks->at[left - 1].trials == trial) {
+            left--;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks *tasks)
+{
+    const koksma__plan *plan = &study->plan;
+    koksma_status status = KOKSMA_OK;
+    *tasks = (koksma__tasks){.study = study};
+    for (size_t b = 0; !images && !status && b < plan->n_discrepancies; b++) {
+        status = add_discrepancies(tasks, &plan->discrepancies[b]);
+    }
+    for (size_t b = 0; images && !status && b < plan->n_images; b++) {
+        for (size_t s = 0; !status && s < plan->images[b].scenes.n; s++) {
+            status = add_images(tasks, &plan->images[b], koksma__study_scene_of(study, plan->images[b].scenes.at[s]));
+        }
+    }
+    status = status ? status : order(tasks);
+    if (status) {
+        koksma__tasks_close(tasks);
+    }
+    return status;
+}
+
+void koksma__tasks_close(koksma__tasks *tasks)
+{
+    for (size_t i = 0; i < tasks->n; i++) {
+        free(tasks->at[i].series);
+        free(tasks->at[i].references);
+        free(tasks->at[i].done);
+    }
+    free(tasks->at);
+    free(tasks->rounds);
+    *tasks = (koksma__tasks){0};
+}
+
+const koksma__task *koksma__tasks_job(const koksma__tasks *tasks, size_t i, long long *trial)
+{
+    size_t low = 0, high = tasks->n_rounds;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        *(tasks->rounds[middle].first_job <= i ? &low : &high) = middle;
+    }
+    const koksma__rounds *r = &tasks->rounds[low];
+    const size_t within = i - r->first_job;
+    *trial = r->first_trial + (long long)(within / r->tasks);
+    return &tasks->at[within % r->tasks];
+}
+
+bool koksma__task_is_done(const koksma__task *task, long long trial)
+{
+    return task->done[trial / 8] >> trial % 8 & 1;
+}
+
+/* ---- The store ----------------------------------------------------------------------------------------- */
+
+koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KOKSMA__REFERENCE_NAME])
+{
+    koksma__series s = {.kind = t->image ? "image" : "discrepancy",
+                        .scene = t->image ? t->scene->name : "",
+                        .scene_hash = t->image ? t->scene->hash : "",
+                        .options = t->variant,
+                        .pattern = t->pattern,
+                        .n = t->n,
+                        .dim = t->image ? 0 : t->discrepancy->dim,
+                        .width = t->width,
+                        .height = t->height};
+    if (t->image) {
+        koksma__reference_name(&t->image->references[k], name);
+        s.what = name;
+    } else {
+        s.what = t->discrepancy->measures.at[k];
+    }
+    return s;
+}
+
+/* Who has a series. */
+typedef struct owner {
+    koksma__task *task;
+    unsigned char *bits; /* a bit a trial of that series */
+} owner;
+
+typedef struct owners {
+    size_t n;
+    owner *at; /* by the series' id */
+} owners;
+
+static void see_row(void *context, long long series, long long trial)
+{
+    const owners *o = context;
+    if ((size_t)series < o->n && o->at[series].task && trial < o->at[series].task->trials) {
+        o->at[series].bits[trial / 8] |= (unsigned char)(1u << trial % 8);
+    }
+}
+
+static koksma_status find_series(koksma__tasks *tasks, owners *o)
+{
+    koksma_status status = KOKSMA_OK;
+    long long most = 0;
+    for (size_t i = 0; i < tasks->n; i++) {
+        koksma__task *t = &tasks->at[i];
+        for (size_t k = 0; !status && k < t->n_series; k++) {
+            char name[KOKSMA__REFERENCE_NAME];
+            const koksma__series series = koksma__task_series(t, k, name);
+            status = koksma__store_series(tasks->study->store, &series, true, &t->series[k]);
+            most = t->series[k] > most ? t->series[k] : most;
+        }
+    }
+    if (status) {
+        return status;
+    }
+    o->n = (size_t)most + 1;
+    o->at = calloc(o->n, sizeof *o->at);
+    status = o->at ? KOKSMA_OK : koksma__fail_memory(o->n * sizeof *o->at);
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        koksma__task *t = &tasks->at[i];
+        for (size_t k = 0; !status && k < t->n_series; k++) {
+            owner *own = &o->at[t->series[k]];
+            if (!own->task) { /* blocks of a plan may share one; the first task has the most trials */
+                own->bits = calloc(((size_t)t->trials + 7) / 8, 1);
+                status = own->bits ? KOKSMA_OK : koksma__fail_memory((size_t)t->trials / 8);
+                own->task = t;
+            }
+        }
+    }
+    return status;
+}
+
+/* A trial is done when every series has it. */
+static void mark_done(koksma__task *t, const owners *o)
+{
+    const size_t bytes = ((size_t)t->trials + 7) / 8;
+    memset(t->done, 0xff, bytes);
+    for (size_t k = 0; k < t->n_series; k++) {
+        for (size_t i = 0; i < bytes; i++) {
+            t->done[i] &= o->at[t->series[k]].bits[i];
+        }
+    }
+    t->done_before = 0;
+    for (long long trial = 0; trial < t->trials; trial++) {
+        t->done_before += koksma__task_is_done(t, trial);
+    }
+}
+
+koksma_status koksma__tasks_look_up(koksma__tasks *tasks)
+{
+    owners o = {0};
+    koksma_status status = find_series(tasks, &o);
+    status = status ? status : koksma__store_scan(tasks->study->store, see_row, &o);
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        mark_done(&tasks->at[i], &o);
+    }
+    for (size_t i = 0; o.at && i < o.n; i++) {
+        free(o.at[i].bits);
+    }
+    free(o.at);
+    return status;
+}
+
+koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results)
+{
+    return koksma__store_put(store, task->series, results, task->n_series);
+}
+
+/* ---- One job ------------------------------------------------------------------------------------------- */
+
+/* The slack of bounds, which is more than rounding. */
+static const double AS_GOOD_AS_EXACT = 2e-12;
+
+/* The store has no place for a bound's other side, so that it takes values, which a search that was cut short has
+   none of, and estimates and bounds of measures that promise no more. */
+static koksma_status check_value(const koksma_spec *measure, const koksma_value *value)
+{
+    char text[KOKSMA_MAX_SPEC];
+    if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
+        value->upper - value->lower <= AS_GOOD_AS_EXACT) {
+        return KOKSMA_OK;
+    }
+    koksma_spec_text(measure, text);
+    return koksma__fail(KOKSMA_IMPOSSIBLE,
+                        "%s: only known to be from %.9g to %.9g, as the search was cut short; a study takes exact "
+                        "values: leave out that measure or n",
+                        text, value->lower, value->upper);
+}
+
+static koksma_status measure(const koksma__task *t, const koksma_points *points, const koksma_run *run,
+                             koksma__result *results)
+{
+    const koksma_warp *warp = t->variant[0] ? koksma_warp_find(t->variant) : NULL;
+    koksma_status status = KOKSMA_OK;
+    for (size_t m = 0; !status && m < t->n_series; m++) {
+        koksma_spec spec;
+        koksma_value value = {0};
+        status = koksma_measure_spec(t->discrepancy->measures.at[m], &spec);
+        if (!status) {
+            status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
+                          : koksma_evaluate(&spec, points, run, &value);
+        }
+        status = status ? status : check_value(&spec, &value);
+        results[m].values[0] = value.value;
+        results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
+    }
+    return status;
+}
+
+static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const koksma_run *run,
+                                    koksma__result *results)
+{
+    koksma_spec pattern;
+    koksma_points points;
+    koksma_status status = koksma_pattern_spec(t->pattern, &pattern);
+    if (!status) {
+        status = koksma_points_init(&points, (size_t)t->n, t->discrepancy->dim);
+    }
+    if (status) {
+        return status;
+    }
+    status = koksma_generate(&pattern, seed, run, &points);
+    status = status ? status : measure(t, &points, run, results);
+    koksma_points_fini(&points);
+    return status;
+}
+
+static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed, const koksma_run *run,
+                              koksma__result *results)
+{
+    koksma_image image;
+    const koksma__picture picture = {.pattern = t->pattern,
+                                     .variant = t->variant,
+                                     .spp = t->n,
+                                     .width = t->width,
+                                     .height = t->height,
+                                     .seed = seed};
+    koksma_status status = koksma__study_render(t->scene, &picture, run, &image);
+    if (status) {
+        return status;
+    }
+    for (size_t r = 0; !status && r < t->n_series; r++) {
+        koksma_image_error error = {0};
+        status = koksma_image_compare(&image, &study->references[t->references[r]].image, &error);
+        const double values[KOKSMA__RESULT_VALUES] = {error.mean, error.sd, error.max, error.rmse};
+        memcpy(results[r].values, values, sizeof values);
+    }
+    koksma_image_fini(&image);
+    return status;
+}
+
+/* A hash of the key without the options, so that options are compared on the same points. */
+uint64_t koksma__task_seed(const koksma__task *t, long long trial)
+{
+    return t->image ? koksma__job_seed("image|%s|%s|%s|%lld|%dx%d|%lld", t->scene->name, t->scene->hash, t->pattern,
+                                       t->n, t->width, t->height, trial)
+                    : koksma__job_seed("discrepancy|%s|%lld|%d|%lld", t->pattern, t->n, t->discrepancy->dim, trial);
+}
+
+/* "discrepancies[0], poisson-disk:d=0.116, n = 64, trial 417: " before the reason. */
+static koksma_status fail_job(const koksma_study *study, const koksma__task *t, long long trial, koksma_status status)
+{
+    char name[KOKSMA_MAX_SPEC + KOKSMA__VARIANT_TEXT + 128];
+    const koksma__plan *plan = &study->plan;
+    if (t->image) {
+        snprintf(name, sizeof name, "images[%td], %.64s%s%s, %s, %lld samples a pixel, trial %lld",
+                 t->image - plan->images, t->scene->name, t->variant[0] ? ", " : "", t->variant, t->pattern, t->n,
+                 trial);
+    } else {
+        snprintf(name, sizeof name, "discrepancies[%td], %s%s%s, n = %lld, trial %lld",
+                 t->discrepancy - plan->discrepancies, t->pattern, t->variant[0] ? " through " : "", t->variant, t->n,
+                 trial);
+    }
+    return koksma__fail_in(status, name);
+}
+
+koksma_status koksma__task_do(const koksma_study *study, const koksma__task *t, long long trial,
+                              const koksma_run *run, koksma__result *results)
+{
+    const uint64_t seed = koksma__task_seed(t, trial);
+    for (size_t k = 0; k < t->n_series; k++) {
+        results[k].trial = trial;
+        results[k].seed = seed;
+    }
+    const koksma_status status =
+        t->image ? do_image(study, t, seed, run, results) : do_discrepancy(t, seed, run, results);
+    const bool by_itself = !status || status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY; /* of no one job */
+    return by_itself ? status : fail_job(study, t, trial, status);
+}

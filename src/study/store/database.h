@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A file of SQLite's, and nothing of studies: database.c is the only file that knows SQLite. The caller sees to it
+   that one thread at a time is here. Errors of what returns a status: IO (can't be written; another run holds it),
+   MALFORMED (no database, or a damaged one), MEMORY. */
+#ifndef KOKSMA_STUDY_STORE_DATABASE_H
+#define KOKSMA_STUDY_STORE_DATABASE_H
+
+#include <koksma/koksma.h>
+
+typedef struct koksma__database koksma__database;
+typedef struct sqlite3_stmt koksma__statement;
+
+/* create: where there is none, it is made; else MISSING. */
+koksma_status koksma__database_open(const char *path, bool create, koksma__database **out);
+void koksma__database_close(koksma__database *database); /* after its statements; what was not committed is lost */
+
+/* For errors. */
+const char *koksma__database_path(const koksma__database *database);
+
+/* One statement or several, without values and without rows. */
+koksma_status koksma__database_execute(koksma__database *database, const char *sql);
+
+/* How many rows the last statement inserted. */
+int koksma__database_changes(koksma__database *database);
+
+/* A statement that is carried out often, with a value for each '?'. */
+koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out);
+void koksma__statement_close(koksma__statement *statement);
+
+/* The value of the *column-th '?', from 1, which is counted on. A text must outlive the statement's next reset; NaN
+   is stored as NULL. */
+void koksma__bind_text(koksma__statement *statement, int *column, const char *text);
+void koksma__bind_whole(koksma__statement *statement, int *column, long long value);
+void koksma__bind_number(koksma__statement *statement, int *column, double value);
+
+/* Carries out a statement that has no rows. */
+koksma_status koksma__statement_run(koksma__database *database, koksma__statement *statement);
+
+/* Whether there is a next row, to be read until the next call; does nothing unless *status is OK. After the last row
+   that was wanted comes a reset. */
+bool koksma__next_row(koksma__database *database, koksma__statement *statement, koksma_status *status);
+void koksma__statement_reset(koksma__statement *statement);
+
+/* A column of the row, from 0. A damaged database may have NULL where the schema forbids it: that is an empty text,
+   0, and NaN. */
+const char *koksma__column_text(koksma__statement *statement, int column);
+long long koksma__column_whole(koksma__statement *statement, int column);
+double koksma__column_number(koksma__statement *statement, int column);
+bool koksma__column_is_null(koksma__statement *statement, int column);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Results on their way into the store. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/processor_clock.h"
+#include "core/status.h"
+#include "study/store/store_internal.h"
+
+enum { MOST_GATHERED = 1 << 14 };
+
+koksma_status koksma__store_rows_init(koksma__store *store)
+{
+    const size_t bytes = MOST_GATHERED * sizeof *store->gathered.at;
+    pthread_mutex_init(&store->gather_lock, NULL);
+    store->gathered.at = malloc(bytes);
+    store->spare.at = malloc(bytes);
+    return store->gathered.at && store->spare.at ? KOKSMA_OK : koksma__fail_memory(2 * bytes);
+}
+
+void koksma__store_rows_fini(koksma__store *store)
+{
+    pthread_mutex_destroy(&store->gather_lock);
+    free(store->gathered.at);
+    free(store->spare.at);
+}
+
+static void bind_row(koksma__statement *s, int *column, const koksma__row *from)
+{
+    koksma__bind_whole(s, column, from->id);
+    koksma__bind_whole(s, column, (long long)from->seed);
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        koksma__bind_number(s, column, from->values[k]);
+    }
+}
+
+static koksma_status put_one(koksma__store *store, const koksma__row *from)
+{
+    int column = 1;
+    bind_row(store->queries[KOKSMA__PUT_ROW], &column, from);
+    return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
+}
+
+/* A row that exists may have room for what others of its group have: that is seldom, and looked at one by one. */
+static koksma_status put_many(koksma__store *store, const koksma__row *from)
+{
+    koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
+    int column = 1;
+    for (int k = 0; k < KOKSMA__ROWS_AT_ONCE; k++) {
+        bind_row(s, &column, &from[k]);
+    }
+    koksma_status status = koksma__statement_run(store->database, s);
+    if (!status && koksma__database_changes(store->database) < KOKSMA__ROWS_AT_ONCE) {
+        for (int k = 0; !status && k < KOKSMA__ROWS_AT_ONCE; k++) {
+            status = put_one(store, &from[k]);
+        }
+    }
+    return status;
+}
+
+/* The lock is held, so that the spare room is free. */
+koksma_status koksma__store_write_rows(koksma__store *store)
+{
+    pthread_mutex_lock(&store->gather_lock);
+    const koksma__rows taken = store->gathered;
+    store->gathered = (koksma__rows){0, store->spare.at};
+    store->spare.at = taken.at;
+    store->written_s = koksma__now_s();
+    pthread_mutex_unlock(&store->gather_lock);
+    if (taken.n) { /* what is known of the rows is known no more */
+        koksma__store_forget(store);
+    }
+    size_t i = 0;
+    koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;
+    for (; !status && taken.n - i >= KOKSMA__ROWS_AT_ONCE; i += KOKSMA__ROWS_AT_ONCE) {
+        status = put_many(store, &taken.at[i]);
+    }
+    for (; !status && i < taken.n; i++) {
+        status = put_one(store, &taken.at[i]);
+    }
+    return status ? status : koksma__store_end(store);
+}
+
+static long long row_id(long long series, long long trial)
+{
+    return (long long)((unsigned long long)trial << 32 | (unsigned long long)koksma__group_of(series));
+}
+
+/* There must be room for one more. */
+static void gather(koksma__rows *to, long long series, const koksma__result *result)
+{
+    const long long id = row_id(series, result->trial);
+    const int place = (int)(series - koksma__group_of(series));
+    if (to->n == 0 || to->at[to->n - 1].id != id) {
+        to->at[to->n++] = (koksma__row){id, result->seed, {NAN, NAN, NAN, NAN}};
+    }
+    koksma__row *r = &to->at[to->n - 1];
+    for (int k = 0; place + k < KOKSMA__RESULT_VALUES; k++) {
+        r->values[place + k] = isnan(r->values[place + k]) ? result->values[k] : r->values[place + k];
+    }
+}
+
+koksma_status koksma__store_put(koksma__store *store, const long long *series, const koksma__result *results,
+                                size_t n)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < n;) {
+        pthread_mutex_lock(&store->gather_lock);
+        koksma__rows *to = &store->gathered;
+        for (; i < n && to->n < MOST_GATHERED; i++) {
+            gather(to, series[i], &results[i]);
+        }
+        const bool write = i < n || koksma__now_s() - store->written_s > KOKSMA__WRITE_AFTER_S;
+        pthread_mutex_unlock(&store->gather_lock);
+        if (write) {
+            koksma__store_enter(store);
+            status = koksma__store_leave(store, koksma__store_write_rows(store));
+        }
+    }
+    return status;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The ids of series, and which of them are of images. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/store/store_internal.h"
+
+/* A plan's tasks are in memory, too, and each is far more than a number. */
+static const long long MOST_SERIES = 1 << 26;
+
+/* All that the series of a group have in common. */
+static void bind_group(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
+{
+    koksma__bind_text(s, column, key->kind);
+    koksma__bind_text(s, column, key->scene);
+    koksma__store_bind_hash(store, s, column, key, key->pattern);
+    koksma__bind_text(s, column, key->options);
+    koksma__bind_text(s, column, key->pattern);
+    koksma__bind_whole(s, column, key->n);
+    koksma__bind_whole(s, column, key->dim);
+    koksma__bind_whole(s, column, key->width);
+    koksma__bind_whole(s, column, key->height);
+}
+
+static void bind_series(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
+{
+    bind_group(store, s, column, key);
+    koksma__bind_text(s, column, key->what);
+}
+
+/* Numbers are small, unless the file is damaged. */
+static koksma_status check_number(const koksma__store *store, long long number)
+{
+    return number >= 0 && number <= MOST_SERIES
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_MALFORMED, "%s: a series with the number %lld; move it away to begin anew",
+                              koksma__database_path(store->database), number);
+}
+
+/* The id for a new series: the next of its group, or the first of a new one. */
+static koksma_status next_series(koksma__store *store, const koksma__series *series, long long *id)
+{
+    koksma__statement *s = store->queries[KOKSMA__NEXT_SERIES];
+    koksma_status status = KOKSMA_OK;
+    int column = 1;
+    bind_group(store, s, &column, series);
+    const bool found = koksma__next_row(store->database, s, &status);
+    const long long last = found ? koksma__column_whole(s, 0) : 0,
+                    last_of_all = found ? koksma__column_whole(s, 1) : 0;
+    koksma__statement_reset(s);
+    status = status ? status : check_number(store, last);
+    status = status ? status : check_number(store, last_of_all);
+    if (!status) {
+        *id = (last + 1) % KOKSMA__GROUP && last ? last + 1 : koksma__group_of(last_of_all) + KOKSMA__GROUP;
+    }
+    return status;
+}
+
+static koksma_status add_series(koksma__store *store, const koksma__series *series, long long *id)
+{
+    koksma__statement *s = store->queries[KOKSMA__ADD_SERIES];
+    int column = 1;
+    koksma_status status = next_series(store, series, id);
+    if (status) {
+        return status;
+    }
+    bind_series(store, s, &column, series);
+    koksma__bind_whole(s, &column, *id);
+    status = koksma__store_write(store, KOKSMA__ADD_SERIES);
+    koksma__store_forget(store);
+    return status;
+}
+
+koksma_status koksma__store_series(koksma__store *store, const koksma__series *series, bool add, long long *id)
+{
+    koksma__statement *s = store->queries[KOKSMA__FIND_SERIES];
+    koksma_status status = KOKSMA_OK;
+    int column = 1;
+    koksma__store_enter(store);
+    bind_series(store, s, &column, series);
+    const bool found = koksma__next_row(store->database, s, &status);
+    *id = found ? koksma__column_whole(s, 0) : 0;
+    koksma__statement_reset(s);
+    status = status ? status : check_number(store, *id);
+    if (!status && !found && add) {
+        status = add_series(store, series, id);
+    }
+    return koksma__store_leave(store, status);
+}
+
+static koksma_status last_series(koksma__store *store, long long *last)
+{
+    koksma__statement *s = store->queries[KOKSMA__LAST_SERIES];
+    koksma_status status = KOKSMA_OK;
+    *last = koksma__next_row(store->database, s, &status) ? koksma__column_whole(s, 0) : 0;
+    koksma__statement_reset(s);
+    return status ? status : check_number(store, *last);
+}
+
+koksma_status koksma__store_know_series(koksma__store *store)
+{
+    koksma__statement *s = store->queries[KOKSMA__GET_SERIES];
+    long long last;
+    if (store->known) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = last_series(store, &last);
+    if (status) {
+        return status;
+    }
+    store->n_known = (size_t)last + 1;
+    store->known = calloc(store->n_known, sizeof *store->known);
+    if (!store->known) {
+        return koksma__fail_memory(store->n_known * sizeof *store->known);
+    }
+    while (koksma__next_row(store->database, s, &status)) {
+        const long long id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
+        if (id >= 0 && (size_t)id < store->n_known) {
+            store->known[id].image = !strcmp(koksma__column_text(s, 0), "image");
+        }
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+void koksma__store_forget(koksma__store *store)
+{
+    free(store->known);
+    store->known = NULL;
+    store->n_known = 0;
+    store->knows_ends = false;
+}

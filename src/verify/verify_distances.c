@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Smallest distances, by halving in 2D and by a sweep along the first coordinate in other dimensions; and equal
+ * points. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/c_locale.h"
+#include "core/closest_pair.h"
+#include "core/parallel.h"
+#include "core/points_io.h"
+#include "core/status.h"
+#include "patterns/shared/packing.h"
+#include "patterns/shared/torus_grid.h"
+#include "verify/verify.h"
+
+enum { PAIRS_AT_ONCE = 1 << 22 };
+
+typedef struct point {
+    const double *xs;
+    int dim;
+} point;
+
+/* As numbers: 0 and -0 are one. */
+static int compare_places(const point *p, const point *q)
+{
+    for (int k = 0; k < p->dim; k++) {
+        if (p->xs[k] != q->xs[k]) {
+            return p->xs[k] < q->xs[k] ? -1 : 1;
+        }
+    }
+    return 0;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const point *p = a, *q = b;
+    const int order = compare_places(p, q);
+    return order ? order : p->xs < q->xs ? -1 : p->xs > q->xs;
+}
+
+static double square_of(const point *p, const point *q, bool torus)
+{
+    double sum = 0;
+    for (int k = 0; k < p->dim; k++) {
+        const double t = torus ? koksma__way(p->xs[k], q->xs[k]) : p->xs[k] - q->xs[k];
+        sum += t * t;
+    }
+    return sum;
+}
+
+/* Over points sorted by their first coordinate: only those nearer along it than the best so far are looked at. */
+static koksma_status sweep(const point *sorted, size_t n, bool torus, const koksma_run *run, double *distance)
+{
+    double best = INFINITY;
+    size_t pairs = 0;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t step = 1; step < n; step++) {
+            const size_t j = i + step;
+            if (j >= n && !torus) {
+                break;
+            }
+            const double along = sorted[j % n].xs[0] - sorted[i].xs[0] + (j >= n);
+            if (along * along >= best || along > 0.5 + !torus) {
+                break;
+            }
+            best = fmin(best, square_of(&sorted[i], &sorted[j % n], torus));
+            if (++pairs % PAIRS_AT_ONCE == 0 && !koksma__keep_going(run, (double)i / (double)n)) {
+                return koksma__fail_interrupted();
+            }
+        }
+    }
+    *distance = sqrt(best);
+    return KOKSMA_OK;
+}
+
+static koksma_status add_distance(const koksma_points *points, bool torus, double distance, koksma_findings *findings)
+{
+    koksma_finding *f =
+        koksma__finding(findings, torus ? KOKSMA__PROPERTY_DISTANCE_TORUS : KOKSMA__PROPERTY_DISTANCE_SQUARE);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = distance;
+    f->holds = distance > 0;
+    koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
+                     distance / koksma__packing_distance(points->n, points->dim, torus));
+    return KOKSMA_OK;
+}
+
+static point *sort_points(const koksma_points *points)
+{
+    point *sorted = malloc(points->n * sizeof *sorted);
+    for (size_t i = 0; i < points->n && sorted; i++) {
+        sorted[i] = (point){points->xs + i * (size_t)points->dim, points->dim};
+    }
+    if (sorted) {
+        qsort(sorted, points->n, sizeof *sorted, compare);
+    } else {
+        koksma__fail_memory(points->n * sizeof *sorted);
+    }
+    return sorted;
+}
+
+koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
+                                       double *distance)
+{
+    koksma_status status = koksma__points_check(points);
+    if (status) {
+        return status;
+    }
+    if (points->n == 1) {
+        return koksma__fail(KOKSMA_N, "smallest distance: n = 1: one point has no distance; two points or more have");
+    }
+    if (points->dim == 2) {
+        return koksma__closest_pair(points, torus, run, distance);
+    }
+    point *sorted = sort_points(points);
+    if (!sorted) {
+        return KOKSMA_MEMORY;
+    }
+    status = sweep(sorted, points->n, torus, run, distance);
+    free(sorted);
+    return status;
+}
+
+koksma_status koksma__verify_distances(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+{
+    const size_t n = points->n;
+    point *sorted = sort_points(points);
+    if (!sorted) {
+        return KOKSMA_MEMORY;
+    }
+    size_t repeated = 0;
+    for (size_t i = 1; i < n; i++) {
+        repeated += compare_places(&sorted[i], &sorted[i - 1]) == 0;
+    }
+    free(sorted);
+    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_DISTINCT);
+    koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
+    if (!status) {
+        f->value = (double)repeated;
+        f->holds = repeated == 0;
+        snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);
+    }
+    for (int torus = 0; torus < 2 && n > 1 && !status && (points->dim == 2 || n <= 20000); torus++) {
+        double distance;
+        status = koksma_smallest_distance(points, torus, run, &distance);
+        if (!status) {
+            status = add_distance(points, torus, distance, findings);
+        }
+    }
+    return status;
+}

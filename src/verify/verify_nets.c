@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The findings net-base-2, -3 and -5: t of the prefixes of b^m points as nets (core/net.c), of all pairs of
+ * coordinates and, in up to 8 dimensions, of all coordinates together. Prefixes for which the search would take more
+ * than a second or so are left out.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "core/net.h"
+#include "verify/verify.h"
+
+enum { MAX_NET_DIM = 8 };
+
+#define WORK 4e8 /* point visits for one value of t */
+
+typedef struct search {
+    const koksma__net *net;
+    const int *use;
+    int dim;
+    const koksma_run *run;
+} search;
+
+/* C(m + dim - 1, dim - 1): the shapes of elementary intervals. */
+static double shapes(int m, int dim)
+{
+    double count = 1;
+    for (int k = 1; k < dim; k++) {
+        count *= (double)(m + k) / k;
+    }
+    return count;
+}
+
+static koksma_status verify_net(search *s, koksma__property property, const char *subject, koksma_findings *findings)
+{
+    koksma_finding *f = NULL;
+    koksma_status status = KOKSMA_OK;
+    for (int m = 1; m <= s->net->digits && !status; m++) {
+        if (shapes(m, s->dim) * (double)s->net->powers[m] * (1 + m / 4.0) > WORK) {
+            break;
+        }
+        if (!f) {
+            f = koksma__finding(findings, property);
+            if (!f) {
+                return KOKSMA_MEMORY;
+            }
+            snprintf(f->subject, sizeof f->subject, "%s", subject);
+            snprintf(f->detail, sizeof f->detail, "t for m = 1, 2, ...:");
+            f->holds = true;
+        }
+        int t;
+        status = koksma__net_quality(s->net, m, s->use, s->dim, s->run, &t);
+        const size_t used = strlen(f->detail);
+        snprintf(f->detail + used, sizeof f->detail - used, " %d", t);
+        f->value = t > f->value ? t : f->value;
+        f->holds = f->holds && t == 0;
+    }
+    return status;
+}
+
+static koksma_status verify_base(const koksma_points *points, const koksma_run *run, size_t base,
+                                 koksma__property property, koksma_findings *findings)
+{
+    const int dim = points->dim < KOKSMA_VERIFY_NET_DIM ? points->dim : KOKSMA_VERIFY_NET_DIM;
+    int use[MAX_NET_DIM];
+    koksma__net net;
+    koksma_status status = koksma__net_init(points, base, &net);
+    search s = {.net = &net, .use = use, .dim = 2, .run = run};
+    for (use[0] = 0; use[0] < dim && !status; use[0]++) {
+        for (use[1] = use[0] + 1; use[1] < dim && !status; use[1]++) {
+            char subject[48];
+            snprintf(subject, sizeof subject, "%d,%d", use[0], use[1]);
+            status = verify_net(&s, property, subject, findings);
+        }
+    }
+    if (!status && points->dim != 2 && points->dim <= MAX_NET_DIM) {
+        for (s.dim = 0; s.dim < points->dim; s.dim++) {
+            use[s.dim] = s.dim;
+        }
+        status = verify_net(&s, property, "all", findings);
+    }
+    koksma__net_fini(&net);
+    return status;
+}
+
+koksma_status koksma__verify_nets(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+{
+    static const struct {
+        size_t base;
+        koksma__property property;
+    } bases[] = {
+        {2, KOKSMA__PROPERTY_NET_BASE_2}, {3, KOKSMA__PROPERTY_NET_BASE_3}, {5, KOKSMA__PROPERTY_NET_BASE_5}};
+    koksma_status status = KOKSMA_OK;
+    for (size_t b = 0; b < sizeof bases / sizeof *bases && !status; b++) {
+        status = verify_base(points, run, bases[b].base, bases[b].property, findings);
+    }
+    return status;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The two maps of the square onto the unit disk, which the hemispheres lift. */
+#ifndef KOKSMA_WARPS_SHARED_DISK_MAPS_H
+#define KOKSMA_WARPS_SHARED_DISK_MAPS_H
+
+#include <math.h>
+
+/* Squares about the centre become circles: side a > |b| of [-1,1]^2 goes to radius a, angle (pi/4) b/a. */
+static inline void koksma__map_concentric(const double *u, double *x)
+{
+    const double a = 2 * u[0] - 1, b = 2 * u[1] - 1;
+    if (a == 0 && b == 0) {
+        x[0] = x[1] = 0;
+    } else if (fabs(a) > fabs(b)) {
+        const double angle = M_PI / 4 * (b / a);
+        x[0] = a * cos(angle);
+        x[1] = a * sin(angle);
+    } else {
+        const double angle = M_PI / 4 * (a / b);
+        x[0] = b * sin(angle);
+        x[1] = b * cos(angle);
+    }
+}
+
+/* Radius sqrt(u), angle 2 pi v. */
+static inline void koksma__map_polar(const double *u, double *x)
+{
+    const double r = sqrt(u[0]), angle = 2 * M_PI * u[1];
+    x[0] = r * cos(angle);
+    x[1] = r * sin(angle);
+}
+
+/* A point of the disk to the hemisphere: uniform solid angle, z = 1 - r^2 (Lambert's equal-area projection). */
+static inline void koksma__lift_uniform(double *x)
+{
+    const double square = fmin(x[0] * x[0] + x[1] * x[1], 1), scale = sqrt(2 - square);
+    x[0] *= scale;
+    x[1] *= scale;
+    x[2] = 1 - square;
+}
+
+/* Straight up: density proportional to z (Malley's method). */
+static inline void koksma__lift_cosine(double *x)
+{
+    x[2] = sqrt(fmax(1 - x[0] * x[0] - x[1] * x[1], 0));
+}
+
+#endif
