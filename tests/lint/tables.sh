@@ -1,7 +1,7 @@
 #!/bin/sh
 # tables.sh CC: where lines of a table have numbers or kinds, their order means nothing: what the compiler makes of the
 # table is the same with the lines from the last to the first. Tables that are lists (patterns, measures and the like)
-# have lines of one name each, and what is listed is in their order; tests/unit/test_tables.c has what they stand for.
+# have lines of one name each, and what is listed is in their order; tests/test_tables.c has what they stand for.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
 cc=$1
