@@ -4,6 +4,7 @@
 # have lines of one name each, and what is listed is in their order; tests/test_tables.c has what they stand for.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+. tests/lint/files.sh
 cc=$1
 folder=$(mktemp -d) || exit 4
 trap 'rm -rf "$folder"' EXIT INT TERM
@@ -28,7 +29,7 @@ same koksma/status.def include src/core/status.c
 
 # Every other table is a list of names, a list of functions that structs call by name, or names and numbers that are
 # made together.
-for table in $(git ls-files 'src/*.def' 'cli/*.def' 'include/*.def'); do
+for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
   case $table in
     */materials.def | */uses.def | */status.def) ;;
     */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */adaptive.def | */formats.def | \
