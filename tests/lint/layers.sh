@@ -16,9 +16,9 @@ below() {
     verify) echo "core kernels patterns measures" ;;
     image) echo "core kernels stats" ;;
     meshes) echo "core json image" ;;
-    scene) echo "core json image meshes warps" ;;
-    plot) echo "core kernels patterns warps measures image scene" ;;
-    render) echo "core kernels stats patterns warps measures image meshes scene" ;;
+    scene) echo "core json image meshes warps render" ;;
+    plot) echo "core kernels patterns warps measures image" ;;
+    render) echo "core json kernels stats patterns warps measures image meshes" ;;
     study/plan) echo "core json render" ;;
     study/store) echo "core json study/plan" ;;
     study/run) echo "core json stats image scene render study/plan study/store" ;;
