@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * For tests that walk the tables of materials, lights and shapes: fields of scene files with values drawn from the
- * ranges that a kind declares, chi-square limits, and a tree of cells that is fine where samples fall. A kind is under
- * test as soon as it has a line in its table; nothing here knows a kind by name.
+ * ranges that a kind declares, chi-square limits, and a tree of cells that is fine where samples fall. A kind is
+ * under test as soon as it has a line in its table; nothing here knows a kind by name.
  */
 #ifndef KOKSMA_TESTS_KINDS_H
 #define KOKSMA_TESTS_KINDS_H
@@ -97,7 +97,8 @@ static inline void draw_unit(uint64_t stream, uint64_t index, float w[3])
    `most` of the directions that the tree was made of. */
 typedef struct cell {
     double x, y, width, height;
-    double expected, got; /* for the caller */
+    size_t halves;        /* the number of its lower half, which the upper one follows; 0: it is a leaf */
+    double expected, got; /* of leaves, for the caller */
 } cell;
 
 typedef struct sphere_cells {
@@ -127,25 +128,32 @@ static inline void from_square(const sphere_cells *t, double x, double y, float 
     }
 }
 
-/* points: pairs in the unit square, reordered. depth: halvings that are left. */
-static inline void split_cell(sphere_cells *t, double (*points)[2], size_t n, cell c, size_t most, int depth)
+/* Adds two cells; where the first of them is. */
+static inline size_t add_halves(sphere_cells *t, cell low, cell high)
 {
+    if (t->n + 2 > t->capacity) {
+        t->capacity = 2 * t->capacity + 256;
+        t->cells = realloc(t->cells, t->capacity * sizeof *t->cells);
+        assert_non_null(t->cells);
+    }
+    t->cells[t->n++] = low;
+    t->cells[t->n++] = high;
+    return t->n - 2;
+}
+
+static inline void split_cell(sphere_cells *t, size_t i, double (*points)[2], size_t n, size_t most, int depth)
+{
+    const cell c = t->cells[i];
     if (n <= most || !depth) {
-        if (t->n == t->capacity) {
-            t->capacity = t->capacity ? 2 * t->capacity : 256;
-            t->cells = realloc(t->cells, t->capacity * sizeof *t->cells);
-            assert_non_null(t->cells);
-        }
-        t->cells[t->n++] = c;
         return;
     }
     const int along = c.height > c.width;
     const double middle = along ? c.y + c.height / 2 : c.x + c.width / 2;
     size_t below = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (points[i][along] < middle) {
-            const double x = points[i][0], y = points[i][1];
-            memcpy(points[i], points[below], sizeof points[i]);
+    for (size_t k = 0; k < n; k++) {
+        if (points[k][along] < middle) {
+            const double x = points[k][0], y = points[k][1];
+            memcpy(points[k], points[below], sizeof points[k]);
             points[below][0] = x;
             points[below++][1] = y;
         }
@@ -154,22 +162,33 @@ static inline void split_cell(sphere_cells *t, double (*points)[2], size_t n, ce
     *(along ? &low.height : &low.width) /= 2;
     *(along ? &high.height : &high.width) /= 2;
     *(along ? &high.y : &high.x) = middle;
-    split_cell(t, points, below, low, most, depth - 1);
-    split_cell(t, points + below, n - below, high, most, depth - 1);
+    const size_t halves = add_halves(t, low, high);
+    t->cells[i].halves = halves;
+    split_cell(t, halves, points, below, most, depth - 1);
+    split_cell(t, halves + 1, points + below, n - below, most, depth - 1);
 }
 
-/* Adds a direction to the cell that it is in. */
+/* The tree of these pairs in the unit square, which are reordered. */
+static inline void make_cells(sphere_cells *t, double (*points)[2], size_t n, size_t most)
+{
+    const cell all = {.width = 1, .height = 1};
+    t->n = 0;
+    add_halves(t, all, all);
+    t->n = 1;
+    split_cell(t, 0, points, n, most, 24);
+}
+
+/* Adds a direction to the leaf that it is in. */
 static inline void count_direction(sphere_cells *t, const float w[3])
 {
     double x, y;
+    size_t i = 0;
     to_square(t, w, &x, &y);
-    for (size_t i = 0; i < t->n; i++) {
-        cell *c = &t->cells[i];
-        if (x >= c->x && x < c->x + c->width && y >= c->y && y < c->y + c->height) {
-            c->got++;
-            return;
-        }
+    while (t->cells[i].halves) {
+        const cell *high = &t->cells[t->cells[i].halves + 1];
+        i = t->cells[i].halves + (x >= high->x && y >= high->y);
     }
+    t->cells[i].got++;
 }
 
 /* The positions and weights of Gauss-Legendre quadrature of 5 points on (0, 1). */
