@@ -22,7 +22,8 @@
          "shadow rays go to all, or to one light: by estimate (one), power or uniformly (default: all)"},            \
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "bounces at most (default: the integrator's)"}, CLI_FILTER_OPTION,  \
     {                                                                                                                \
-        0, "splat", NULL, "spread samples over all pixels in the filter's reach, instead of drawing from it"         \
+        0, "splat", NULL,                                                                                            \
+            "spread samples over all pixels in the filter's reach, instead of drawing from it: less error"           \
     }
 
 /* Values of --integrator and --filter; *integrator and *filter are the defaults. False after an error that names one.
