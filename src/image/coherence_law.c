@@ -29,7 +29,7 @@
 
 #include <math.h>
 
-#include "stats/quantiles.h"
+#include "stats/log_gamma.h"
 
 enum { TERMS = 1000000, HALVINGS = 200 };
 

@@ -4,6 +4,8 @@
  * test procedure", Scandinavian Journal of Statistics 6, 1979). The smallest of n p is multiplied by n, the next by
  * n - 1 and so on, and none becomes smaller than one before it: the closed test of Bonferroni's.
  */
+#include "stats/holm.h"
+
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* lgamma leaves the sign in a variable of the whole program, which threads would write at once. */
 #define _DEFAULT_SOURCE /* lgamma_r */
-#include "stats/quantiles.h"
+#include "stats/log_gamma.h"
 
 #include <math.h>
 

@@ -11,6 +11,8 @@
 
 #include <math.h>
 
+#include "stats/log_gamma.h"
+
 enum { TERMS = 100000, HALVINGS = 200 };
 #define MANY 1e6
 

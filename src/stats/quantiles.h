@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Quantiles of Student's t and of chi-squared, to 1e-9, and the logarithm of gamma that they are made of. */
+/* Quantiles of Student's t and of chi-squared, to 1e-9. */
 #ifndef KOKSMA_STATS_QUANTILES_H
 #define KOKSMA_STATS_QUANTILES_H
 
@@ -10,8 +10,5 @@ KOKSMA__LAB double koksma__student_quantile(double p, double degrees);
 
 /* x with P(X <= x) = p, 0 < p < 1, degrees > 0. */
 KOKSMA__LAB double koksma__chi_squared_quantile(double p, double degrees);
-
-/* log gamma(x), x > 0; by several threads at once, as lgamma is not to be called. */
-KOKSMA__LAB double koksma__log_gamma(double x);
 
 #endif

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "stats/correlation.h"
 
 enum { PENALTIES = 9 };
 

@@ -4,7 +4,7 @@
 #ifndef KOKSMA_STATS_RANK_REGRESSION_H
 #define KOKSMA_STATS_RANK_REGRESSION_H
 
-#include "stats/statistics.h"
+#include <koksma/koksma.h>
 
 /* A case: n patterns with k measures each. */
 typedef struct koksma__rank_case {

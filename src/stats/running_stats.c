@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The statistics of koksma/series.h: values that come one at a time (Welford 1962: the mean and the sum of squared
+   deviations are updated, so that no values are kept and no digits are lost), and the line through points on
+   logarithmic axes. */
 #include <math.h>
 
 #include <koksma/series.h>
 
+#include "stats/least_squares.h"
 #include "stats/quantiles.h"
 
 void koksma_tally_add(koksma_tally *t, double value)
@@ -35,33 +39,22 @@ double koksma_student_975(size_t degrees)
     return degrees ? koksma__student_quantile(0.975, (double)degrees) : (double)NAN;
 }
 
-/* Two passes: sums of squares of what is left when the means are taken off lose no digits. */
 bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *line)
 {
-    double count = 0, x_mean = 0, y_mean = 0, xx = 0, xy = 0, yy = 0;
+    koksma__fit fit = {0};
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < n; i++) {
-            if (!(xs[i] > 0 && ys[i] > 0 && isfinite(xs[i]) && isfinite(ys[i]))) {
-                continue;
-            }
-            const double x = log(xs[i]) - (pass ? x_mean : 0), y = log(ys[i]) - (pass ? y_mean : 0);
-            if (pass == 0) {
-                count++;
-                x_mean += (x - x_mean) / count;
-                y_mean += (y - y_mean) / count;
-            } else {
-                xx += x * x;
-                xy += x * y;
-                yy += y * y;
+            if (xs[i] > 0 && ys[i] > 0 && isfinite(xs[i]) && isfinite(ys[i])) {
+                (pass ? koksma__fit_add : koksma__fit_mean)(&fit, log(xs[i]), log(ys[i]), 1);
             }
         }
     }
-    *line = (koksma_line){(size_t)count, NAN, NAN, NAN};
-    if (count < 3 || !(xx > 0)) {
+    *line = (koksma_line){(size_t)fit.weight, NAN, NAN, NAN};
+    if (fit.weight < 3 || !(fit.xx > 0)) {
         return false;
     }
-    line->slope = xy / xx;
-    line->intercept = y_mean - line->slope * x_mean;
-    line->slope_error = sqrt(fmax(yy - line->slope * xy, 0) / (count - 2) / xx);
+    line->slope = koksma__fit_slope(&fit);
+    line->intercept = fit.y - line->slope * fit.x;
+    line->slope_error = sqrt(fmax(fit.yy - line->slope * fit.xy, 0) / (fit.weight - 2) / fit.xx);
     return true;
 }

@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Convergence: slopes in log-log, and how many samples reach an error. */
+/* How errors fall with n. A slope is that of the line of least squares through (log n, log mean). Its interval comes
+   from the standard errors of the means, to first order in the logs, or from the residuals where these are unknown;
+   a weighted line and its lack of fit say whether the means lie on a line at all. How many samples reach an error is
+   read off between the two sizes about it, taking the error for c n^slope between them. */
+#include "stats/slopes.h"
+
 #include <math.h>
 
 #include <koksma/series.h>
 
+#include "stats/least_squares.h"
 #include "stats/quantiles.h"
-#include "stats/statistics.h"
 
 #define NORMAL_99 2.3263478740408408 /* what a normal number exceeds in 1 % of cases */
 
@@ -32,42 +37,29 @@ static errors errors_of(const koksma__summary *y, size_t count)
     return e;
 }
 
-/* y = intercept + slope x by least squares, with weights 1 / sigma^2, or without. */
-typedef struct fit {
-    double x, y, sxx, slope, total; /* x, y: the means; total: of the weights */
-} fit;
-
+/* 1 / sigma^2, or 1. */
 static double weight(const koksma__summary *y, bool weighted)
 {
     return weighted ? 1 / (log_error(y) * log_error(y)) : 1;
 }
 
-static fit fit_of(const double *n, const koksma__summary *y, size_t count, bool weighted)
+static koksma__fit fit_of(const double *n, const koksma__summary *y, size_t count, bool weighted)
 {
-    fit f = {0};
-    for (size_t i = 0; i < count; i++) {
-        const double w = weight(&y[i], weighted);
-        f.total += w;
-        f.x += w * log(n[i]);
-        f.y += w * log(y[i].mean);
+    koksma__fit f = {0};
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t i = 0; i < count; i++) {
+            (pass ? koksma__fit_add : koksma__fit_mean)(&f, log(n[i]), log(y[i].mean), weight(&y[i], weighted));
+        }
     }
-    f.x /= f.total;
-    f.y /= f.total;
-    double sxy = 0;
-    for (size_t i = 0; i < count; i++) {
-        const double w = weight(&y[i], weighted), t = log(n[i]) - f.x;
-        f.sxx += w * t * t;
-        sxy += w * t * (log(y[i].mean) - f.y);
-    }
-    f.slope = sxy / f.sxx;
     return f;
 }
 
-static double squared_residuals(const fit *f, const double *n, const koksma__summary *y, size_t count, bool weighted)
+static double squared_residuals(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count,
+                                bool weighted)
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        const double r = log(y[i].mean) - f->y - f->slope * (log(n[i]) - f->x);
+        const double r = log(y[i].mean) - f->y - koksma__fit_slope(f) * (log(n[i]) - f->x);
         sum += weight(&y[i], weighted) * r * r;
     }
     return sum;
@@ -75,11 +67,11 @@ static double squared_residuals(const fit *f, const double *n, const koksma__sum
 
 /* Half the interval of sum c_i y_i, c_i = (x_i - x') / sxx: its variance is V = sum c_i^2 sigma_i^2, of
    V^2 / sum (c_i^2 sigma_i^2)^2 / (trials_i - 1) degrees of freedom (Satterthwaite 1946; Welch 1947). */
-static double half_of_trials(const fit *f, const double *n, const koksma__summary *y, size_t count)
+static double half_of_trials(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     double variance = 0, fourth = 0;
     for (size_t i = 0; i < count; i++) {
-        const double error = log_error(&y[i]), c = (log(n[i]) - f->x) / f->sxx;
+        const double error = log_error(&y[i]), c = (log(n[i]) - f->x) / f->xx;
         if (error > 0) {
             const double v = c * c * error * error;
             variance += v;
@@ -90,13 +82,13 @@ static double half_of_trials(const fit *f, const double *n, const koksma__summar
 }
 
 /* Half the interval where the residuals' scatter is all that is known. */
-static double half_of_residuals(const fit *f, const double *n, const koksma__summary *y, size_t count)
+static double half_of_residuals(const koksma__fit *f, const double *n, const koksma__summary *y, size_t count)
 {
     if (count < 3) {
         return NAN;
     }
     const double scatter = squared_residuals(f, n, y, count, false) / (double)(count - 2);
-    return koksma_student_975(count - 2) * sqrt(scatter / f->sxx);
+    return koksma_student_975(count - 2) * sqrt(scatter / f->xx);
 }
 
 /* Lack of fit of the weighted line, Q = sum w_i r_i^2 with w_i = 1 / sigma_i^2, whose sigmas are estimates: with
@@ -105,11 +97,11 @@ static double half_of_residuals(const fit *f, const double *n, const koksma__sum
    (Paulson 1942). */
 static bool lies_off_line(const double *n, const koksma__summary *y, size_t count)
 {
-    const fit f = fit_of(n, y, count, true);
+    const koksma__fit f = fit_of(n, y, count, true);
     const double p = (double)count - 2, q = squared_residuals(&f, n, y, count, true);
     double a = 0;
     for (size_t i = 0; i < count; i++) {
-        const double w = weight(&y[i], true), t = log(n[i]) - f.x, h = w / f.total + w * t * t / f.sxx;
+        const double w = weight(&y[i], true), t = log(n[i]) - f.x, h = w / f.weight + w * t * t / f.xx;
         a += (1 - h) * (1 - h) / (double)(y[i].n - 1);
     }
     const double u = 2 / (9 * p), v = 2 * a / (3 * p * (p + 2)), root = cbrt(q / (p + 2 * a - 6 * a / (p + 2)));
@@ -119,14 +111,15 @@ static bool lies_off_line(const double *n, const koksma__summary *y, size_t coun
 koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, size_t count)
 {
     koksma__trend trend = {.slope = {NAN, NAN, NAN}};
-    const fit f = count ? fit_of(n, mean, count, false) : (fit){0};
-    if (!(f.sxx > 0)) {
+    const koksma__fit f = count ? fit_of(n, mean, count, false) : (koksma__fit){0};
+    if (!(f.xx > 0)) {
         return trend;
     }
     const errors e = errors_of(mean, count);
+    const double slope = koksma__fit_slope(&f);
     const bool trials = e.known && e.some;
     const double half = trials ? half_of_trials(&f, n, mean, count) : half_of_residuals(&f, n, mean, count);
-    trend.slope = (koksma__estimate){f.slope, f.slope - half, f.slope + half};
+    trend.slope = (koksma__estimate){slope, slope - half, slope + half};
     trend.off_line = count > 2 && e.all && lies_off_line(n, mean, count);
     return trend;
 }

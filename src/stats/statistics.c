@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Means, standard deviations and intervals of values that are all there: sums are compensated (core/sum.h) and go in
+   index order, so that equal values give equal bits. Pairs are compared by their differences. Where exact arithmetic
+   gives 0, rounding leaves about 1e-16 of the values; differences up to 1e-12 of them count as 0, or an interval
+   without width would call noise a difference. */
 #include "stats/statistics.h"
 
 #include <math.h>

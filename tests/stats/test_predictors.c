@@ -6,6 +6,8 @@
 
 #include "core/random.h"
 #include "stats/rank_regression.h"
+#include "stats/correlation.h"
+#include "stats/holm.h"
 #include "study/report/rho_words.h"
 #include "test.h"
 

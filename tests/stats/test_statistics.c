@@ -6,6 +6,9 @@
 
 #include "core/random.h"
 #include "stats/quantiles.h"
+#include "stats/bootstrap.h"
+#include "stats/correlation.h"
+#include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "test.h"
 

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "stats/quantiles.h"
+#include "stats/log_gamma.h"
 
 static const double square_optima[] = {
     1.4142135624, 1.0352761804, 1,

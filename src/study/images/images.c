@@ -13,6 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "study/images/image_names.h"
 #include "study/run/study.h"

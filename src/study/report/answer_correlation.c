@@ -13,6 +13,8 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "stats/bootstrap.h"
+#include "stats/correlation.h"
 #include "study/report/cases.h"
 #include "study/report/combinations.h"
 #include "study/report/rho_words.h"

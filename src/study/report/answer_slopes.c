@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "stats/slopes.h"
 #include "study/report/answers.h"
 #include "study/report/slope_words.h"
 

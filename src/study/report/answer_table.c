@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "stats/slopes.h"
 #include "study/report/answers.h"
 
 enum { EQUAL_TO = 16 };

@@ -11,6 +11,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "stats/slopes.h"
 #include "study/report/report_chart.h"
 #include "study/report/report_tables.h"
 

@@ -3,7 +3,7 @@
 #ifndef KOKSMA_STUDY_REPORT_SLOPE_WORDS_H
 #define KOKSMA_STUDY_REPORT_SLOPE_WORDS_H
 
-#include "stats/statistics.h"
+#include "stats/slopes.h"
 #include "study/report/html.h"
 
 /* Whether a slope says who is better. */

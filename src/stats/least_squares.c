@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Least squares of a line in two passes: means by updates (Welford 1962), then sums of squares and products about
+   them, which lose no digits to large means as sums of raw squares do. The pairs stay with the caller, who leaves out
+   those that are no numbers. */
+#include "stats/least_squares.h"
+
+void koksma__fit_mean(koksma__fit *fit, double x, double y, double weight)
+{
+    fit->weight += weight;
+    fit->x += weight * (x - fit->x) / fit->weight;
+    fit->y += weight * (y - fit->y) / fit->weight;
+}
+
+void koksma__fit_add(koksma__fit *fit, double x, double y, double weight)
+{
+    const double dx = x - fit->x, dy = y - fit->y;
+    fit->xx += weight * dx * dx;
+    fit->xy += weight * dx * dy;
+    fit->yy += weight * dy * dy;
+}
+
+double koksma__fit_slope(const koksma__fit *fit)
+{
+    return fit->xy / fit->xx;
+}

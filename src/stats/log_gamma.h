@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The logarithm of the gamma function, for several threads. */
+#ifndef KOKSMA_STATS_LOG_GAMMA_H
+#define KOKSMA_STATS_LOG_GAMMA_H
+
+#include "core/visibility.h"
+
+/* log gamma(x), x > 0; by several threads at once, as lgamma is not to be called. */
+KOKSMA__LAB double koksma__log_gamma(double x);
+
+#endif
