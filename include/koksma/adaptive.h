@@ -7,8 +7,8 @@
  *         koksma_render_adaptive(scene, &options, &adaptive, NULL, &layers, NULL);
  *     }
  *
- * In the first round every pixel gets options->spp samples. After each round the method decides from the values so far
- * which pixels get more samples and how many, until none needs any or the budget is spent.
+ * In the first round every pixel gets options->spp samples. After each round the method decides from the values so
+ * far which pixels get more samples and how many, until none needs any or the budget is spent.
  */
 #ifndef KOKSMA_ADAPTIVE_H
 #define KOKSMA_ADAPTIVE_H
@@ -89,14 +89,14 @@ typedef struct koksma_adaptive_report {
      out      `samples` has the number of samples of each pixel; `variance` that of the pixel's luminance as if its
               samples were independent; albedo, normal and depth are those of the first round
      report   may be NULL
-   Errors: those of koksma_render_layers; ARGUMENT also for splatting, scope image, a pattern whose sets are all equal,
-   and options under which the method would never stop. */
+   Errors: those of koksma_render_layers; ARGUMENT also for splatting, scope image, a pattern whose sets are all
+   equal, and options under which the method would never stop. */
 KOKSMA_API koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_render_options *options,
                                                 const koksma_adaptive_options *adaptive, const koksma_run *run,
                                                 koksma_layers *out, koksma_adaptive_report *report);
 
-/* Returns the bytes that the method needs in addition to koksma_render_size_of with all layers, before the first round.
-   Methods that split strata need more with every split. */
+/* Returns the bytes that the method needs in addition to koksma_render_size_of with all layers, before the first
+   round. Methods that split strata need more with every split. */
 KOKSMA_API uint64_t koksma_adaptive_size_of(const koksma_render_options *options,
                                             const koksma_adaptive_options *adaptive);
 

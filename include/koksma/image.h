@@ -108,8 +108,8 @@ KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, cons
        P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / mean of the same over all (u, v) but (0, 0);
 
    the coherence is the largest P, where P is averaged over the images that were added. Errors that are independent
-   between pixels have an expected P of 1 at every frequency, for any distribution, also one that varies over the image.
-   A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 / (4 s^2). Where rings of
+   between pixels have an expected P of 1 at every frequency, for any distribution, also one that varies over the
+   image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 / (4 s^2). Where rings of
    finer detail have more power than the mean (blue noise), P is divided by theirs: docs/findings/coherence.md.
    Equal images in equal order give equal bits. One thread at a time may use the struct. */
 typedef struct koksma_coherence {
@@ -146,8 +146,8 @@ KOKSMA_API koksma_status koksma_coherence_init(koksma_coherence *coherence, int 
 /* Frees the arrays and zeroes the struct. coherence may be NULL, or zeroed. */
 KOKSMA_API void koksma_coherence_fini(koksma_coherence *coherence);
 
-/* Adds the error of an image against its reference; each image may have its own reference. O(n log n) for n pixels, of
-   any width and height. An image whose error is the same in every pixel has no P and is not counted.
+/* Adds the error of an image against its reference; each image may have its own reference. O(n log n) for n pixels,
+   of any width and height. An image whose error is the same in every pixel has no P and is not counted.
    Errors: ARGUMENT (another size),
    MALFORMED (a pixel is not a finite number), MEMORY. */
 KOKSMA_API koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,

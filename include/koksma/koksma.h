@@ -16,10 +16,10 @@
  *
  * These rules hold for every function of every header of this directory:
  *
- *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the others
- *              that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names the thing
- *              and the reason. After an error the results are not set, unless the function's comment says otherwise.
- *   Results    go through out-pointers, which are the last parameters.
+ *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the
+ * others              that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names
+ * the thing              and the reason. After an error the results are not set, unless the function's comment says
+ * otherwise.   Results    go through out-pointers, which are the last parameters.
  *   Pointers   must not be NULL unless the comment says "may be NULL".
  *   Memory     The caller owns every struct. koksma_NOUN_init, and functions that say "allocates", take memory that
  *              koksma_NOUN_fini frees; koksma_NOUN_open goes with koksma_NOUN_close. Both accept NULL.
@@ -73,9 +73,9 @@ KOKSMA_API int koksma_status_exit_code(koksma_status status);
 KOKSMA_API const char *koksma_error_text(void);
 
 /* Returns the instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref" (plain C,
-   for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one; the
-   first call that computes reads it. The first three give the same bits; "ref" may differ in the last digits of a few
-   measures. */
+   for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one;
+   the first call that computes reads it. The first three give the same bits; "ref" may differ in the last digits of
+   a few measures. */
 KOKSMA_API const char *koksma_instruction_set(void);
 
 /* Returns the version of the library that runs, such as "0.1.0". KOKSMA_VERSION is that of the header. */
@@ -174,9 +174,9 @@ typedef struct koksma_spec {
 } koksma_spec;
 
 /* Parses a spec: "name" or "name:key=value,key=value".
-   Every pattern also accepts shift=1, the random shift on the torus of Cranley & Patterson (1976): one vector, uniform
-   in [0,1)^dim, is added to all points modulo 1. With a file it is the ending ",shift=1". An alias is replaced by the
-   pattern that it stands for.
+   Every pattern also accepts shift=1, the random shift on the torus of Cranley & Patterson (1976): one vector,
+   uniform in [0,1)^dim, is added to all points modulo 1. With a file it is the ending ",shift=1". An alias is
+   replaced by the pattern that it stands for.
    Errors: ARGUMENT (a parameter; the message names it and what it accepts), UNKNOWN (the name; the message suggests
    the nearest one). */
 KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec);
@@ -324,8 +324,8 @@ KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
 
 enum { KOKSMA_MAX_LOCAL_GRID = 4096 };
 
-/* Computes the local discrepancy at a corner x: the fraction of points in [0, x) minus the volume of that box; positive
-   where there are too many points. The supremum of its absolute value is the star discrepancy. O(n dim).
+/* Computes the local discrepancy at a corner x: the fraction of points in [0, x) minus the volume of that box;
+   positive where there are too many points. The supremum of its absolute value is the star discrepancy. O(n dim).
      x  points->dim coordinates in [0,1]
    Errors: ARGUMENT (a NULL, no points, a coordinate outside [0,1]). */
 KOKSMA_API koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out);

@@ -63,9 +63,9 @@ KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_
      xy        receives the point, in [0,1)^2
 
    With 2^m the largest power of two that divides spp, each 2^m samples are a (0,m,2)-net in base 2. Two values
-   shift the digits after the first m (by XOR), which set the position of the samples within their strata. The third one
-   shifts the first m digits of y before they are scrambled, which pairs the strata in y with those in x. The error thus
-   depends on the masks alone, and each part of it that depends on one mask is as blue as that mask. */
+   shift the digits after the first m (by XOR), which set the position of the samples within their strata. The third
+   one shifts the first m digits of y before they are scrambled, which pairs the strata in y with those in x. The
+   error thus depends on the masks alone, and each part of it that depends on one mask is as blue as that mask. */
 KOKSMA_INLINE void koksma_mask_2d(const koksma_sobol *sequence, const uint32_t values[3], uint32_t s, uint32_t spp,
                                   double xy[2])
 {
