@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Images of linear light in floats: reading, writing, and how far one is from another.
- * Files: OpenEXR, PNG and PFM, as koksma_image_read says. What is written as EXR or PFM keeps every float exactly.
+ * Images of linear light in floats: read, write, and compare them. Part of libkoksma-lab.
+ * Formats: OpenEXR, PNG and PFM. EXR and PFM keep every float exactly.
  */
 #ifndef KOKSMA_IMAGE_H
 #define KOKSMA_IMAGE_H
@@ -14,60 +14,70 @@ extern "C" {
 
 enum { KOKSMA_MAX_IMAGE_SIDE = 65536 };
 
-/* The most pixels one image may have; as for points, fewer where a size has 32 bits. */
+/* The most pixels of one image: 2^28, or 2^24 on machines with 32-bit sizes. */
 #define KOKSMA_MAX_PIXELS KOKSMA_MAX_COORDINATES
 
-/* channels is 1 (luminance) or 3 (red, green and blue of Rec. 709); linear. Row 0 is on top; pixel (x, y) starts at
-   pixels[(y * width + x) * channels]. */
+/* An image of linear light. channels is 1 (luminance) or 3 (red, green, blue; Rec. 709). Row 0 is the top row; pixel
+   (x, y) starts at pixels[(y * width + x) * channels]. */
 typedef struct koksma_image {
     int width, height, channels;
     float *pixels;
 } koksma_image;
 
-/* An image of zeros. Errors: ARGUMENT, MEMORY. */
+/* Allocates an image of zeros.
+     image          out; its old content is overwritten, not freed
+     width, height  1 to KOKSMA_MAX_IMAGE_SIDE, at most KOKSMA_MAX_PIXELS together
+     channels       1 or 3
+   Errors: ARGUMENT, MEMORY. */
 KOKSMA_API koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels);
 
-/* Frees what init or read allocated; takes a zeroed struct and NULL. */
+/* Frees the pixels and zeroes the struct. image may be NULL, or zeroed. */
 KOKSMA_API void koksma_image_fini(koksma_image *image);
 
-/* Reads EXR, PNG or PFM, known by their content. Transparency and further channels are dropped: a pixel's colour is
-   what it has, not what is seen of it over black.
-   EXR: the first part, in scan lines or tiles; channels R, G and B, or Y, or the only one. Files compressed by B44(A)
-   or DWA(A, B) come as half floats; an only channel must be Y there. PNG: 1 to 16 bits of sRGB; of another power
-   where a chunk gAMA says so (1.0: linear) and no sRGB or iCCP overrides it. PFM: Pf and PF, of either byte order;
-   the scale's size is not applied; bytes too many are an error. Errors: MISSING, MALFORMED, UNSUPPORTED (a deep or
-   subsampled EXR; of B44 and DWA also other channels, and numbers above 65504), MEMORY. */
+/* Reads an image; recognises the format by the file's content; allocates out.
+     EXR   the first part; scan lines or tiles; channels R, G and B, or Y, or a single channel. Files with compression
+           B44, B44A, DWAA or DWAB are read with half precision, and a single channel must be called Y
+     PNG   1 to 16 bits, sRGB; the chunk gAMA sets another power (1.0: linear) unless sRGB or iCCP is present
+     PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
+   Alpha and further channels are dropped; colours are not multiplied by alpha.
+   Errors: MISSING, MALFORMED, UNSUPPORTED (a deep or subsampled EXR; with B44 and DWA also other channels and values
+   above 65504; a format that this build lacks), MEMORY. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
-/* The i-th image format's name, NULL past the end; *left_out is the library that it needs and this build does
-   without, or NULL. */
+/* Returns the name of image format i, NULL past the end.
+     left_out  receives the name of the library that the format needs and this build lacks; NULL: none is missing */
 KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
 
-/* Whether the path's ending says a format that can be written. Errors: ARGUMENT, UNSUPPORTED (left out). */
+/* Checks whether an image could be written to this path, by its ending; touches no file.
+   Errors: ARGUMENT (unknown ending), UNSUPPORTED (this build lacks the library). */
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
-/* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be
-   NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending; an image that has no
-   pixels, or sizes or channels that koksma_image_init refuses), UNSUPPORTED (left out), IO, MEMORY. */
+/* Writes an image, completely or not at all.
+     path      ends in .exr, .png (values are clamped to [0,1] and encoded as sRGB with 8 bits) or .pfm
+     metadata  text that is stored in formats that can hold it; may be NULL
+   Errors: ARGUMENT (the ending; an image without pixels, or with sides or channels that koksma_image_init does not
+   accept), UNSUPPORTED (this build lacks the format), IO, MEMORY. */
 KOKSMA_API koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata);
 
-/* An image among others of its size in one file; the first has the name "". */
+/* One of several images of equal size in one file. The name of the first layer is "". */
 typedef struct koksma_layer {
-    const char *name; /* to 63 letters */
+    const char *name; /* up to 63 characters */
     const koksma_image *image;
 } koksma_layer;
 
-/* The same for n layers: all of them in an EXR, the first in the other formats. The channels of an EXR are called R,
-   G and B, or Y, after the layer's name and a dot if it has one; a layer of one channel gives it its own name.
-   Errors also: ARGUMENT (no layers, sizes differ, a name is too long, or two channels have one name). */
+/* Writes n layers: all of them to an EXR, the first to other formats. An EXR's channels are called R, G and B, or Y,
+   after the layer's name and a dot ("normal.R"); a named layer of one channel has its own name ("depth").
+   Errors: those of koksma_image_write; ARGUMENT also for no layers, different sizes, a name that is too long, and two
+   channels of one name. */
 KOKSMA_API koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n,
                                                    const char *metadata);
 
-/* The image as an 8-bit sRGB PNG file in memory; the caller frees *bytes. Errors: ARGUMENT (as for write),
-   UNSUPPORTED (left out), MEMORY. */
+/* Encodes an image as an 8-bit sRGB PNG file in memory.
+     bytes, size  receive the file; the caller frees *bytes with free()
+   Errors: ARGUMENT (as for koksma_image_write), UNSUPPORTED (this build lacks libpng), MEMORY. */
 KOKSMA_API koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size);
 
-/* The error e = luminance - reference luminance over the pixels (luminance is Rec. 709's). */
+/* Statistics over all pixels of the error e = luminance - luminance of the reference (Rec. 709 luminance). */
 typedef struct koksma_image_error {
     double mean; /* mean of |e| */
     double sd;   /* standard deviation of |e| over the pixels */
@@ -75,40 +85,43 @@ typedef struct koksma_image_error {
     double rmse; /* root of the mean of e^2 */
 } koksma_image_error;
 
-/* Whether all pixels are finite numbers: one that is not would make the error of the whole image none. Errors:
-   MALFORMED, which names the first after `name`, the file's or another. */
+/* Checks that all pixels are finite numbers.
+     name  what the message calls the image, such as its path
+   Errors: MALFORMED (the message names the first pixel that is not finite). */
 KOKSMA_API koksma_status koksma_image_check_finite(const koksma_image *image, const char *name);
 
-/* Errors: ARGUMENT (the sizes differ). */
+/* Compares the luminance of an image with that of a reference of equal size; either may have 1 or 3 channels.
+   Errors: ARGUMENT (the sizes differ). */
 KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference,
                                               koksma_image_error *out);
 
-/* A one-channel picture of |e|; allocates out. Errors: ARGUMENT, MEMORY. */
+/* Makes the one-channel image of |e|, the absolute difference of the luminances; allocates out.
+   Errors: ARGUMENT (the sizes differ), MEMORY. */
 KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,
                                                  koksma_image *out);
 
 /* ---- Coherence: whether the error is noise, or bands and patterns -------------------------------------------- */
 
-/* How far the error of images stands out of noise at one frequency. With e = luminance - reference luminance on
-   W x H pixels, its mean taken off,
+/* Whether the errors of images are noise, or have a regular pattern: how far the largest peak of their power spectrum
+   stands above white noise. With e = luminance - luminance of the reference on W x H pixels, minus its mean,
 
        P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / mean of the same over all (u, v) but (0, 0);
 
-   the coherence is the largest P, averaged over the images that were added. Errors that are independent from pixel
-   to pixel have an expected P of 1 everywhere, whatever their distribution and however their size varies over the
+   the coherence is the largest P, where P is averaged over the images that were added. Errors that are independent
+   between pixels have an expected P of 1 at every frequency, for any distribution, also one that varies over the
    image. A wave of amplitude A among noise of standard deviation s has P = 1 + W H A^2 / (4 s^2). Where rings of
-   finer detail have more power than the mean (blue noise), P is divided by theirs: docs/findings/coherence.md. The
-   values of equal images in equal order have equal bits; the struct is used by one thread at a time. */
+   finer detail have more power than the mean (blue noise), P is divided by theirs: docs/findings/coherence.md.
+   Equal images in equal order give equal bits. One thread at a time may use the struct. */
 typedef struct koksma_coherence {
     int width, height;
-    size_t images;   /* added, but those whose error is the same in every pixel */
+    size_t images;   /* added, without those whose error is the same in every pixel */
     double *error;   /* [y * width + x]: the sum of the errors, each divided by its standard deviation */
     double *power;   /* [v * (width / 2 + 1) + u]: the mean of P */
     double *squares; /* likewise of P^2 */
 } koksma_coherence;
 
 typedef struct koksma_coherence_values {
-    size_t images;      /* of which this is said; 0: there is no coherence, all that follows is NaN */
+    size_t images;      /* images that count; 0: there is no coherence, and the numbers below are NaN */
     double coherence;   /* the peak of P */
     double low, high;   /* 95 % interval of the mean of P over images at the peak's frequency, by Student's t;
                            NaN of one image */
@@ -121,23 +134,27 @@ typedef struct koksma_coherence_values {
     bool coherent;                /* p < KOKSMA_COHERENT_P, and the coherence is at least KOKSMA_COHERENT_LEAST */
 } koksma_coherence_values;
 
-/* When an error is called coherent. So many images find peaks that nobody sees: hence the second condition. */
+/* An error is called coherent if it passes both limits. The second one excludes peaks that are significant over many
+   images but invisible in each. */
 #define KOKSMA_COHERENT_P 0.005
 #define KOKSMA_COHERENT_LEAST 2.0
 
-/* For images of that size. Takes 16 bytes a pixel. Errors: ARGUMENT (no such size), MEMORY. */
+/* Allocates an accumulator for images of width x height pixels, 16 bytes a pixel. Errors: ARGUMENT (a side that
+   koksma_image_init does not accept), MEMORY. */
 KOKSMA_API koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int height);
 
-/* Frees what init allocated; takes a zeroed struct and NULL. */
+/* Frees the arrays and zeroes the struct. coherence may be NULL, or zeroed. */
 KOKSMA_API void koksma_coherence_fini(koksma_coherence *coherence);
 
-/* Adds an image and its reference, which may be another for each: O(n log n) for n pixels, of any width and height.
-   An image whose error is the same in every pixel has no P and is not counted. Errors: ARGUMENT (another size),
+/* Adds the error of an image against its reference; each image may have its own reference. O(n log n) for n pixels,
+   of any width and height. An image whose error is the same in every pixel has no P and is not counted.
+   Errors: ARGUMENT (another size),
    MALFORMED (a pixel is not a finite number), MEMORY. */
 KOKSMA_API koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
                                               const koksma_image *reference);
 
-/* The coherence of the images so far. Images of fewer than 2 frequencies (1 x 3 pixels and less) have none. */
+/* Computes the coherence of the images added so far. Images with fewer than two frequencies (up to 1 x 3 pixels) have
+   none: out->images is 0. */
 KOKSMA_API void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out);
 
 #ifdef __cplusplus

@@ -1,25 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Koksma: sampling patterns, and exact measures of how irregular they are.
+ * Koksma: sampling patterns, and exact measures of how irregular their points are. Part of libkoksma.
  *
- * The whole library in a page: look a pattern up (or parse a spec such as "poisson-disk:d=0.2"), generate
- * points with it, look a measure up, evaluate it.
+ * Look a pattern up by a spec such as "poisson-disk:d=0.2", generate points with it, look a measure up, evaluate it:
  *
  *     koksma_points points;
- *     koksma_spec spec;
+ *     koksma_spec pattern, star;
  *     koksma_value value;
- *     if (koksma_points_init(&points, 16, 2) || koksma_pattern_spec("n-rooks", &spec) ||
- *         koksma_generate(&spec, 7, NULL, &points))
+ *     if (koksma_points_init(&points, 16, 2) || koksma_pattern_spec("n-rooks", &pattern) ||
+ *         koksma_generate(&pattern, 7, NULL, &points) || koksma_measure_spec("star", &star) ||
+ *         koksma_evaluate(&star, &points, NULL, &value)) {
  *         puts(koksma_error_text());
- *     koksma_spec star;
- *     koksma_measure_spec("star", &star);
- *     koksma_evaluate(&star, &points, NULL, &value);
+ *     }
  *     koksma_points_fini(&points);
  *
- * Every function that can fail returns a koksma_status, and leaves a line that names the thing and the reason
- * in koksma_error_text(). Results come through out-pointers, last. Nothing here prints, exits or keeps global
- * state; all functions may be called from several threads at once on different objects.
- * Equal arguments give equal bits, on any number of threads and in any locale: numbers in texts have a point.
+ * These rules hold for every function of every header of this directory:
+ *
+ *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the
+ * others              that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names
+ * the thing              and the reason. After an error the results are not set, unless the function's comment says
+ * otherwise.   Results    go through out-pointers, which are the last parameters.
+ *   Pointers   must not be NULL unless the comment says "may be NULL".
+ *   Memory     The caller owns every struct. koksma_NOUN_init, and functions that say "allocates", take memory that
+ *              koksma_NOUN_fini frees; koksma_NOUN_open goes with koksma_NOUN_close. Both accept NULL.
+ *   Threads    Any function may be called from several threads at once, on different objects. Read-only arguments
+ *              may be shared. A function that takes a koksma_run uses the threads that it allows; others use one.
+ *   Bits       Equal arguments give equal bits for any number of threads, any instruction set and any locale; numbers
+ *              in texts have a decimal point.
+ *   Nothing    here prints, exits or keeps state between calls.
  */
 #ifndef KOKSMA_KOKSMA_H
 #define KOKSMA_KOKSMA_H
@@ -54,40 +62,42 @@ typedef enum koksma_status {
 #undef KOKSMA_STATUS
 } koksma_status;
 
-/* The general meaning of a status: a constant string. */
+/* Returns the general meaning of a status, a constant string such as "a file is malformed". Takes any value. */
 KOKSMA_API const char *koksma_status_text(koksma_status status);
 
-/* The exit code that the program gives for a status (0, 2, 3, 4 or 130). */
+/* Returns the exit code that the program `koksma` uses for a status: 0, 2, 3, 4 or 130. */
 KOKSMA_API int koksma_status_exit_code(koksma_status status);
 
-/* What the last failed call of this thread has to say: one line without a newline that names the thing and the
-   reason. Valid until this thread's next failing call. */
+/* Returns the message of this thread's last failed call: one line, without a newline, that names the thing and the
+   reason. The string is valid until the next failing call of this thread; before the first it is empty. */
 KOKSMA_API const char *koksma_error_text(void);
 
-/* The instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref", the reference
-   twins. It is the first of these that the machine has; or the one that KOKSMA_KERNELS names in the environment of
-   the first call that computes, unless it names none that the machine has. The first three give the same bits; of a
-   few measures "ref" may give other last digits. */
+/* Returns the instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref" (plain C,
+   for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one;
+   the first call that computes reads it. The first three give the same bits; "ref" may differ in the last digits of
+   a few measures. */
 KOKSMA_API const char *koksma_instruction_set(void);
 
-/* The library's version, equal to KOKSMA_VERSION of the header it was built with. */
+/* Returns the version of the library that runs, such as "0.1.0". KOKSMA_VERSION is that of the header. */
 KOKSMA_API const char *koksma_version(void);
 
 /* ---- Long calls --------------------------------------------------------------------------------------- */
 
-/* How to run a call that may be long. NULL wherever it is taken means: all threads, no limit, no questions. */
+/* How to run a call that may take long. A parameter of this type may be NULL: all threads, no limit, no callback. */
 typedef struct koksma_run {
-    int threads;         /* 0: as many as there are processors */
-    double time_limit_s; /* 0: none. A measure that is cut short gives bounds, and says so */
-    bool (*keep_going)(void *context, double fraction_done); /* may be NULL; false stops: INTERRUPTED.
-                                                                 Called from the calling thread only */
-    void *context;
+    int threads;         /* the most threads to use; 0: one for each processor */
+    double time_limit_s; /* seconds; 0: none. A measure that runs out of time returns bounds (koksma_value.exact is
+                            false) */
+    bool (*keep_going)(void *context, double fraction_done); /* called from time to time, on the calling thread only;
+                                                                 returns false to cancel: the call then returns
+                                                                 INTERRUPTED. May be NULL */
+    void *context;                                           /* passed to keep_going */
 } koksma_run;
 
 /* ---- Points ------------------------------------------------------------------------------------------- */
 
-/* n points of dim coordinates; point i is xs[i*dim] .. xs[i*dim + dim-1]. Generators give coordinates in [0,1);
-   measures take the closed [0,1]. */
+/* n points of dim coordinates each: point i is xs[i * dim] .. xs[i * dim + dim - 1]. Patterns give coordinates in
+   [0,1); measures accept [0,1]. */
 typedef struct koksma_points {
     size_t n;
     int dim;
@@ -96,74 +106,85 @@ typedef struct koksma_points {
 
 enum { KOKSMA_MAX_DIM = 4096 };
 
-/* The most coordinates one set may have: 2 GiB of doubles. Where a size has 32 bits 128 MiB, so that a method's
-   buffers, less than 256 bytes for each coordinate, don't overflow it. */
+/* The most coordinates n * dim of one set: 2^28, which are 2 GiB of doubles. On machines with 32-bit sizes 2^24: no
+   method needs more than 255 bytes for each coordinate, so that no buffer size overflows. */
 #define KOKSMA_MAX_COORDINATES ((size_t)1 << (sizeof(size_t) > 4 ? 28 : 24))
 
-/* Room for n points of dim coordinates, all zero. n = 0 is an error, as is more than KOKSMA_MAX_COORDINATES.
-   Errors: ARGUMENT, DIM, MEMORY. */
+/* Allocates n points of dim coordinates, all zero.
+     points  out; its old content is overwritten, not freed
+     n       1 or more, n * dim at most KOKSMA_MAX_COORDINATES
+     dim     1 to KOKSMA_MAX_DIM
+   Errors: ARGUMENT (n), DIM (dim), MEMORY. */
 KOKSMA_API koksma_status koksma_points_init(koksma_points *points, size_t n, int dim);
 
-/* Frees what init or read allocated; takes a zeroed struct and NULL. */
+/* Frees the coordinates and zeroes the struct. points may be NULL, or zeroed. */
 KOKSMA_API void koksma_points_fini(koksma_points *points);
 
-/* Reads .npy (by content) or text: one point a line, separated by blanks, commas or tabs, `#` comments, an
-   optional CSV header. path "-" is standard input. Coordinates outside [0,1], NaN, ragged rows and empty files
-   are errors that name file, line and reason. Allocates points. Errors: MISSING, MALFORMED, MEMORY. */
+/* Reads points from a file; allocates points.
+     path  a .npy file, recognised by its content, or text: one point a line, coordinates separated by blanks, tabs or
+           commas, `#` starts a comment, one CSV header line is allowed. "-" is standard input
+   Every row needs the same number of coordinates, all in [0,1].
+   Errors: MISSING, MALFORMED (names file, line and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_points_read(const char *path, koksma_points *points);
 
-/* Writes by the ending of the path: .csv, .npy, anything else text; "-" is text on standard output. Files are
-   written whole or not at all. comment (may be NULL) becomes `# ` lines of text files. Numbers are %.17g: they
-   read back to the same bits (-0 as 0). One thread; run (may be NULL) is asked whether to go on. Errors: ARGUMENT
-   (no points, a coordinate outside [0,1]), DIM, IO, INTERRUPTED. */
+/* Writes points to a file, completely or not at all.
+     path     its ending decides the format: .csv, .npy, anything else is text. "-" is text on standard output
+     points   coordinates in [0,1]
+     comment  becomes lines that start with "# " in text files; may be NULL
+   Numbers are printed with 17 significant digits, so that they read back to the same bits (-0 as 0).
+   Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, IO, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
                                              const koksma_run *run);
 
-/* The same of numbers that need not be in [0,1], such as points mapped by a warp: any finite ones. Errors: ARGUMENT
-   (none, or one that is not finite), IO, INTERRUPTED. */
+/* Does the same for points that need not be in [0,1], such as those that a warp has mapped: all coordinates must be
+   finite. Errors: ARGUMENT (no points, a coordinate that is not finite), IO, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_points_write_mapped(const char *path, const koksma_points *points,
                                                     const char *comment, const koksma_run *run);
 
 /* ---- Parameters and specs ----------------------------------------------------------------------------- */
 
-/* A parameter of a pattern or measure; tables of them end at a NULL name. */
+/* A parameter of a pattern or measure. The arrays of them end at one whose name is NULL. */
 typedef struct koksma_param {
     const char *name, *help;
-    double fallback, min, max;  /* the default and the closed range; with choices, of their index */
-    const char *const *choices; /* NULL, or the words that it takes, ending at NULL; the value is the index */
-    bool whole;                 /* only whole numbers */
+    double fallback, min, max;  /* default and closed range; with choices, of the index of the choice */
+    const char *const *choices; /* the words that it accepts, up to a NULL; NULL for a number */
+    bool whole;                 /* accepts whole numbers only */
 } koksma_param;
 
 enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_SPEC = 512 };
 
-/* What a table member's function gets beside its points: its parameters in table order, and how to run. */
+/* The arguments of a pattern's or measure's function: its parameters in the order of its table, and how to run. */
 typedef struct koksma_args {
     double params[KOKSMA_MAX_PARAMS];
-    const char *path;      /* the text after the colon for members that take a file; else NULL */
+    const char *path;      /* the file, for a pattern that reads one; else NULL */
     const koksma_run *run; /* may be NULL */
 } koksma_args;
 
 typedef struct koksma_pattern koksma_pattern;
 typedef struct koksma_measure koksma_measure;
 
-/* A member of a table with its parameters: what "poisson-disk:d=0.2" means. Plain data; copy it freely. */
+/* A pattern or a measure with its parameters: the meaning of a text such as "poisson-disk:d=0.2". Plain data without
+   pointers to free; copy it freely. */
 typedef struct koksma_spec {
     const koksma_pattern *pattern; /* exactly one of pattern and measure is not NULL */
     const koksma_measure *measure;
     double params[KOKSMA_MAX_PARAMS];
-    char path[KOKSMA_MAX_SPEC]; /* for members that take a file */
-    bool shift;                 /* patterns: the points are shifted on the torus by one random vector */
+    char path[KOKSMA_MAX_SPEC]; /* of a pattern that reads a file */
+    bool shift;                 /* of a pattern: all points are shifted on the torus by one random vector */
 } koksma_spec;
 
-/* Parses "name" or "name:key=value,key=value". Errors (ARGUMENT, UNKNOWN) name the key and what it takes.
-   Every pattern takes shift=1 beside its own parameters (for file: as the end ",shift=1"): the random toroidal shift
-   of Cranley & Patterson (1976), uniform in [0,1)^dim and the same for all points of a set. An alias becomes the
-   pattern that it names. */
+/* Parses a spec: "name" or "name:key=value,key=value".
+   Every pattern also accepts shift=1, the random shift on the torus of Cranley & Patterson (1976): one vector,
+   uniform in [0,1)^dim, is added to all points modulo 1. With a file it is the ending ",shift=1". An alias is
+   replaced by the pattern that it stands for.
+   Errors: ARGUMENT (a parameter; the message names it and what it accepts), UNKNOWN (the name; the message suggests
+   the nearest one). */
 KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec);
 KOKSMA_API koksma_status koksma_measure_spec(const char *text, koksma_spec *spec);
 
-/* The canonical text of a spec: parameters in table order, those at their default left out. This is the key under
-   which results are stored; empty for a spec of neither. text has room for KOKSMA_MAX_SPEC characters. */
+/* Writes the canonical text of a spec: parameters in table order, without those at their defaults. Results are stored
+   under this text.
+     text  KOKSMA_MAX_SPEC characters; empty if the spec has neither a pattern nor a measure */
 KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 
 /* ---- Patterns ----------------------------------------------------------------------------------------- */
@@ -179,7 +200,7 @@ enum {
                                               cells: the last coordinate's cell changes fastest */
     KOKSMA_CLAIM_LATIN = 1u << 4,          /* each coordinate has one point in each [j/n, (j+1)/n) */
     KOKSMA_CLAIM_UNBIASED = 1u << 5,       /* each point set is uniform in the mean: E(#/n in B) = volume of B */
-    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,   /* the order of the points is random already: shuffling is idle */
+    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,   /* the order of the points is random already: shuffling has no effect */
     KOKSMA_CLAIM_MIN_DISTANCE = 1u << 7,   /* no two points closer than parameter "d" (on the torus with torus=1) */
     KOKSMA_CLAIM_CENTRED = 1u << 8,        /* with STRATIFIED: each point in the middle half of its cell */
     KOKSMA_CLAIM_GRID = 1u << 9,           /* 2D, n = m^2: one point in each of the m x m cells, in any order */
@@ -204,70 +225,77 @@ enum {
 
 struct koksma_pattern {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib, separated by blanks */
-    int min_dim, max_dim;
+    int min_dim, max_dim;            /* dimensions that it serves */
     unsigned claims;
     const koksma_param *params; /* NULL: none */
     koksma_status (*generate)(uint64_t seed, const koksma_args *args, koksma_points *out);
-    bool takes_path;      /* the spec's text after the colon is a file's path */
-    const char *alias_of; /* not NULL: another name for that pattern */
-    /* NULL, or for a pattern whose parameters can decide how many points there are: allocates them all into out,
-       whose dim is set (0: whichever there is). N when they leave the number open. */
+    bool takes_path;      /* the text after the colon of its spec is the path of a file */
+    const char *alias_of; /* this entry is another name of that pattern; NULL: it is not */
+    /* Allocates all points of a pattern whose parameters decide how many there are (koksma_generate_whole). out->dim
+       is set by the caller; 0: any. Returns N where the parameters leave the number open. NULL for other patterns. */
     koksma_status (*whole)(uint64_t seed, const koksma_args *args, koksma_points *out);
 };
 
-/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+/* Returns pattern i of the table, or the pattern with this name; NULL if there is none. */
 KOKSMA_API const koksma_pattern *koksma_pattern_at(size_t i);
 KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
 
-/* Fills out->n points of out->dim coordinates. A pattern that can't serve n, dim or its parameters says which would
-   do; it never returns fewer points and never runs for ever. run may be NULL.
-   Errors: N, DIM, ARGUMENT, IMPOSSIBLE, MEMORY, INTERRUPTED (for file patterns MISSING and MALFORMED). */
+/* Generates out->n points of out->dim coordinates in [0,1).
+     spec  a pattern
+     seed  any number; the points are a pure function of spec, seed, n and dim
+     out   initialised by koksma_points_init with the n and dim that are wanted
+   It never gives fewer points and always ends. Costs differ: most patterns take O(n dim), blue noise up to O(n^2).
+   Errors: N, DIM, ARGUMENT (the pattern cannot serve this n, dim or parameter; the message says what would work),
+   IMPOSSIBLE (no such set exists, or none was found), MEMORY, INTERRUPTED; of a file MISSING and MALFORMED. */
 KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                                          koksma_points *out);
 
-/* All points of a pattern that knows itself how many there are: a file's, a maximal Poisson disk set's by its
-   radius. dim = 0: whichever the file has. Allocates out. Errors: those of koksma_generate; N when the pattern
-   takes any n. */
+/* Generates all points of a pattern that decides their number: those of a file, or of a maximal Poisson disk set of a
+   given radius. Allocates out.
+     dim  dimensions; 0: as many as the file has
+   Errors: those of koksma_generate; N for a pattern that accepts any n. */
 KOKSMA_API koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,
                                                koksma_points *out);
 
 /* ---- Measures ----------------------------------------------------------------------------------------- */
 
-enum { KOKSMA_WITNESS_DIM = 16 }; /* regions of more dimensions aren't told: their witness is of the kind NONE */
+enum { KOKSMA_WITNESS_DIM = 16 }; /* above 16 dimensions the witness has kind NONE */
 
 typedef enum koksma_witness_kind {
     KOKSMA_WITNESS_NONE,
     KOKSMA_WITNESS_BOX,        /* sides lo[k] .. hi[k] */
-    KOKSMA_WITNESS_HALF_PLANE, /* lo[0] x + lo[1] y <= hi[0]; of dim 3 a half-space: + lo[2] z */
+    KOKSMA_WITNESS_HALF_PLANE, /* lo[0] x + lo[1] y <= hi[0]; in 3D a half-space: + lo[2] z */
     KOKSMA_WITNESS_DISK        /* centre lo[0], lo[1], radius hi[0] */
 } koksma_witness_kind;
 
-/* The region where a supremum is reached, so that anyone can check it by counting: in doubles, boxes by comparing
-   coordinates, half-planes by lo[0] x + lo[1] y (+ lo[2] z), disks by a a + b b against hi[0] hi[0], where a = dx -
-   round(dx) and likewise b are the way from the centre on the torus. Bounds are rounded so that points on the
-   boundary fall on the side that count has them on; volume is that of the region before. Sides of an anchored box
-   (star) at 0 are no boundary: points on them are in. */
+/* The region where a measure reaches its supremum. Anyone can check it by counting points, in doubles:
+     box         compare each coordinate with lo and hi. The sides at 0 of a box of the star discrepancy belong to it
+     half-plane  compare lo[0] x + lo[1] y (+ lo[2] z) with hi[0]
+     disk        compare a a + b b with hi[0] hi[0]; (a, b) is the difference from the centre on the torus: with d the
+                 plain difference of a coordinate, a = d - round(d)
+   Bounds are rounded such that points on the boundary are counted as `closed` says; volume is the unrounded one. */
 typedef struct koksma_witness {
     koksma_witness_kind kind;
     int dim;
-    bool closed;  /* count takes the points on the boundary in (an excess), or leaves them out (a deficit) */
-    size_t count; /* points in the region; |count/n - volume| is the value */
-    double volume;
+    bool closed;   /* true: points on the boundary count (an excess); false: they do not (a deficit) */
+    size_t count;  /* points in the region; |count / n - volume| is the value of the measure */
+    double volume; /* of the region, 0 to 1 */
     double lo[KOKSMA_WITNESS_DIM], hi[KOKSMA_WITNESS_DIM];
 } koksma_witness;
 
+/* The result of a measure. */
 typedef struct koksma_value {
-    double value;          /* the measure; of a root-mean-square measure the root */
-    double square;         /* its square where that is the more exact number, else NaN */
-    double lower, upper;   /* certified bounds: both equal value when exact */
-    double standard_error; /* of a sampled measure (NaN: of one sample), else 0 */
-    bool exact;
+    double value;          /* the measure; for an L2 measure the root of the mean square */
+    double square;         /* its square, where that is known to more digits; else NaN */
+    double lower, upper;   /* proven bounds; both equal value if exact is true */
+    double standard_error; /* of a sampled measure, NaN with one sample; else 0 */
+    bool exact;            /* value is exact up to rounding */
     koksma_witness witness;
 } koksma_value;
 
-/* The regions that a measure looks at; what theory says about decay goes by them. */
+/* The regions over which a measure compares count and volume. Known rates of decay depend on the kind. */
 typedef enum koksma_family {
-    KOKSMA_FAMILY_NONE, /* another kind of number: distances, digital quality */
+    KOKSMA_FAMILY_NONE, /* no regions: distances, the quality of a digital net */
     KOKSMA_FAMILY_BOXES,
     KOKSMA_FAMILY_EDGES,
     KOKSMA_FAMILY_DISKS
@@ -275,9 +303,9 @@ typedef enum koksma_family {
 
 /* What kind of number a measure gives. */
 typedef enum koksma_answer {
-    KOKSMA_ANSWER_EXACT,   /* the value; one that is cut short gives bounds, with exact = false */
-    KOKSMA_ANSWER_SAMPLED, /* an estimate, with a standard error */
-    KOKSMA_ANSWER_BOUND    /* a lower bound: nothing more is promised */
+    KOKSMA_ANSWER_EXACT,   /* the value; after a time limit proven bounds, with exact = false */
+    KOKSMA_ANSWER_SAMPLED, /* an estimate with a standard error */
+    KOKSMA_ANSWER_BOUND    /* a lower bound only */
 } koksma_answer;
 
 struct koksma_measure {
@@ -287,26 +315,33 @@ struct koksma_measure {
     const koksma_param *params; /* NULL: none */
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
     koksma_answer answer;
-    bool larger_is_better; /* a distance; of all others smaller is more even */
+    bool larger_is_better; /* a distance; for all other measures smaller means more even */
 };
 
+/* Returns measure i of the table, or the measure with this name; NULL if there is none. */
 KOKSMA_API const koksma_measure *koksma_measure_at(size_t i);
 KOKSMA_API const koksma_measure *koksma_measure_find(const char *name);
 
 enum { KOKSMA_MAX_LOCAL_GRID = 4096 };
 
-/* The local discrepancy at x, a corner of dim coordinates in [0,1]: the share of the points in [0, x) less its
-   volume, positive where there are too many. Its supremum is the star discrepancy. O(n dim); any threads. Errors:
-   ARGUMENT (a NULL, no points, a coordinate outside [0,1]). */
+/* Computes the local discrepancy at a corner x: the fraction of points in [0, x) minus the volume of that box;
+   positive where there are too many points. The supremum of its absolute value is the star discrepancy. O(n dim).
+     x  points->dim coordinates in [0,1]
+   Errors: ARGUMENT (a NULL, no points, a coordinate outside [0,1]). */
 KOKSMA_API koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out);
 
-/* The same of points of the plane at the corners ((k + 1/2) / side, (j + 1/2) / side), in out[j * side + k]; side is
-   1 to KOKSMA_MAX_LOCAL_GRID. O(n + side^2). Errors: ARGUMENT, DIM. */
+/* Computes the local discrepancy of 2D points at the centres of side x side cells. O(n + side^2).
+     side  1 to KOKSMA_MAX_LOCAL_GRID
+     out   side * side numbers: out[j * side + k] is at x = (k + 1/2) / side, y = (j + 1/2) / side
+   Errors: ARGUMENT, DIM. */
 KOKSMA_API koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out);
 
-/* Evaluates a measure. Points must lie in the closed unit cube; n >= 1. run may be NULL.
-   Errors: ARGUMENT (no spec of a measure, a parameter that it does not take, no points, a coordinate outside [0,1]),
-   N (too many for the method), DIM, MEMORY, INTERRUPTED. */
+/* Evaluates a measure.
+     spec    a measure
+     points  1 or more points in the closed unit cube, of min_dim to max_dim dimensions
+   Costs are in koksma_measure.cost and printed by `koksma list measures`.
+   Errors: ARGUMENT (no measure, a bad parameter, no points, a coordinate outside [0,1]), N (too many points for the
+   method), DIM, MEMORY, INTERRUPTED. A time limit is no error: see koksma_run. */
 KOKSMA_API koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                                          koksma_value *out);
 

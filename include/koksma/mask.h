@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Masks for patterns over the whole image: tables that choose for each pixel its copy of a pattern, so that the
- * errors of neighbouring pixels differ and average out to the eye.
+ * Masks: tables that choose for each pixel its copy of a pattern such that the errors of neighbouring pixels differ
+ * and average out for the eye. Part of libkoksma; koksma_mask_value and koksma_mask_2d are inline.
  *
- *     void-and-cluster masks   koksma_mask_2d: each pixel has its own scrambled (0,2)-sequence, chosen by three
- * masks; or threshold images with one koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank
- * * spp .. rank * spp + spp - 1 of one sequence (Ahmed & Wonka 2020)
+ *     void-and-cluster masks   koksma_mask_2d gives each pixel its own scrambled (0,2)-sequence, which three masks
+ *                              choose; one mask alone is a threshold image
+ *     koksma_z_rank            (koksma/sampler.h) gives pixel (x, y) the samples rank * spp .. rank * spp + spp - 1
+ *                              of one sequence (Ahmed & Wonka 2020)
  *
  * Georgiev & Fajardo (2016) shift each pixel's copy on the torus. That breaks the nets at the seam: from 4 samples a
  * pixel on, the error in each pixel is up to several times that of independently scrambled pixels. koksma_mask_2d
@@ -19,8 +20,8 @@
  *     step in x              .09   .09   .20   .07
  *     quarter disk           .36   .34   .41   .43
  *
- * It helps most with a power of two of samples; with 3, 5, 6, 7, 12 the shares are .05 to .9. What oscillates more
- * than once over the square gains little with 1 to 3 samples.
+ * Numbers of samples that are powers of two gain most; with 3, 5, 6, 7 and 12 samples the shares are .05 to .9. With
+ * 1 to 3 samples an integrand that oscillates more than once over the square gains little.
  */
 #ifndef KOKSMA_MASK_H
 #define KOKSMA_MASK_H
@@ -34,10 +35,11 @@ extern "C" {
 
 enum { KOKSMA_MASK_MIN = 4, KOKSMA_MASK_MAX = 1024 };
 
-/* The void-and-cluster mask of Ulichney (1993): ranks[y * size + x] is a permutation of 0 .. size^2 - 1 such that the
-   pixels below any rank are spread evenly on the torus. size is KOKSMA_MASK_MIN to KOKSMA_MASK_MAX; time grows with
-   size^2 log(size): about 15 ms for 64, 0.25 s for 256, 5 s for 1024. run may be NULL.
-   Errors: ARGUMENT, MEMORY, INTERRUPTED. */
+/* Computes the void-and-cluster mask of Ulichney (1993): a permutation of 0 .. size^2 - 1 whose pixels below any
+   rank are spread evenly on the torus. O(size^2 log size): about 15 ms for size 64, 0.25 s for 256, 5 s for 1024.
+     size   KOKSMA_MASK_MIN to KOKSMA_MASK_MAX
+     ranks  size * size numbers; pixel (x, y) is ranks[y * size + x]
+   Errors: ARGUMENT (size), MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma_run *run,
                                                       uint32_t *ranks);
 
@@ -45,21 +47,25 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, c
 }
 #endif
 
-/* A pixel's value of a mask of `pixels` pixels, as a 32-bit fraction: a random place in the stratum of its rank. The
-   random word is the pixel's and the mask's: koksma_words(key, KOKSMA_FOR_SHIFT, pixel, 1, w) gives four. */
+/* Returns the value of one pixel of a mask as a 32-bit fraction: a random position in the stratum of its rank.
+     rank    below pixels, from koksma_mask_void_and_cluster
+     pixels  of the mask: size * size
+     random  a random word for this pixel and mask; koksma_words(key, KOKSMA_FOR_SHIFT, pixel, 1, w) gives four */
 KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_t random)
 {
     return (uint32_t)(((uint64_t)rank << 32 | random) / pixels);
 }
 
-/* Sample s of the spp of a pixel in whose place three masks, made with three seeds, have these values. The sequence
-   is that of the image, or of one use of its samples: koksma_sobol_of(domain). It is the pattern mask-offset.
+/* Computes sample s of a pixel. The points are those of the pattern `mask-offset`.
+     sequence  of the image, or of one purpose of its samples: koksma_sobol_of(domain)
+     values    koksma_mask_value of this pixel in three masks, made with three seeds
+     s, spp    sample s of 0 .. spp - 1
+     xy        receives the point, in [0,1)^2
 
-   With 2^m the largest power of two that divides spp, each 2^m samples are a (0,m,2)-net in base 2. Two values are
-   the digital shifts (XOR) of the digits that follow the first m: where the samples are within their strata. The
-   third one chooses which stratum in y each stratum in x goes with: it is a digital shift of the first m digits of y
-   before they are scrambled. So the error depends on the masks alone, and its parts that depend on one of them are as
-   blue as it is. */
+   With 2^m the largest power of two that divides spp, each 2^m samples are a (0,m,2)-net in base 2. Two values
+   shift the digits after the first m (by XOR), which set the position of the samples within their strata. The third
+   one shifts the first m digits of y before they are scrambled, which pairs the strata in y with those in x. The
+   error thus depends on the masks alone, and each part of it that depends on one mask is as blue as that mask. */
 KOKSMA_INLINE void koksma_mask_2d(const koksma_sobol *sequence, const uint32_t values[3], uint32_t s, uint32_t spp,
                                   double xy[2])
 {

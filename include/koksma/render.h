@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A distribution ray tracer that samples with any pattern.
+ * A distribution ray tracer that samples with any pattern. Part of libkoksma-lab.
  *
  *     koksma_scene *scene;
  *     koksma_render_options options;
@@ -11,10 +11,11 @@
  *         koksma_render(scene, &options, NULL, &image);
  *     }
  *
- * Each pixel spends its samples on named uses: the place in the pixel, and what the scene has a need of: the lens,
- * the time, a place on each luminaire, which luminaire, lobe or end of a path (koksma_use_at lists all). Each use
- * gets a set of points of its own in the one or two dimensions that it has, drawn afresh for every pixel unless
- * `scope` or `pairing` says otherwise; or several uses form a group and take the coordinates of one set.
+ * A sample has one or two dimensions for each purpose: the position in the pixel, and what the scene needs: the lens,
+ * the time, a point on each light, the choice of a light, the direction of scattering, its kind (reflection or
+ * transmission), and Russian roulette. Such a purpose, with its sample dimensions, is called a use; koksma_use_at
+ * lists them. Each use has its own point set, which is new for every pixel unless `scope` or `pairing` say
+ * otherwise; or several uses form a group and share the dimensions of one set.
  */
 #ifndef KOKSMA_RENDER_H
 #define KOKSMA_RENDER_H
@@ -28,205 +29,222 @@ extern "C" {
 
 typedef struct koksma_scene koksma_scene;
 
-/* The name of shipped scene i; NULL past the end. */
+/* Returns the name of scene i of those in the library; NULL past the end. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
-/* Opens a shipped scene by its name, or a file: JSON when the text has a '/' or ends in ".json", a mesh when it
-   ends in .obj, .ply, .off, .gltf or .glb. Errors: UNKNOWN (no such name), MISSING, MALFORMED (with file, line, field
-   and reason), UNSUPPORTED (this build has no assimp), MEMORY. */
+/* Opens a scene.
+     name_or_path  the name of a scene in the library; or a file: JSON if the text has a '/' or ends in ".json", a
+                   mesh if it ends in .obj, .ply, .off, .gltf or .glb
+     out           the scene, to be closed by koksma_scene_close. It is read-only: threads may share it
+   Errors: UNKNOWN (no such name), MISSING, MALFORMED (the message names file, line, field and reason), UNSUPPORTED
+   (this build cannot read meshes), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
+
+/* Frees a scene; it may be NULL. */
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
 
-/* What traces and what reads triangle meshes in this build: "Embree 3.13.5", "assimp 5.2.4"; NULL: nothing does. */
+/* Return the libraries of this build that trace and that read triangle meshes, such as "Embree 3.13.5" and
+   "assimp 5.2.4"; NULL: there is none. */
 KOKSMA_API const char *koksma_mesh_tracer(void);
 KOKSMA_API const char *koksma_mesh_reader(void);
 
-/* What it shows, in its own words; may be empty. */
+/* Returns the title in the scene file; may be empty. Valid until the scene is closed. */
 KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 
-/* What is odd in a scene that can be rendered all the same: warning i as a line of text; false past the end. */
+/* Writes warning i about the scene, which can be rendered all the same, as one line. Returns false past the last one.
+     text  size characters, cut if too short */
 KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
 
-/* What it has: shapes, meshes, placements of meshes, triangles, luminaires. */
+/* Numbers of what a scene contains; a mesh may be placed several times. */
 typedef struct koksma_scene_counts {
     size_t shapes, meshes, placements, triangles, materials, lights;
 } koksma_scene_counts;
+
+/* Counts what a scene contains. */
 KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
 
-/* 64 bits of the scene's text: it changes when the file changes. */
+/* Returns a 64-bit hash of the scene's text, which changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 
 /* ---- How it is sampled ---------------------------------------------------------------------------------- */
 
-/* How the patterns of a pixel's uses are put together, sample by sample. */
+/* How the point sets of a pixel's uses are combined, sample by sample. */
 typedef enum koksma_pairing {
     KOKSMA_PAIRING_SHUFFLED, /* by independent random permutations: uncorrelated jitter (Cook 1986; Shirley 1991) */
-    KOKSMA_PAIRING_ALIGNED,  /* in the order in which the pattern gives them */
-    KOKSMA_PAIRING_NATIVE    /* one pattern in as many dimensions as the uses have together */
+    KOKSMA_PAIRING_ALIGNED,  /* in the order of the pattern: sample i takes point i of every set */
+    KOKSMA_PAIRING_NATIVE    /* one set with the dimensions of all uses together */
 } koksma_pairing;
 
-/* What a pattern covers. */
+/* What one point set covers. */
 typedef enum koksma_scope {
-    KOKSMA_SCOPE_PIXEL, /* a pattern of spp points afresh in each pixel */
-    KOKSMA_SCOPE_IMAGE  /* one pattern of spp width height points over the image, without regard to pixels */
+    KOKSMA_SCOPE_PIXEL, /* a new set of spp points for each pixel */
+    KOKSMA_SCOPE_IMAGE  /* one set of spp * width * height points for the whole image, regardless of pixels */
 } koksma_scope;
 
-/* Which luminaires get a shadow ray at a vertex. */
+/* Which lights get a shadow ray at a vertex. */
 typedef enum koksma_light_selection {
-    KOKSMA_LIGHTS_ALL,     /* each */
+    KOKSMA_LIGHTS_ALL,     /* all */
     KOKSMA_LIGHTS_ONE,     /* one, chosen in proportion to its estimated contribution (Shirley 1991, section 5.4) */
     KOKSMA_LIGHTS_POWER,   /* one, in proportion to its power */
-    KOKSMA_LIGHTS_UNIFORM, /* one, each as likely */
+    KOKSMA_LIGHTS_UNIFORM, /* one, all with equal probability */
 } koksma_light_selection;
 
-/* "shuffled", "aligned", …; "pixel", "image"; "all", "one", …; NULL past the end. */
+/* Return the word of a scene file or option: "shuffled", "pixel", "all", ...; NULL for a value past the last. */
 KOKSMA_API const char *koksma_pairing_name(koksma_pairing pairing);
 KOKSMA_API const char *koksma_scope_name(koksma_scope scope);
 KOKSMA_API const char *koksma_light_selection_name(koksma_light_selection selection);
 
-/* Uses of a sample, in the order of koksma_use_at: pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
- * light.
- */
+/* The number of uses. In the order of koksma_use_at: pixel, lens, time, light-choice, lobe, lobe-choice, roulette,
+   light. */
 enum { KOKSMA_N_USES = 8 };
 
+/* A purpose on which a sample spends one or two dimensions. */
 typedef struct koksma_use {
     const char *name, *help;
     int dim; /* 1 or 2 */
 } koksma_use;
 
-/* Use i; NULL past the end. */
+/* Returns use i; NULL past the end. */
 KOKSMA_API const koksma_use *koksma_use_at(size_t i);
 
-/* Uses that one pattern samples together, in as many dimensions as they have in all: sample i takes the coordinates
-   of point i, in the order of `uses`. A set serves what a sample has once (pixel, lens, time) with the first vertex
-   of its path and one luminaire there; every further vertex, and every further luminaire, takes its coordinates of a
-   set of its own, paired with the others as separate uses are. */
+/* Uses that share the dimensions of one point set: sample i takes the coordinates of point i, in the order of `uses`.
+   One set covers what a sample needs once (pixel, lens, time), the first vertex of the path, and one light there.
+   Every further vertex and every further light takes another set of the same pattern, combined with the others by
+   `pairing`. */
 typedef struct koksma_use_group {
     koksma_spec pattern;
-    int n_uses;              /* 2 or more; 0: there is no such group */
-    int uses[KOKSMA_N_USES]; /* as in koksma_use_at */
+    int n_uses;              /* 2 or more; 0: no group */
+    int uses[KOKSMA_N_USES]; /* indices for koksma_use_at */
 } koksma_use_group;
 
 enum { KOKSMA_MAX_USE_GROUPS = KOKSMA_N_USES / 2, KOKSMA_MAX_PATTERNS_TEXT = KOKSMA_MAX_SPEC * (KOKSMA_N_USES + 1) };
 
-/* How light is followed. */
+/* How light is followed through the scene. */
 typedef struct koksma_integrator {
     const char *name, *title, *cite;
-    int depth;         /* bounces at most, unless the options say so */
+    int depth;         /* the most bounces, unless the options set another number */
     const void *rules; /* for the renderer */
 } koksma_integrator;
 
-/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+/* Returns integrator i of the table, or the one with this name; NULL if there is none. */
 KOKSMA_API const koksma_integrator *koksma_integrator_at(size_t i);
 KOKSMA_API const koksma_integrator *koksma_integrator_find(const char *name);
 
-/* A separable pixel filter f(x) f(y), f(x) = 0 for |x| >= radius, in pixels. Its scale is idle. */
+/* A separable pixel filter f(x) f(y), with f(x) = 0 for |x| >= radius; lengths in pixels. The filter need not be
+   normalised. */
 typedef struct koksma_filter {
     const char *name, *title, *cite;
     double radius;
     double (*value)(double x);
 } koksma_filter;
 
-/* Member i of the table, NULL past the end; by name, NULL if unknown. */
+/* Returns filter i of the table, or the one with this name; NULL if there is none. */
 KOKSMA_API const koksma_filter *koksma_filter_at(size_t i);
 KOKSMA_API const koksma_filter *koksma_filter_find(const char *name);
 
-/* The Fourier transform of f along an axis over its value at 0: what is left of a wave of that many cycles a pixel.
- */
+/* Returns the frequency response of a filter along one axis: the Fourier transform of f at this frequency, in cycles
+   a pixel, divided by that at 0. */
 KOKSMA_API double koksma_filter_response(const koksma_filter *filter, double frequency);
 
-/* The part of the integral of the squared response that is beyond half a cycle a pixel, the most that pixels can
-   show: 0 is the ideal filter. */
+/* Returns the fraction of the integral of the squared response that lies above half a cycle a pixel, where pixels
+   alias: 0 for the ideal filter. */
 KOKSMA_API double koksma_filter_leakage(const koksma_filter *filter);
 
+/* How to render. koksma_render_options_init sets all members. */
 typedef struct koksma_render_options {
-    koksma_spec pattern;                 /* of every use that has none of its own */
-    koksma_spec patterns[KOKSMA_N_USES]; /* of use i, where it is not all zero */
+    koksma_spec pattern;                 /* of every use that `patterns` and `groups` do not name */
+    koksma_spec patterns[KOKSMA_N_USES]; /* of use i; all zero: `pattern` */
     koksma_use_group
-        groups[KOKSMA_MAX_USE_GROUPS]; /* a use has a pattern of its own or is in one group, or neither */
-    int spp;                           /* samples a pixel: the n of the pattern */
-    int width, height;
+        groups[KOKSMA_MAX_USE_GROUPS]; /* a use may be in one group, unless it has an entry in `patterns` */
+    int spp;                           /* samples a pixel, which is the n of the pattern; 1 to KOKSMA_MAX_SPP */
+    int width, height;                 /* pixels, 1 to KOKSMA_MAX_IMAGE_SIDE */
     uint64_t seed;
     koksma_pairing pairing;
     koksma_scope scope;
     koksma_light_selection lights;
     const koksma_integrator *integrator;
-    int depth; /* bounces at most; -1: the integrator's */
+    int depth; /* the most bounces, 0 to KOKSMA_MAX_DEPTH; -1: the integrator's default */
     const koksma_filter *filter;
-    bool splat; /* samples are spread over all pixels that the filter reaches, and divided by the sum of its values;
-                   else each pixel draws its samples from the filter (Ernst, Stamminger & Greiner 2006), which
-                   leaves two to three times the error. Both keep a constant picture, whatever signs the filter has;
-                   one drawn sample a pixel has the filter's positive part alone. No splatted sample lies beyond the
-                   frame: at its borders the filter is cut, and the exact picture another */
+    bool splat; /* true: add each sample to all pixels that the filter reaches and divide by the sum of weights;
+                   false: draw the position of each pixel's samples from the filter (Ernst, Stamminger & Greiner 2006), which
+                   has two to three times the error. Both keep a constant image constant, also with negative lobes.
+                   With one sample a pixel, drawing uses the positive part of the filter only. Splatting has no
+                   samples beyond the frame: at the borders the filter is cut off */
 } koksma_render_options;
 
 enum { KOKSMA_MAX_SPP = 1 << 20, KOKSMA_MAX_DEPTH = 64 };
 
-/* n-rooks, 16 samples a pixel, the scene's own size, seed 0, shuffled, in pixels, all lights, distribution, box. */
+/* Sets the defaults: pattern n-rooks, 16 samples a pixel, the size in the scene file, seed 0, pairing shuffled, scope
+   pixel, all lights, integrator distribution, filter box. */
 KOKSMA_API void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene);
 
-/* Sets patterns by a text: "PATTERN" for the uses that have no other, "USE=PATTERN" for one use, "USE+USE=PATTERN"
-   for a group, or several of these with ';' between: "random;pixel+time=scan-time". What the text doesn't name stays.
-   Errors: UNKNOWN (a pattern or use), DIM (a pattern that has not the dimensions of its group), ARGUMENT (a use that
-   has a pattern already, the pattern's own); options are then as before. */
+/* Sets patterns from a text: "PATTERN" for all uses without another one, "USE=PATTERN" for one use, "USE+USE=PATTERN"
+   for a group, or several of these separated by ';': "random;pixel+time=scan-time". Uses that the text does not name
+   keep their patterns.
+   Errors: UNKNOWN (a pattern or use), DIM (the pattern cannot have the dimensions of its group), ARGUMENT (a use that
+   has a pattern already, or a parameter of the pattern); options are then unchanged. */
 KOKSMA_API koksma_status koksma_render_patterns(const char *text, koksma_render_options *options);
 
-/* The canonical text of all of them, the common pattern first, then uses and groups in the order of koksma_use_at.
-   text has room for KOKSMA_MAX_PATTERNS_TEXT characters. */
+/* Writes the canonical text of all patterns: the common one, then uses and groups in the order of koksma_use_at.
+     text  KOKSMA_MAX_PATTERNS_TEXT characters */
 KOKSMA_API void koksma_render_patterns_text(const koksma_render_options *options, char *text);
 
-/* The names of a group's uses with '+' between, such as "pixel+time"; text has room for KOKSMA_MAX_SPEC characters.
- */
+/* Writes the names of a group's uses, such as "pixel+time".
+     text  KOKSMA_MAX_SPEC characters */
 KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text);
 
 /* ---- Rendering ------------------------------------------------------------------------------------------- */
 
-/* Rays that one sample casts at its first hit: one from the camera, and one to each luminaire. */
+/* Returns the number of rays that one sample casts for its first hit: one from the camera and one to each light. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
 
-/* Whether samples of this scene by these options are spent on use i: a pattern for another (of the lens, where there
-   is a pinhole) changes nothing. */
+/* Returns whether rendering this scene with these options needs use i. A pattern for a use that is not needed, such
+   as the lens of a pinhole camera, has no effect. */
 KOKSMA_API bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i);
 
-/* Those of the scene's warnings that matter to a picture by these options: warning i; false past the end. */
+/* Writes warning i of the scene that matters with these options, as koksma_scene_warning does. */
 KOKSMA_API bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i,
                                       char *text, size_t size);
 
-/* A picture and what else is known of its pixels, all of one size. The image has 3 channels, or 1 for a scene without
-   colour. */
+/* An image and further values of its pixels. All have the same size; the image has 3 channels, or 1 for a scene
+   without colour. */
 typedef struct koksma_layers {
     koksma_image image;
-    koksma_image albedo;   /* of what is seen first, over the samples; 3 channels */
-    koksma_image normal;   /* likewise, towards the eye; 3 channels */
-    koksma_image depth;    /* distance of what is seen first, over the samples that hit something; 0: none */
-    koksma_image samples;  /* how many a pixel had */
-    koksma_image variance; /* of the pixel's luminance, from the samples that it is made of (splatted: also those of
-                              pixels around) as if they were independent: for a stratified pattern too large; 0 for
-                              less than two of them */
-    uint64_t rays;         /* cast */
+    koksma_image albedo;   /* of the first hit, mean over the samples; 3 channels */
+    koksma_image normal;   /* of the first hit, towards the camera, mean over the samples; 3 channels */
+    koksma_image depth;    /* distance of the first hit, mean over the samples that hit something; 0: none did */
+    koksma_image samples;  /* number of samples of the pixel */
+    koksma_image variance; /* of the pixel's luminance, estimated from its samples (with splatting also those of
+                              pixels around) as if they were independent: too large for stratified patterns. 0 with
+                              fewer than two samples */
+    uint64_t rays;         /* number of rays cast */
 } koksma_layers;
 
+/* Frees all images and zeroes the struct. layers may be NULL, or zeroed. */
 KOKSMA_API void koksma_layers_fini(koksma_layers *layers);
 
-/* Bytes that a picture by these options takes, beside the scene and a few MiB for each thread (with splatting, a few
-   rows of pixels more for each). */
+/* Bytes that rendering takes in addition to the scene and a few MiB for each thread (with splatting also a few rows
+   of pixels for each). */
 typedef struct koksma_render_size {
     uint64_t film;    /* the image and its layers, and sums of splats */
-    uint64_t samples; /* of scope image, which are drawn beforehand: at their peak */
-    uint64_t file;    /* what is written, uncompressed: made in memory when the picture is done */
+    uint64_t samples; /* the point set of scope image, at its peak */
+    uint64_t file;    /* the uncompressed file, which is made in memory at the end */
 } koksma_render_size;
 
-/* all_layers: as koksma_render_layers has it, and an EXR keeps it. */
+/* Estimates the memory for rendering a scene.
+     all_layers  true for koksma_render_layers and an EXR with all layers; false for the image only */
 KOKSMA_API koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,
                                                     bool all_layers);
 
-/* Renders; allocates out. Equal arguments give equal bits on any number of threads. run may be NULL.
-   Errors: ARGUMENT, what the pattern says about spp (N, DIM, IMPOSSIBLE, …), MEMORY, INTERRUPTED. */
+/* Renders an image; allocates out. Costs O(spp) for each pixel, and each sample a number of rays that depends on
+   scene and integrator. A time limit (koksma_run) has no effect; keep_going can cancel.
+   Errors: ARGUMENT (an option out of range), those of koksma_generate for n = spp, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options,
                                        const koksma_run *run, koksma_image *out);
 
-/* The same picture with its layers; or with its image, sample counts and rays only, which is faster. When it is
-   INTERRUPTED out holds the pixels that are done (the others have 0 in `samples`), and the caller frees it too. */
+/* Render the same image with all layers, or only with `samples` and `rays`, which is faster; allocate out.
+   After INTERRUPTED out has the pixels that are done (`samples` is 0 in the others), and the caller must free it.
+   Errors: those of koksma_render. */
 KOKSMA_API koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
                                               const koksma_run *run, koksma_layers *out);
 KOKSMA_API koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,

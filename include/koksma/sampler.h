@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sampling patterns for your renderer: one header, no library, no allocation, no tables to set up. C99, C11, C++ from
- * C++98 on, CUDA. Long because a renderer takes this one file and nothing else.
+ * Sampling patterns for renderers, in one header: no library, no allocation, no set-up. C99, C11, C++98 and later,
+ * CUDA. Long because a renderer takes this one file and nothing else.
  *
  * A sample is a pure function of a domain and an index: there is no cursor and no count of dimensions. A domain is a
  * 64-bit key. Make one for each pixel, derive one from it for each use of samples (lens, light, direction at bounce 3
@@ -36,10 +36,10 @@
  *     koksma_cmj_2d      1.00; 1.03 at N = 16
  *     koksma_r_2d        1.07
  *
- * The order of a domain's samples depends on 32 random bits: two domains have the same order, and are then dependent,
- * with probability 2^-32.
+ * The order of a domain's samples depends on 32 random bits: with probability 2^-32 two domains have the same order
+ * and are then dependent.
  *
- * The numbers are those of the library's bulk generators, bit for bit; the seed is the key of the domain:
+ * The points equal those of libkoksma's patterns bit for bit; the seed is the key of the domain:
  *
  *     koksma_sobol_2d    sobol:scramble=hash-owen,shuffle=1
  *     koksma_sobol_4d    sobol:scramble=hash-owen,shuffle=1
@@ -65,13 +65,14 @@
 #define KOKSMA_INLINE static inline
 #endif
 
+/* A stream of samples. Make one with the functions below; equal keys give equal samples. */
 typedef struct koksma_domain {
     uint64_t key;
 } koksma_domain;
 
 /* ---- Random words: Philox4x32-10 ----------------------------------------------------------------------- */
 
-/* What a word is for; the numbers are those of the library. */
+/* The purpose of a random word: part of the key of its hash, with the same numbers as in libkoksma. */
 enum {
     KOKSMA_FOR_DOMAIN = 1,
     KOKSMA_FOR_POINT = 2,
@@ -80,7 +81,8 @@ enum {
     KOKSMA_FOR_SCRAMBLE = 6
 };
 
-/* 128 random bits: a hash of (key, purpose, index, lane). */
+/* Computes four random words: a hash of (key, purpose, index, lane), uniform and independent for different
+   arguments. */
 KOKSMA_INLINE void koksma_words(uint64_t key, uint32_t purpose, uint64_t index, uint32_t lane, uint32_t words[4])
 {
     uint32_t a = (uint32_t)index, b = (uint32_t)(index >> 32), c = lane, d = purpose;
@@ -103,7 +105,8 @@ KOKSMA_INLINE void koksma_words(uint64_t key, uint32_t purpose, uint64_t index, 
 
 /* ---- Domains ------------------------------------------------------------------------------------------- */
 
-/* The domain of a use of a domain's samples; uses are numbers of your choice. */
+/* Returns the domain for one purpose of another domain's samples, such as the lens. Purposes are numbers of your
+   choice; domains may be nested to any depth. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t use)
 {
     uint32_t w[4];
@@ -113,6 +116,7 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t 
     return sub;
 }
 
+/* Returns the domain of pixel (x, y) of the image with this seed. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, uint32_t y)
 {
     uint32_t w[4];
@@ -124,18 +128,19 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, ui
 
 /* ---- Numbers ------------------------------------------------------------------------------------------- */
 
-/* The multiple of 2^-24 below or at x in [0,1): never 1, and 0 for an x below the first. */
+/* Rounds x in [0,1) down to a multiple of 2^-24, so that the float is never 1. */
 KOKSMA_INLINE float koksma_to_float(double x)
 {
     return (float)(uint32_t)(x * 16777216.0) * (1.0f / 16777216.0f);
 }
 
-/* 53 random bits as a double in [0,1). */
+/* Returns the upper 53 bits of two random words as a double in [0,1). */
 KOKSMA_INLINE double koksma_to_unit(uint32_t high, uint32_t low)
 {
     return (double)((uint64_t)high << 21 | low >> 11) * (1.0 / 9007199254740992.0);
 }
 
+/* Reverses the order of the bits. */
 KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
 {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
@@ -145,8 +150,8 @@ KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
     return x << 16 | x >> 16;
 }
 
-/* The same, told so that gcc sees no byte swap: it would take the first one of a loop over i out of the loop, and
-   then not use vectors for the others. */
+/* Does the same, written such that gcc recognises no byte swap: for that it would peel the first iteration of a loop
+   over i, and then not vectorise the others. */
 KOKSMA_INLINE uint32_t koksma_mirror_index(uint32_t i)
 {
     i = (i & 0x00ff00ffu) << 8 | (i >> 8 & 0x00ff00ffu);
@@ -156,7 +161,8 @@ KOKSMA_INLINE uint32_t koksma_mirror_index(uint32_t i)
     return i << 16 | i >> 16;
 }
 
-/* Owen's nested uniform scrambling of the mirrored x: every bit is flipped by a hash of the bits below it. */
+/* Returns Owen's nested uniform scrambling of x, whose bits are reversed: a hash of the bits below decides whether
+   to flip each bit. */
 KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
@@ -169,7 +175,7 @@ KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
 
 /* ---- The order of the samples of a domain -------------------------------------------------------------- */
 
-/* The word that chooses the order of samples 2^32 part .. 2^32 (part + 1) - 1. */
+/* Returns the random word that chooses the order of samples 2^32 part .. 2^32 (part + 1) - 1. */
 KOKSMA_INLINE uint32_t koksma_order(uint64_t key, uint32_t part)
 {
     uint32_t w[4];
@@ -177,15 +183,15 @@ KOKSMA_INLINE uint32_t koksma_order(uint64_t key, uint32_t part)
     return w[0];
 }
 
-/* Index i in the order that a random word chooses: the nested uniform shuffle of all 32-bit indices by Owen hashing.
-   Aligned blocks of 2^m indices become aligned blocks of 2^m indices. */
+/* Returns the index at position i of the order that a random word chooses: the nested uniform shuffle of all 32-bit
+   indices by Owen hashing. Aligned blocks of 2^m indices become aligned blocks of 2^m indices. */
 KOKSMA_INLINE uint32_t koksma_shuffled(uint32_t i, uint32_t order)
 {
     return koksma_mirror(koksma_owen_hash(koksma_mirror_index(i), order));
 }
 
-/* The same, then an exclusive or that sends 0 back to 0: indices below 2^m stay below 2^m. In an Owen-scrambled
-   digital sequence the exclusive or changes no probability: it is a digital shift of the points. */
+/* Does the same, followed by an XOR that maps 0 to 0, so that indices below 2^m stay below 2^m. In an Owen-scrambled
+   digital sequence the XOR changes no probability: it is a digital shift of the points. */
 KOKSMA_INLINE uint32_t koksma_shuffled_from_0(uint32_t i, uint32_t order)
 {
     return koksma_mirror(koksma_owen_hash(koksma_mirror_index(i), order) ^ koksma_owen_hash(0, order));
@@ -193,7 +199,7 @@ KOKSMA_INLINE uint32_t koksma_shuffled_from_0(uint32_t i, uint32_t order)
 
 /* ---- Sobol', Owen-scrambled by hashing, in shuffled order ---------------------------------------------- */
 
-/* The upper triangular Pascal matrix modulo 2 times i: Sobol' dimension 2, mirrored. */
+/* Multiplies i by the upper triangular Pascal matrix modulo 2: dimension 2 of Sobol' with bits reversed. */
 KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
 {
     i ^= (i & 0xaaaaaaaau) >> 1;
@@ -203,7 +209,7 @@ KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
     return i ^ (i & 0xffff0000u) >> 16;
 }
 
-/* Sobol' dimensions 3 and 4 by Joe & Kuo, mirrored. */
+/* Returns Sobol' dimension 3 (dimension = 0) or 4 (1) of Joe & Kuo at i, with bits reversed. */
 KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
 {
     static const uint32_t columns[2][32] = {
@@ -223,22 +229,24 @@ KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
     return x;
 }
 
-/* x 2^-32, exact; by way of a signed number, which compilers make many of at once. */
+/* Returns x 2^-32, exact. It goes through a signed number because compilers vectorise that conversion. */
 KOKSMA_INLINE double koksma_fraction(uint32_t x)
 {
     return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
 }
 
+/* Scrambles a number with bits reversed and returns it as a fraction in [0,1). */
 KOKSMA_INLINE double koksma_scrambled(uint32_t mirrored, uint32_t seed)
 {
     return koksma_fraction(koksma_mirror(koksma_owen_hash(mirrored, seed)));
 }
 
-/* The keys of a domain's sequence, for loops over many samples of one domain. */
+/* The seeds of a domain's Sobol' sequence: compute them once for a loop over many samples of one domain. */
 typedef struct koksma_sobol {
     uint32_t seeds[4], order;
 } koksma_sobol;
 
+/* Computes the seeds of a domain. */
 KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
 {
     koksma_sobol sequence;
@@ -253,7 +261,7 @@ KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
     return sequence;
 }
 
-/* Sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
+/* Computes sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
 KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
 {
     const uint32_t j = koksma_shuffled(i, sequence->order);
@@ -261,7 +269,7 @@ KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, 
     xy[1] = koksma_scrambled(koksma_pascal(j), sequence->seeds[1]);
 }
 
-/* Four dimensions; the first two are koksma_sobol_at_2d's. */
+/* Computes sample i in four dimensions; the first two are those of koksma_sobol_at_2d. */
 KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
 {
     const uint32_t j = koksma_shuffled(i, sequence->order);
@@ -271,6 +279,7 @@ KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, 
     xs[3] = koksma_scrambled(koksma_sobol_mirrored(j, 1), sequence->seeds[3]);
 }
 
+/* Computes sample i of a domain in two dimensions, or in four. For many samples, koksma_sobol_at_2d is faster. */
 KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
     const koksma_sobol sequence = koksma_sobol_of(domain);
@@ -285,7 +294,8 @@ KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
 
-/* Point 2^level + i shares its stratum of width 2^-level in coordinate k with point i ^ partner. */
+/* Returns `partner`: point 2^level + i shares its stratum of width 2^-level in coordinate k with point i ^
+   partner. */
 KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
 {
     static const uint32_t partners[2][32] = {
@@ -300,9 +310,9 @@ KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
     return partners[k][level];
 }
 
-/* The 32-bit fraction of coordinate k (0, 1) of point i in pmj02's own order, which is nearly the same for all keys:
-   only koksma_pmj02_2d is independent between domains. Point i is in the empty half of the stratum of an earlier
-   point, whose own upper bits come from a still earlier one. */
+/* Returns coordinate k (0 or 1) of point i, as a 32-bit fraction, in the order of the pattern pmj02 without shuffle.
+   That order is nearly the same for all keys: only koksma_pmj02_2d is independent between domains. Point i lies in
+   the empty half of the stratum of an earlier point, whose upper bits come from a still earlier one. */
 KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
 {
     uint32_t fraction = 0, above = 0xffffffffu, w[4];
@@ -323,8 +333,9 @@ KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
     }
 }
 
-/* Sample i: every aligned block of 2^m samples is a (0,m,2)-net in base 2, and the first 2^m are the first 2^m points
-   of the library's pmj02 in another order. Takes a hash for each one bit or so of the shuffled index. */
+/* Computes sample i. Every aligned block of 2^m samples is a (0,m,2)-net in base 2, and the first 2^m are the first
+   2^m points of the pattern pmj02 in another order. Costs about one hash for each bit of the shuffled index that is
+   1. */
 KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
     const uint32_t j = koksma_shuffled_from_0(i, koksma_order(domain.key, 0));
@@ -334,10 +345,10 @@ KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2
 
 /* ---- Correlated multi-jitter --------------------------------------------------------------------------- */
 
-/* Element i of a random order of 0 .. n-1 that the key chooses; n < 2^31. A bijection of the next power of two,
-   walked until it falls below n. Over keys it is not quite uniform up to n = 8: for n = 3 .. 8 places of two elements
-   are 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % off (root mean square over the pairs; 7 % at most), those of one element 0.4 %
-   with 3, 0.1 % with 5 to 7. From n = 9 on 4 million keys show nothing. */
+/* Returns element i of a random permutation of 0 .. n-1 that the key chooses; i < n < 2^31. A bijection of the next
+   power of two, walked until it falls below n. Over keys it is not quite uniform up to n = 8: for n = 3 .. 8
+   positions of two elements are 0.6, 1.6, 1.3, 1.0, 0.4, 0.5 % off (root mean square over the pairs; 7 % at most),
+   those of one element 0.4 % with 3, 0.1 % with 5 to 7. From n = 9 on 4 million keys show nothing. */
 KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
 {
     const uint32_t a = (uint32_t)key, b = (uint32_t)(key >> 32);
@@ -367,15 +378,16 @@ KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
     return i;
 }
 
-/* A place u of cell `cell` of at most 2^29 `cells`, never outside it after rounding. u / 2^24 is exact, so that the
-   result has the same bits where a product and a sum are rounded once. */
+/* Returns the position u in [0,1) of cell number `cell` of at most 2^29 `cells`, as a coordinate in [0,1) that
+   rounding never moves out of the cell. u / 2^24 is exact, so that compilers that fuse products and sums give the
+   same bits. */
 KOKSMA_INLINE double koksma_place(double cell, double u, double cells)
 {
     return (cell + (u - u * (1.0 / 16777216.0))) / cells;
 }
 
-/* Sample i of columns * rows: one in each cell of the grid, and one in each of the columns * rows strata of either
-   axis. i is below columns * rows <= 2^29. */
+/* Computes sample i of columns * rows: one in each cell of the grid, and one in each of the columns * rows strata of
+   either axis. i is below columns * rows <= 2^29. */
 KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t columns, uint32_t rows, double xy[2])
 {
     uint32_t keys[4], more[4], w[4], s, c, r;
@@ -394,9 +406,9 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 
 /* ---- R-sequence ---------------------------------------------------------------------------------------- */
 
-/* Sample i of the additive recurrence of the plastic number, shifted on the torus by the domain's random vector, in
-   an order that the domain chooses. Every aligned block of 2^m samples, m <= 32, is a run of 2^m consecutive points.
-   Each 2^32 samples have an order of their own, and i / 2^32 is not shuffled.
+/* Computes sample i of the additive recurrence of the plastic number, shifted on the torus by the domain's random
+   vector, in an order that the domain chooses. Every aligned block of 2^m samples, m <= 32, is a run of 2^m
+   consecutive points. The order is different in each 2^32 samples; i / 2^32 is not shuffled.
 
    The shuffle costs evenness where N is no power of two: N samples are then several runs, one for each one bit of N,
    with gaps between them. Their RMS L2 star discrepancy is 1.19 times that of one run in the mean over N = 1 to 1024,
@@ -419,7 +431,7 @@ KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 
 /* ---- Z-order ------------------------------------------------------------------------------------------- */
 
-/* Element j of the order of 0 .. 3 that the word chooses. */
+/* Returns element j of the permutation of 0 .. 3 that a random word chooses. */
 KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 {
     uint32_t order = 0xe4u, i; /* four fields of two bits */
@@ -432,11 +444,12 @@ KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
     return order >> 2 * j & 3u;
 }
 
-/* The rank of pixel (x, y) of a square image of 2^levels pixels a side, levels <= 16, along a Z-curve whose quadrants
-   are in an order that is random at each node. Give pixel p the samples rank * spp .. rank * spp + spp - 1 of one
-   sequence over the whole image, as in koksma_sobol_2d with the image's domain: neighbours share well-spread samples.
-   The orders of two domains are alike, because both follow a Z-curve: the pixels of a quadrant have consecutive ranks
-   in both. The two ranks of one pixel are independent of each other, and so are the samples that they index. */
+/* Returns the rank of pixel (x, y) of a square image of 2^levels pixels a side, levels <= 16, along a Z-curve whose
+   quadrants are in an order that is random at each node. Give pixel p the samples rank * spp .. rank * spp + spp - 1
+   of one sequence over the whole image, as in koksma_sobol_2d with the image's domain: neighbours share well-spread
+   samples. The orders of two domains are alike, because both follow a Z-curve: the pixels of a quadrant have
+   consecutive ranks in both. The two ranks of one pixel are independent of each other, and so are the samples that
+   they index. */
 KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t y, int levels)
 {
     uint32_t rank = 0, path = 1;

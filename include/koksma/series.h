@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A measure as a function of the number of points: values over sets, the prefixes of a sequence, the slope on
- * logarithmic axes, and the exponents that theory gives.
+ * A measure as a function of the number of points: statistics over sets, values of the prefixes of a sequence, the
+ * slope on logarithmic axes, and the exponents that are proven. Part of libkoksma.
  *
  *     size_t sizes[] = {64, 256, 1024};
  *     koksma_value values[3];
@@ -18,44 +18,47 @@
 extern "C" {
 #endif
 
-/* Values over sets (Welford 1962): all zero is none. */
+/* Running mean and variance of values (Welford 1962). All zero is the start: no values. */
 typedef struct koksma_tally {
     double count, mean;
-    double spread; /* the sum of squared deviations from the mean */
+    double spread; /* sum of squared deviations from the mean */
     double min, max;
 } koksma_tally;
 
+/* Adds a value. O(1). */
 KOKSMA_API void koksma_tally_add(koksma_tally *tally, double value);
 
-/* The sample's standard deviation, the mean's standard error, and half of the mean's 95 % interval by Student's t;
-   NaN for fewer than two values. */
+/* Return the standard deviation of the values, the standard error of their mean, and half the length of the mean's
+   95 % confidence interval (Student's t). NaN with fewer than two values. */
 KOKSMA_API double koksma_tally_sd(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_error(const koksma_tally *tally);
 KOKSMA_API double koksma_tally_interval(const koksma_tally *tally);
 
-/* The 97.5 % point of Student's t with the given degrees of freedom; NaN for 0. */
+/* Returns the 97.5 % quantile of Student's t distribution; NaN for 0 degrees of freedom. */
 KOKSMA_API double koksma_student_975(size_t degrees);
 
-/* log y = slope log x + intercept by least squares, with the error that the residuals give the slope. */
+/* The line log y = slope log x + intercept by least squares; slope_error is the standard error from the residuals. */
 typedef struct koksma_line {
-    size_t count; /* pairs that were used: those with x, y > 0 and finite */
+    size_t count; /* pairs used: those with x and y positive and finite */
     double slope, slope_error, intercept;
 } koksma_line;
 
-/* False with fewer than three pairs to be used, or all at one x. */
+/* Fits the line to n pairs. Returns false, and sets nothing, with fewer than three usable pairs or only one x. */
 KOKSMA_API bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *line);
 
-/* Evaluates a measure of the first sizes[i] points for each i < n_sizes; a size may be up to points->n. Errors: those
-   of koksma_evaluate; N for a size of 0 or beyond. */
+/* Evaluates a measure of several prefixes of a point set: values[i] is of the first sizes[i] points.
+     sizes   n_sizes numbers, 1 to points->n, in any order
+     values  receives n_sizes values
+   Errors: those of koksma_evaluate; N (a size out of range). */
 KOKSMA_API koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_points *points,
                                                   const size_t *sizes, size_t n_sizes, const koksma_run *run,
                                                   koksma_value *values);
 
-/* The exponent a of the measure's decay n^-a for a pattern with its parameters in dim dimensions, powers of log n
-   left out, where a theorem covers what the pattern claims; else NaN. */
+/* Returns the exponent a of the proven decay n^-a (up to powers of log n) of a measure for points of a pattern with
+   its parameters in dim dimensions. NaN where no theorem covers the pattern's claims. */
 KOKSMA_API double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim);
 
-/* The largest exponent that any points can have, powers of log n left out; NaN where none is known. */
+/* Returns the largest exponent a that any points can reach (up to powers of log n); NaN where it is not known. */
 KOKSMA_API double koksma_best_rate(const koksma_measure *measure, int dim);
 
 #ifdef __cplusplus

@@ -57,13 +57,17 @@ enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are of pairs of the first so many c
 /* The name of property i, NULL past the end. */
 KOKSMA_API const char *koksma_property_name_at(size_t i);
 
-/* Looks for all of them; the findings are freed by koksma_findings_fini. What would take too long for so many points
-   or dimensions is left out. run may be NULL. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,
+/* Looks for all properties in a point set; allocates findings. Properties that would take too long for so many
+   points or dimensions are left out. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,
    INTERRUPTED. */
 KOKSMA_API koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings);
+
+/* Frees the findings and zeroes the struct. findings may be NULL, or zeroed. */
 KOKSMA_API void koksma_findings_fini(koksma_findings *findings);
 
-/* The smallest distance of two points, on the torus or in the cube. Errors: ARGUMENT (no points, a coordinate outside
+/* Computes the smallest distance of two points.
+     torus  true: distances on the unit torus; false: in the cube
+   O(n log n) for few dimensions. Errors: ARGUMENT (no points, a coordinate outside
    [0,1]), N (one point, which has no distance), DIM, MEMORY, INTERRUPTED. */
 KOKSMA_API koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                                   double *distance);
