@@ -14,7 +14,7 @@
 #include "measures/measures.h"
 #include "patterns/patterns.h"
 #include "render/filters/filters.h"
-#include "render/integrators/integrators.h"
+#include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/sampler.h"
@@ -38,7 +38,7 @@ static void expect_name(const char *file, const char *name, const void *member, 
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    size_t n[7] = {0};
+    size_t n[8] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
                 koksma_pattern_find(koksma__pattern_##line.name));                                                   \
@@ -58,11 +58,14 @@ static void names_are_those_of_files(void **state)
                 koksma_filter_find(koksma__filter_##line.name));                                                     \
     n[3]++;
 #include "render/filters/filters.def"
-#define INTEGRATOR(line)                                                                                             \
-    expect_name(#line, koksma__integrator_##line.name, &koksma__integrator_##line,                                   \
-                koksma_integrator_find(koksma__integrator_##line.name));                                             \
+#define MATERIAL(line)                                                                                               \
+    expect_name(#line, koksma__bsdf_##line.kind.name, &koksma__bsdf_##line, koksma__bsdfs[n[4]]);                    \
     n[4]++;
-#include "render/integrators/integrators.def"
+#include "render/materials/materials.def"
+#define LIGHT(line)                                                                                                  \
+    expect_name(#line, koksma__light_##line.kind.name, &koksma__light_##line, koksma__light_types[n[7]]);            \
+    n[7]++;
+#include "render/lights/lights.def"
 #define ADAPTIVE(line)                                                                                               \
     expect_name(#line, koksma__adaptive_##line.name, &koksma__adaptive_##line,                                       \
                 koksma_adaptive_find(koksma__adaptive_##line.name));                                                 \
@@ -76,10 +79,11 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma_measure_at(n[1]));
     assert_null(koksma_warp_at(n[2]));
     assert_null(koksma_filter_at(n[3]));
-    assert_null(koksma_integrator_at(n[4]));
+    assert_null(koksma__bsdfs[n[4]]);
+    assert_null(koksma__light_types[n[7]]);
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
-    for (int i = 0; i < 7; i++) {
+    for (int i = 0; i < 8; i++) {
         assert_true(n[i] > 1);
     }
 }

@@ -17,6 +17,12 @@ def sections(site, kind, title, what, members):
     site.write(f"{kind}/index.html", page(title, what, body))
 
 
+def integrator_source(name):
+    """The file with an integrator's algorithm; "" for those that are a row of flags."""
+    path = f"src/render/integrators/{name.replace('-', '_')}.c"
+    return path if (ROOT / path).exists() else ""
+
+
 def small_tables(site):
     """Scenes, integrators, filters, adaptive methods, warps, materials, uses."""
     program, size = site.program, ["--size", "48x36" if site.program.quick else "160x120"]
@@ -31,7 +37,7 @@ def small_tables(site):
     sections(site, "scenes", "Scenes", "those that ship; docs/scenes.md says how to write one",
              [(n, r["what"], "", "", render(f"scene-{n}", n)) for r, n in of("scenes", "scene")])
     sections(site, "integrators", "Integrators", "how light is followed: koksma render --integrator",
-             [(n, r["what"], r["source"], f"src/render/integrators/integrate_{n.replace('-', '_')}.c",
+             [(n, r["what"], r["source"], integrator_source(n),
                render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])
     sections(site, "filters", "Pixel filters", "koksma render --filter",
              [(n, f"{r['what']}; radius {r['radius']}", r["source"], f"src/render/filters/filter_{n.replace('-', '_')}.c",

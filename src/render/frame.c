@@ -93,10 +93,10 @@ static void release_geometry(void *made)
 /* The scene's geometry, which all its pictures share: a study renders a mesh a thousand times. */
 static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *out)
 {
-    koksma__kept *kept = scene->kept;
+    koksma__scene_cache *cache = scene->cache;
     koksma_status status = KOKSMA_OK;
-    pthread_mutex_lock(&kept->lock);
-    if (!kept->made) {
+    pthread_mutex_lock(&cache->lock);
+    if (!cache->made) {
         koksma__geometry *geometry = malloc(sizeof *geometry);
         status = !geometry             ? koksma__fail_memory(sizeof *geometry)
                  : scene->n_placements ? koksma__accel_embree(scene, geometry)
@@ -104,14 +104,14 @@ static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *
         if (status) {
             free(geometry);
         } else {
-            kept->made = geometry;
-            kept->release = release_geometry;
+            cache->made = geometry;
+            cache->release = release_geometry;
         }
     }
     if (!status) {
-        *out = *(koksma__geometry *)kept->made;
+        *out = *(koksma__geometry *)cache->made;
     }
-    pthread_mutex_unlock(&kept->lock);
+    pthread_mutex_unlock(&cache->lock);
     return status;
 }
 
@@ -128,8 +128,9 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
-    if (!status && f->geometry.shapes && koksma__direct_can(f)) {
-        status = koksma__sight_open(&f->camera, f->geometry.shapes, options->width, options->height, &f->sight);
+    if (!status && f->geometry.shapes && koksma__pipeline_for(f)->culls) {
+        status = koksma__frustum_cull_open(&f->camera, f->geometry.shapes, options->width, options->height,
+                                           &f->frustum_cull);
     }
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
@@ -145,7 +146,7 @@ void koksma__frame_close(koksma__frame *f)
     if (f->sampler.release) {
         f->sampler.release(&f->sampler);
     }
-    koksma__sight_close(f->sight);
+    koksma__frustum_cull_close(f->frustum_cull);
     koksma__filter_close(f->filter);
     koksma__lights_fini(&f->lights);
     free(f->materials);

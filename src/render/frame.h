@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One picture in the making. Pixels go in groups that fill KOKSMA__BLOCK lanes through one of two pipelines:
- * lambert_lanes.c, all in lanes, for grey Lambert scenes under rectangles; and wavefront.c, for everything. Both turn
- * the samples of a group into values; film.c turns values into pixels.
+ * One picture in the making. Pixels go in groups that fill KOKSMA__BLOCK lanes through one of the pipelines of
+ * pipelines.def: lambert_lanes.c, all in lanes, for grey Lambert scenes under rectangles; wavefront.c, for
+ * everything. A pipeline turns the samples of a group into values; film.c turns values into pixels.
  */
 #ifndef KOKSMA_RENDER_FRAME_H
 #define KOKSMA_RENDER_FRAME_H
@@ -23,8 +23,8 @@ typedef struct koksma__frame {
     int depth;                             /* bounces at most */
     int channels;
     const koksma__batch_table *batch;
-    koksma__geometry geometry; /* the scene's own */
-    koksma__sight *sight;      /* NULL: all shapes are tried for every ray */
+    koksma__geometry geometry;          /* the scene's own */
+    koksma__frustum_cull *frustum_cull; /* NULL: all shapes are tried for every ray */
     koksma__use_list uses;
     koksma__sampler sampler;
     koksma__batch_camera camera;
@@ -53,14 +53,19 @@ typedef struct koksma__values {
 } koksma__values;
 
 typedef struct koksma__pipeline {
-    /* A task's room. Errors: MEMORY. */
-    koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **room);
-    void (*close)(void *room);
+    const char *name;
+    int preference; /* among those that take a picture */
+    /* Whether it can render this picture. Called before and after the frame's geometry is there. */
+    bool (*takes)(const koksma__frame *frame);
+    bool culls; /* it wants frame->frustum_cull */
+    /* A task's scratch. Errors: MEMORY. */
+    koksma_status (*open)(const koksma__frame *frame, size_t capacity, void **scratch);
+    void (*close)(void *scratch);
     /* Whether no ray of the group can meet anything, wherever in the pixels its samples are: then values has their
        colours, and nothing needs to be drawn or traced. NULL: it is never known. */
-    bool (*idle)(const koksma__frame *frame, void *room, const koksma__group *group, koksma__values *values);
+    bool (*idle)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
     /* Fills values (film and weights are there). Errors: the sampler's, MEMORY. */
-    koksma_status (*trace)(const koksma__frame *frame, void *room, const koksma__group *group,
+    koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,
                            koksma__values *values);
 } koksma__pipeline;
 
@@ -74,10 +79,13 @@ void koksma__frame_close(koksma__frame *frame);
 /* What samples will be spent on. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
 
-extern const koksma__pipeline koksma__direct_pipeline, koksma__tracer_pipeline;
+/* All pipelines, then NULL; the one that renders this picture (wavefront takes all). */
+extern const koksma__pipeline *const koksma__pipelines[];
+const koksma__pipeline *koksma__pipeline_for(const koksma__frame *frame);
 
-/* Whether lambert_lanes.c can draw this. */
-bool koksma__direct_can(const koksma__frame *frame);
+#define PIPELINE(name) extern const koksma__pipeline koksma__pipeline_##name;
+#include "render/pipelines/pipelines.def"
+#undef PIPELINE
 
 /* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
@@ -85,21 +93,21 @@ void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, ko
 /* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own place is
    added. The pairs are padded with copies to whole lanes. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
-                                 koksma__sample_room *room, float *pairs);
+                                 koksma__sample_scratch *scratch, float *pairs);
 
 /* What a task needs to draw its samples and to know what they come to. */
-typedef struct koksma__workroom {
+typedef struct koksma__task_scratch {
     const koksma__pipeline *pipeline;
-    void *own; /* the pipeline's */
-    koksma__sample_room draw;
+    void *pipeline_scratch;
+    koksma__sample_scratch draw;
     koksma__values values;
-} koksma__workroom;
+} koksma__task_scratch;
 
 /* For groups of `capacity` samples; all_layers: albedo, normal and depth too. fini also after a failure. Errors:
  * MEMORY. */
-koksma_status koksma__workroom_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
-                                    bool all_layers, koksma__workroom *room);
-void koksma__workroom_fini(koksma__workroom *room);
+koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                        bool all_layers, koksma__task_scratch *scratch);
+void koksma__task_scratch_fini(koksma__task_scratch *scratch);
 
 /* samples, rounded up to whole lanes */
 static inline size_t koksma__whole_lanes(size_t samples)

@@ -38,7 +38,7 @@ typedef struct bound {
     double a, b, c, aa, ab, bb; /* of a sphere: a + b x + c y + aa x^2 + ab x y + bb y^2 */
 } bound;
 
-struct koksma__sight {
+struct koksma__frustum_cull {
     double widen; /* the film's rectangles, by this */
     size_t n;
     bound bounds[];
@@ -135,28 +135,28 @@ static bound bound_sphere(const koksma__batch_camera *camera, const koksma__batc
                    .bb = form(e, wide * wide, y, y)};
 }
 
-koksma_status koksma__sight_open(const koksma__batch_camera *camera, const koksma__batch_shapes *shapes, int width,
-                                 int height, koksma__sight **out)
+koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, const koksma__batch_shapes *shapes,
+                                        int width, int height, koksma__frustum_cull **out)
 {
-    const size_t size = sizeof(koksma__sight) + shapes->n * sizeof(bound);
-    koksma__sight *sight = *out = malloc(size);
-    if (!sight) {
+    const size_t size = sizeof(koksma__frustum_cull) + shapes->n * sizeof(bound);
+    koksma__frustum_cull *cull = *out = malloc(size);
+    if (!cull) {
         return koksma__fail_memory(size);
     }
     const double x = length1(camera->step_x), y = length1(camera->step_y);
     const double longest = length1(camera->base) + (width + 2) * x + (height + 2) * y;
-    sight->n = shapes->n;
-    sight->widen = 0x1p-10 + SPARE * UNIT * longest / (x < y ? x : y);
+    cull->n = shapes->n;
+    cull->widen = 0x1p-10 + SPARE * UNIT * longest / (x < y ? x : y);
     for (size_t i = 0; i < shapes->n; i++) {
         const koksma__batch_shape *s = &shapes->shapes[i];
-        sight->bounds[i] = s->kind == KOKSMA__SHAPE_SPHERE ? bound_sphere(camera, s) : bound_flat(camera, s, longest);
+        cull->bounds[i] = s->kind == KOKSMA__SHAPE_SPHERE ? bound_sphere(camera, s) : bound_flat(camera, s, longest);
     }
     return KOKSMA_OK;
 }
 
-void koksma__sight_close(koksma__sight *sight)
+void koksma__frustum_cull_close(koksma__frustum_cull *cull)
 {
-    free(sight);
+    free(cull);
 }
 
 /* The rectangle of the film: its middle and half its sides. */
@@ -184,13 +184,14 @@ static bool is_out(const bound *b, part p)
     return false;
 }
 
-size_t koksma__sight_shapes(const koksma__sight *sight, const double x[2], const double y[2], size_t *seen)
+size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
+                                   size_t *seen)
 {
-    const part p = {(x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (x[1] - x[0]) / 2 + sight->widen,
-                    (y[1] - y[0]) / 2 + sight->widen};
+    const part p = {(x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (x[1] - x[0]) / 2 + cull->widen,
+                    (y[1] - y[0]) / 2 + cull->widen};
     size_t n = 0;
-    for (size_t i = 0; i < sight->n; i++) {
-        if (sight->bounds[i].sees_all || !is_out(&sight->bounds[i], p)) {
+    for (size_t i = 0; i < cull->n; i++) {
+        if (cull->bounds[i].sees_all || !is_out(&cull->bounds[i], p)) {
             seen[n++] = i;
         }
     }

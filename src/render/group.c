@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pixels in groups, and the room that a task of them needs. */
+/* Pixels in groups, and the scratch memory of a task. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,14 +21,14 @@ void koksma__group_fill(const koksma__frame *f, size_t first, size_t end, koksma
 }
 
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
-                                 koksma__sample_room *room, float *pairs)
+                                 koksma__sample_scratch *scratch, float *pairs)
 {
     const size_t width = (size_t)frame->options->width, n = group->start[group->count];
     koksma_status status = KOKSMA_OK;
     for (size_t p = 0; !status && p < group->count; p++) {
         const size_t pixel = group->first + p;
         const float offset[2] = {on_film ? (float)(pixel % width) : 0, on_film ? (float)(pixel / width) : 0};
-        status = frame->sampler.draw(&frame->sampler, pixel, use, offset, room, pairs + 2 * group->start[p]);
+        status = frame->sampler.draw(&frame->sampler, pixel, use, offset, scratch, pairs + 2 * group->start[p]);
     }
     for (size_t i = n; n && i < koksma__whole_lanes(n); i++) {
         memcpy(pairs + 2 * i, pairs + 2 * (n - 1), 2 * sizeof *pairs);
@@ -64,20 +64,20 @@ static void values_fini(koksma__values *v)
     free(v->depth);
 }
 
-koksma_status koksma__workroom_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
-                                    bool all_layers, koksma__workroom *room)
+koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,
+                                        bool all_layers, koksma__task_scratch *scratch)
 {
-    *room = (koksma__workroom){.pipeline = pipeline};
-    koksma_status status = values_init(&room->values, capacity, frame->channels, all_layers);
-    status = status ? status : koksma__sample_room_init(&room->draw, &frame->sampler);
-    return status ? status : pipeline->open(frame, capacity, &room->own);
+    *scratch = (koksma__task_scratch){.pipeline = pipeline};
+    koksma_status status = values_init(&scratch->values, capacity, frame->channels, all_layers);
+    status = status ? status : koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
+    return status ? status : pipeline->open(frame, capacity, &scratch->pipeline_scratch);
 }
 
-void koksma__workroom_fini(koksma__workroom *room)
+void koksma__task_scratch_fini(koksma__task_scratch *scratch)
 {
-    koksma__sample_room_fini(&room->draw);
-    if (room->own) {
-        room->pipeline->close(room->own);
+    koksma__sample_scratch_fini(&scratch->draw);
+    if (scratch->pipeline_scratch) {
+        scratch->pipeline->close(scratch->pipeline_scratch);
     }
-    values_fini(&room->values);
+    values_fini(&scratch->values);
 }

@@ -33,17 +33,17 @@ typedef struct job {
 
 /* ---- Groups ----------------------------------------------------------------------------------------------- */
 
-static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__workroom *r)
+static koksma_status render_group(job *j, size_t task, const koksma__group *group, koksma__task_scratch *r)
 {
     const koksma__frame *f = j->frame;
     koksma_status status = KOKSMA_OK;
-    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->own, group, &r->values);
+    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->pipeline_scratch, group, &r->values);
     if (!idle) {
         status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
     }
     if (!status && !idle && group->start[group->count]) {
         koksma__film_place(f, group, true, &r->values);
-        status = j->pipeline->trace(f, r->own, group, &r->values);
+        status = j->pipeline->trace(f, r->pipeline_scratch, group, &r->values);
     }
     if (!status) {
         koksma__film_add(f, &j->film, task, group, &r->values);
@@ -78,9 +78,9 @@ static koksma_status render_rows(void *context, size_t task)
     const int rows = left < j->rows_a_task ? left : j->rows_a_task;
     const size_t width = (size_t)f->options->width;
     size_t samples = 0; /* since the last look */
-    koksma__workroom r;
+    koksma__task_scratch r;
     koksma__group group;
-    koksma_status status = koksma__workroom_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
+    koksma_status status = koksma__task_scratch_init(f, j->pipeline, j->capacity, j->film.all_layers, &r);
     status = status ? status : koksma__film_open_task(f, &j->film, task, first_row, rows);
     for (int y = first_row; y < first_row + rows; y++) {
         const size_t end = ((size_t)y + 1) * width;
@@ -99,7 +99,7 @@ static koksma_status render_rows(void *context, size_t task)
     }
     atomic_fetch_add(&j->rays, r.values.rays);
     atomic_fetch_add(&j->tasks_done, 1);
-    koksma__workroom_fini(&r);
+    koksma__task_scratch_fini(&r);
     return status;
 }
 
@@ -116,7 +116,7 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->caller = pthread_self();
     f->sampler.run = run && run->keep_going ? &inner : NULL;
     j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
-    j->pipeline = koksma__direct_can(f) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
+    j->pipeline = koksma__pipeline_for(f);
     koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
     f->sampler.run = NULL;

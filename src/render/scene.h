@@ -78,11 +78,11 @@ typedef struct koksma__camera {
 
 /* What the renderer makes of a scene that is the same for all pictures of it: made under the lock by the first that
    needs it, released with the scene. */
-typedef struct koksma__kept {
+typedef struct koksma__scene_cache {
     pthread_mutex_t lock;
     void *made; /* or NULL */
     void (*release)(void *made);
-} koksma__kept;
+} koksma__scene_cache;
 
 struct koksma_scene {
     uint64_t hash;
@@ -102,7 +102,7 @@ struct koksma_scene {
     bool moves;            /* something depends on time */
     bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */
     koksma__unread unread; /* of a bare mesh file */
-    koksma__kept *kept;
+    koksma__scene_cache *cache;
 };
 
 /* ---- Building one: scene_build.c ------------------------------------------------------------------------------ */

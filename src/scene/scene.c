@@ -23,14 +23,14 @@ const char *koksma_scene_name_at(size_t i)
 static koksma_status new_scene(koksma_scene **out)
 {
     koksma_scene *scene = *out = calloc(1, sizeof *scene);
-    koksma__kept *kept = calloc(1, sizeof *kept);
-    if (!scene || !kept || pthread_mutex_init(&kept->lock, NULL)) {
+    koksma__scene_cache *cache = calloc(1, sizeof *cache);
+    if (!scene || !cache || pthread_mutex_init(&cache->lock, NULL)) {
         free(scene);
-        free(kept);
+        free(cache);
         *out = NULL;
-        return koksma__fail_memory(sizeof *scene + sizeof *kept);
+        return koksma__fail_memory(sizeof *scene + sizeof *cache);
     }
-    scene->kept = kept;
+    scene->cache = cache;
     return KOKSMA_OK;
 }
 
@@ -117,11 +117,11 @@ void koksma__scene_fini(koksma_scene *scene)
 void koksma_scene_close(koksma_scene *scene)
 {
     if (scene) {
-        if (scene->kept->made) {
-            scene->kept->release(scene->kept->made);
+        if (scene->cache->made) {
+            scene->cache->release(scene->cache->made);
         }
-        pthread_mutex_destroy(&scene->kept->lock);
-        free(scene->kept);
+        pthread_mutex_destroy(&scene->cache->lock);
+        free(scene->cache);
         koksma__scene_fini(scene);
         free(scene);
     }

@@ -17,12 +17,12 @@ static void film_of_ramp(const koksma_scene *scene, const koksma_render_options 
     koksma__frame frame;
     koksma__film film;
     koksma_layers layers = {0};
-    koksma__workroom room;
+    koksma__task_scratch room;
     koksma__group group;
     assert_ok(koksma__frame_open(scene, options, NULL, &frame));
     assert_ok(koksma__film_init(&frame, false, 1, &layers, &film));
-    assert_ok(koksma__workroom_init(&frame, &koksma__tracer_pipeline,
-                                    koksma__whole_lanes((size_t)options->spp + KOKSMA__BLOCK), false, &room));
+    assert_ok(koksma__task_scratch_init(&frame, &koksma__pipeline_wavefront,
+                                        koksma__whole_lanes((size_t)options->spp + KOKSMA__BLOCK), false, &room));
     assert_ok(koksma__film_open_task(&frame, &film, 0, 0, SIDE));
     for (size_t pixel = 0; pixel < SIDE * SIDE; pixel += group.count) {
         koksma__group_fill(&frame, pixel, pixel / SIDE * SIDE + SIDE, &group);
@@ -36,7 +36,7 @@ static void film_of_ramp(const koksma_scene *scene, const koksma_render_options 
     koksma__film_close_task(&frame, &film, 0);
     assert_ok(koksma__film_finish(&frame, &film, true));
     memcpy(pixels, layers.image.pixels, SIDE * SIDE * sizeof *pixels);
-    koksma__workroom_fini(&room);
+    koksma__task_scratch_fini(&room);
     koksma__film_fini(&film);
     koksma__frame_close(&frame);
     koksma_layers_fini(&layers);

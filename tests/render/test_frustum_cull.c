@@ -127,7 +127,7 @@ typedef struct tally {
     int hidden, missed;
 } tally;
 
-static void check_part(const koksma__sight *sight, const koksma__batch_camera *camera,
+static void check_part(const koksma__frustum_cull *sight, const koksma__batch_camera *camera,
                        const koksma__batch_shapes *shapes, tally *sum)
 {
     const koksma__batch_table *batch = koksma__batch();
@@ -141,7 +141,7 @@ static void check_part(const koksma__sight *sight, const koksma__batch_camera *c
     bool met[SHAPES] = {false};
     make_places(x, y, xy);
     batch->camera(camera, xy, KOKSMA__BLOCK, &rays);
-    const size_t n = koksma__sight_shapes(sight, x, y, seen);
+    const size_t n = koksma__frustum_cull_shapes(sight, x, y, seen);
     for (size_t i = 0; i < n; i++) {
         list[i] = shapes->shapes[seen[i]];
     }
@@ -168,15 +168,15 @@ static void try_worlds(double offset, double height, tally *sum)
     for (int round = 0; round < ROUNDS; round++) {
         koksma__batch_shape list[SHAPES];
         koksma__batch_camera camera;
-        koksma__sight *sight;
+        koksma__frustum_cull *sight;
         make_shapes(offset, list);
         make_camera(list, offset, height, &camera);
         const koksma__batch_shapes shapes = {SHAPES, list};
-        assert_ok(koksma__sight_open(&camera, &shapes, SIDE, SIDE, &sight));
+        assert_ok(koksma__frustum_cull_open(&camera, &shapes, SIDE, SIDE, &sight));
         for (int i = 0; i < PARTS; i++) {
             check_part(sight, &camera, &shapes, sum);
         }
-        koksma__sight_close(sight);
+        koksma__frustum_cull_close(sight);
     }
 }
 

@@ -23,22 +23,22 @@ static koksma_render_options options_for(const char *patterns, int spp)
 }
 
 /* Every use's numbers are drawn in the order of `uses`; two a sample. */
-static void draw(const koksma__sampler *sampler, koksma__sample_room *room, uint64_t pixel, uint32_t use,
+static void draw(const koksma__sampler *sampler, koksma__sample_scratch *room, uint64_t pixel, uint32_t use,
                  float *pairs)
 {
     static const float nowhere[2] = {0, 0};
     assert_ok(sampler->draw(sampler, pixel, use, nowhere, room, pairs));
 }
 
-static void open(const koksma_render_options *options, koksma__sampler *sampler, koksma__sample_room *room)
+static void open(const koksma_render_options *options, koksma__sampler *sampler, koksma__sample_scratch *room)
 {
     assert_ok(koksma__pixel_samples(options, &all_uses, sampler));
-    assert_ok(koksma__sample_room_init(room, sampler));
+    assert_ok(koksma__sample_scratch_init(room, sampler));
 }
 
-static void close_all(koksma__sampler *sampler, koksma__sample_room *room)
+static void close_all(koksma__sampler *sampler, koksma__sample_scratch *room)
 {
-    koksma__sample_room_fini(room);
+    koksma__sample_scratch_fini(room);
     sampler->release(sampler);
 }
 
@@ -80,7 +80,7 @@ static void samples_are_the_points_of_one_set(void **state)
             for (int order = 0; order < 2; order++) {
                 const koksma_render_options options = options_for(text[order], n);
                 koksma__sampler sampler;
-                koksma__sample_room room;
+                koksma__sample_scratch room;
                 float place[128], time[128];
                 open(&options, &sampler, &room);
                 for (uint64_t pixel = 0; pixel < 12; pixel++) {
@@ -152,7 +152,7 @@ static void stratification_in_all_dimensions_is_kept(void **state)
         for (int pairing = 0; pairing < 2; pairing++) {
             koksma_render_options options = options_for(cases[k].text, 27);
             koksma__sampler sampler;
-            koksma__sample_room room;
+            koksma__sample_scratch room;
             double xyz[27][3];
             float two[54], one[54];
             options.pairing = pairing ? KOKSMA_PAIRING_ALIGNED : KOKSMA_PAIRING_SHUFFLED;
@@ -181,7 +181,7 @@ static void groups_are_shuffled_as_a_whole(void **state)
     (void)state;
     koksma_render_options options = options_for("pixel+time=hammersley;lens+light=hammersley", N);
     koksma__sampler sampler;
-    koksma__sample_room room;
+    koksma__sample_scratch room;
     float place[2 * N], lens[2][2 * N], light[2][2 * N];
     open(&options, &sampler, &room);
     draw(&sampler, &room, 0, KOKSMA__USE_PIXEL, place);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What integrators tell the pipelines to do at a vertex. The table of them is integrators.c. */
 #ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
 #define KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
 
@@ -6,14 +7,14 @@
 
 struct koksma__frame;
 
-/* What an integrator does at a vertex; wavefront.c does it. */
 typedef struct koksma__integrator_flags {
-    unsigned followed; /* lobes whose ways are followed further; the others see luminaires only */
-    bool areas;        /* luminaires are sampled all over; else from their centres */
+    unsigned followed; /* lobes whose directions are followed further; the others see lights only */
+    bool areas;        /* lights are sampled all over; else from their centres */
     bool shadows;
-    bool ambient;  /* the scene's ambient stands for light between diffuse surfaces */
-    bool branches; /* glass sends two rays */
-    bool roulette; /* dim paths end at random */
+    bool ambient;   /* the scene's ambient stands for light between diffuse surfaces */
+    bool branches;  /* glass sends two rays */
+    bool roulette;  /* dim paths end at random */
+    bool is_biased; /* converges to something else than its formula, even without its depth limit */
     /* NULL, or: what is made before the picture, kept in frame->cache; and what it says of the light that diffuse
        surfaces send to s at a time, as irradiance / pi, added to out. */
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
@@ -21,8 +22,10 @@ typedef struct koksma__integrator_flags {
     koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
 } koksma__integrator_flags;
 
-#define INTEGRATOR(name) extern const koksma_integrator koksma__integrator_##name;
-#include "render/integrators/integrators.def"
-#undef INTEGRATOR
+/* irradiance_cache.c: the records that are made before the picture; NULL frame->cache: there are none. */
+koksma_status koksma__irradiance_cache_open(struct koksma__frame *frame, const koksma_run *run);
+void koksma__irradiance_cache_close(struct koksma__frame *frame);
+koksma_status koksma__irradiance_cache_indirect(const struct koksma__frame *frame, const koksma__surface *s,
+                                                float time, float out[3]);
 
 #endif

@@ -11,17 +11,17 @@
 #include "core/status.h"
 #include "render/frame.h"
 
-typedef struct room {
-    koksma__sample_room draw;
+typedef struct scratch {
+    koksma__sample_scratch draw;
     float *places; /* one array a light */
     size_t capacity;
     /* The shapes that a group may see, and their numbers; of which group. */
     koksma__batch_shapes shapes;
     koksma__batch_shape *list;
     size_t *seen, first, count;
-} room;
+} scratch;
 
-bool koksma__direct_can(const koksma__frame *frame)
+static bool takes(const koksma__frame *frame)
 {
     const koksma_scene *scene = frame->scene;
     bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && frame->flags->areas &&
@@ -35,11 +35,11 @@ bool koksma__direct_can(const koksma__frame *frame)
     return can;
 }
 
-static void close_room(void *opened)
+static void close_scratch(void *opened)
 {
-    room *r = opened;
+    scratch *r = opened;
     if (r) {
-        koksma__sample_room_fini(&r->draw);
+        koksma__sample_scratch_fini(&r->draw);
         free(r->places);
         free(r->list);
         free(r->seen);
@@ -47,27 +47,27 @@ static void close_room(void *opened)
     }
 }
 
-static koksma_status open_room(const koksma__frame *frame, size_t capacity, void **out)
+static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, void **out)
 {
-    room *r = calloc(1, sizeof *r);
+    scratch *r = calloc(1, sizeof *r);
     *out = r;
     if (!r) {
         return koksma__fail_memory(sizeof *r);
     }
     r->capacity = capacity;
     r->places = malloc(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
-    koksma_status status = koksma__sample_room_init(&r->draw, &frame->sampler);
+    koksma_status status = koksma__sample_scratch_init(&r->draw, &frame->sampler);
     if (!status && !r->places) {
         status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
     }
-    if (!status && frame->sight) {
+    if (!status && frame->frustum_cull) {
         const size_t n = frame->geometry.shapes->n + 1;
         r->list = malloc(n * sizeof *r->list);
         r->seen = malloc(n * sizeof *r->seen);
         status = r->list && r->seen ? KOKSMA_OK : koksma__fail_memory(n * sizeof *r->list);
     }
     if (status) {
-        close_room(r);
+        close_scratch(r);
         *out = NULL;
     }
     return status;
@@ -76,7 +76,7 @@ static koksma_status open_room(const koksma__frame *frame, size_t capacity, void
 /* ---- What a group sees ------------------------------------------------------------------------------------ */
 
 /* The shapes in sight of the group's pixels, as far as the filter moves their samples. */
-static void look(const koksma__frame *f, room *r, const koksma__group *group)
+static void look(const koksma__frame *f, scratch *r, const koksma__group *group)
 {
     if (r->count && r->first == group->first && r->count == group->count) {
         return;
@@ -88,7 +88,7 @@ static void look(const koksma__frame *f, room *r, const koksma__group *group)
     const size_t end_column = row + 1 == end_row ? last % width + 1 : width;
     const double x[2] = {(double)column - reach, (double)end_column + reach};
     const double y[2] = {(double)row - reach, (double)end_row + reach};
-    const size_t n = koksma__sight_shapes(f->sight, x, y, r->seen);
+    const size_t n = koksma__frustum_cull_shapes(f->frustum_cull, x, y, r->seen);
     bool same = n == r->shapes.n;
     for (size_t i = 0; i < n; i++) {
         const koksma__batch_shape *shape = &f->geometry.shapes->shapes[r->seen[i]];
@@ -110,9 +110,9 @@ static float colour_of_nothing(const koksma__frame *f)
 
 static bool idle(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
 {
-    room *r = opened;
+    scratch *r = opened;
     const size_t n = group->start[group->count];
-    if (!f->sight || f->filter || values->albedo || !n) {
+    if (!f->frustum_cull || f->filter || values->albedo || !n) {
         return false;
     }
     look(f, r, group);
@@ -130,7 +130,7 @@ static bool idle(const koksma__frame *f, void *opened, const koksma__group *grou
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
 
 /* The samples of the luminaires are drawn when the first ray of the group hits something. */
-static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, room *r)
+static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, scratch *r)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t l = 0; !status && l < f->lights.n; l++) {
@@ -158,7 +158,7 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
 /* Samples start .. start + n of the group, which hit something in `hits`; the last `copies` of them only fill lanes.
  */
 static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
-                        int n, int copies, const room *r, koksma__values *values)
+                        int n, int copies, const scratch *r, koksma__values *values)
 {
     KOKSMA__LANES(float, albedo);
     KOKSMA__LANES(float, sum);
@@ -186,21 +186,21 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
 
 static koksma_status trace(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
 {
-    room *r = opened;
+    scratch *r = opened;
     const size_t n_samples = group->start[group->count], total = koksma__whole_lanes(n_samples);
     bool drawn = false;
     koksma__rays rays;
     koksma__hits hits;
     koksma_status status = KOKSMA_OK;
     values->rays += n_samples;
-    if (f->sight) {
+    if (f->frustum_cull) {
         look(f, r, group);
     }
     for (size_t start = 0; !status && start < total; start += KOKSMA__BLOCK) {
         const int n = (int)(total - start < KOKSMA__BLOCK ? total - start : KOKSMA__BLOCK);
         f->batch->camera(&f->camera, values->film + 2 * start, n, &rays);
-        const int hit = f->sight ? f->batch->closest(&r->shapes, &rays, NULL, n, &hits)
-                                 : f->geometry.closest(&f->geometry, &rays, NULL, n, &hits);
+        const int hit = f->frustum_cull ? f->batch->closest(&r->shapes, &rays, NULL, n, &hits)
+                                        : f->geometry.closest(&f->geometry, &rays, NULL, n, &hits);
         if (!hit && !values->albedo) {
             for (int i = 0; i < n; i++) {
                 values->rgb[start + (size_t)i] = colour_of_nothing(f);
@@ -219,5 +219,11 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
     return status;
 }
 
-const koksma__pipeline koksma__direct_pipeline = {
-    .open = open_room, .close = close_room, .idle = idle, .trace = trace};
+const koksma__pipeline koksma__pipeline_lambert_lanes = {.name = "lambert-lanes",
+                                                         .preference = 1,
+                                                         .takes = takes,
+                                                         .culls = true,
+                                                         .open = open_scratch,
+                                                         .close = close_scratch,
+                                                         .idle = idle,
+                                                         .trace = trace};

@@ -43,17 +43,17 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
     const float *lens = NULL, *times = NULL;
     koksma_status status = KOKSMA_OK;
     if (camera->lens_radius > 0) {
-        status = koksma__tracer_draw(trace, KOKSMA__USE_LENS, &lens);
+        status = koksma__wavefront_draw(trace, KOKSMA__USE_LENS, &lens);
     }
     if (!status && frame->scene->moves) {
-        status = koksma__tracer_draw(trace, KOKSMA__USE_TIME, &times);
+        status = koksma__wavefront_draw(trace, KOKSMA__USE_TIME, &times);
     }
     const float open = (float)camera->shutter[0], interval = (float)(camera->shutter[1] - camera->shutter[0]);
     for (size_t i = first; !status && i < end; i++) {
         koksma__path path = {.from = -1, .sample = (uint32_t)i};
         aim(frame, values->film + 2 * i, lens ? lens + 2 * i : NULL, times ? open + interval * times[2 * i] : open,
             &path);
-        status = koksma__tracer_push(&trace->scratch->queues[0], &path);
+        status = koksma__wavefront_push(&trace->scratch->queues[0], &path);
     }
     return status;
 }
@@ -180,7 +180,7 @@ static koksma_status go_on(const koksma__trace *trace, const koksma__path *path,
         next.n[k] = s->n[k];
         next.beta[k] = path->beta[k] * chosen->weight[k] * scale;
     }
-    return koksma__max3(next.beta) > 0 ? koksma__tracer_push(trace->next, &next) : KOKSMA_OK;
+    return koksma__max3(next.beta) > 0 ? koksma__wavefront_push(trace->next, &next) : KOKSMA_OK;
 }
 
 static koksma_status branch(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
@@ -209,8 +209,8 @@ static koksma_status scatter(const koksma__trace *trace, const koksma__path *pat
         s->material->bsdf->split(s, &directions[0], &directions[1]);
         return branch(trace, path, s, directions);
     }
-    koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE, &us);
-    status = status ? status : koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &choices);
+    koksma_status status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE, &us);
+    status = status ? status : koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &choices);
     if (status ||
         !s->material->bsdf->sample(s, lobes, us + 2 * path->sample, choices[2 * path->sample], &directions[0])) {
         return status;
@@ -224,7 +224,7 @@ static koksma_status scatter(const koksma__trace *trace, const koksma__path *pat
         const float weight = koksma__max3(beta);
         if (weight < 1) { /* a path that has lost nothing goes on: ending it would only add variance */
             survival_probability = weight;
-            status = koksma__tracer_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
+            status = koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
             if (status || !(ends[2 * path->sample] < survival_probability)) {
                 return status;
             }
@@ -286,7 +286,7 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
             note_first(values, path->sample, path, &hits, i, v.lit[i] ? &v.surfaces[i] : NULL);
         }
     }
-    koksma_status status = koksma__tracer_light(trace, &v, values);
+    koksma_status status = koksma__wavefront_light(trace, &v, values);
     for (int i = 0; !status && i < n; i++) {
         if (v.lit[i]) {
             status = scatter(trace, &paths[i], &v.surfaces[i]);
@@ -308,7 +308,7 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
     }
 }
 
-koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values)
+koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;
     koksma_status status = KOKSMA_OK;
@@ -333,7 +333,7 @@ static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t en
     trace->scratch->queues[0].n = 0;
     trace->bounce = 0;
     const koksma_status status = start_paths(trace, values, first, end);
-    return status ? status : koksma__tracer_follow(trace, values);
+    return status ? status : koksma__wavefront_follow(trace, values);
 }
 
 static koksma_status trace_group(const koksma__frame *frame, void *opened, const koksma__group *group,
@@ -354,5 +354,14 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
     return status;
 }
 
-const koksma__pipeline koksma__tracer_pipeline = {
-    .open = koksma__tracer_open, .close = koksma__tracer_close, .trace = trace_group};
+static bool takes(const koksma__frame *frame)
+{
+    (void)frame;
+    return true;
+}
+
+const koksma__pipeline koksma__pipeline_wavefront = {.name = "wavefront",
+                                                     .takes = takes,
+                                                     .open = koksma__wavefront_open,
+                                                     .close = koksma__wavefront_close,
+                                                     .trace = trace_group};

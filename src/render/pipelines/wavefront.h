@@ -31,7 +31,7 @@ typedef struct koksma__drawn {
 } koksma__drawn;
 
 typedef struct koksma__wavefront_scratch {
-    koksma__sample_room draw;
+    koksma__sample_scratch draw;
     koksma__drawn *drawn;
     size_t n_drawn, capacity;
     koksma__queue queues[2];
@@ -56,20 +56,20 @@ typedef struct koksma__vertices {
     int n, whole;
 } koksma__vertices;
 
-koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, void **out);
-void koksma__tracer_close(void *opened);
+koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out);
+void koksma__wavefront_close(void *opened);
 
-koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path);
+koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path);
 
 /* The pairs of a use: pair i is sample i's. Errors: the sampler's, ARGUMENT (too many), MEMORY. */
-koksma_status koksma__tracer_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
+koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs);
 
 /* Follows the paths that are in the first queue, at trace->bounce, to their ends; their light is added to the sums of
    their samples. */
-koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values);
+koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values);
 
 /* Adds the light of the luminaires at the vertices to the sums of their samples. */
-koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
+koksma_status koksma__wavefront_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
 
 /* The probability that light `light` is among those that a vertex at p with normal n samples. */
 float koksma__light_probability(const koksma__frame *frame, const float p[3], const float n[3], int light);

@@ -2,7 +2,7 @@
 /*
  * Light from luminaires at a block of vertices: a place on each, or on one that is chosen, and a shadow ray there.
  * The choice (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996) is in proportion to what each luminaire
- * would give without shadows, so one shadow ray a vertex is enough for a room of them; the estimate is divided by the
+ * would give without shadows, so one shadow ray a vertex is enough for many of them; the estimate is divided by the
  * chance. Light that a followed lobe would meet by itself too is weighed by the power heuristic.
  */
 #include <string.h>
@@ -148,7 +148,7 @@ static koksma_status sample_all(const koksma__trace *trace, const koksma__vertic
             chosen[i] = (choice){(int)l, 1};
         }
         if (trace->frame->flags->areas) {
-            status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT + (uint32_t)l, &us);
+            status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT + (uint32_t)l, &us);
         }
         if (!status) {
             add_samples(trace, v, chosen, us, values);
@@ -157,7 +157,7 @@ static koksma_status sample_all(const koksma__trace *trace, const koksma__vertic
     return status;
 }
 
-koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values)
+koksma_status koksma__wavefront_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
     const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
@@ -173,9 +173,9 @@ koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__ver
     if (frame->options->lights == KOKSMA_LIGHTS_ALL) {
         return sample_all(trace, v, base, values);
     }
-    koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices);
+    koksma_status status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices);
     if (!status && frame->flags->areas) {
-        status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
+        status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT, &us);
     }
     for (int i = 0; !status && i < v->n; i++) {
         chosen[i] = v->lit[i] ? choose(frame, &v->surfaces[i], choices[2 * v->paths[i].sample]) : (choice){-1, 0};

@@ -6,7 +6,7 @@
 #include "core/status.h"
 #include "render/pipelines/wavefront.h"
 
-void koksma__tracer_close(void *opened)
+void koksma__wavefront_close(void *opened)
 {
     koksma__wavefront_scratch *scratch = opened;
     if (!scratch) {
@@ -15,7 +15,7 @@ void koksma__tracer_close(void *opened)
     for (size_t i = 0; i < scratch->n_drawn; i++) {
         free(scratch->drawn[i].pairs);
     }
-    koksma__sample_room_fini(&scratch->draw);
+    koksma__sample_scratch_fini(&scratch->draw);
     free(scratch->drawn);
     free(scratch->queues[0].paths);
     free(scratch->queues[1].paths);
@@ -23,7 +23,7 @@ void koksma__tracer_close(void *opened)
     free(scratch);
 }
 
-koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, void **out)
+koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out)
 {
     koksma__wavefront_scratch *scratch = calloc(1, sizeof *scratch);
     *out = scratch;
@@ -32,18 +32,18 @@ koksma_status koksma__tracer_open(const koksma__frame *frame, size_t capacity, v
     }
     scratch->capacity = capacity;
     scratch->sums = malloc(3 * capacity * sizeof *scratch->sums);
-    koksma_status status = koksma__sample_room_init(&scratch->draw, &frame->sampler);
+    koksma_status status = koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
     if (!status && !scratch->sums) {
         status = koksma__fail_memory(3 * capacity * sizeof *scratch->sums);
     }
     if (status) {
-        koksma__tracer_close(scratch);
+        koksma__wavefront_close(scratch);
         *out = NULL;
     }
     return status;
 }
 
-koksma_status koksma__tracer_push(koksma__queue *queue, const koksma__path *path)
+koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
 {
     koksma__path *paths =
         koksma__room_for_one(queue->paths, queue->n, &queue->capacity, 4 * KOKSMA__BLOCK, sizeof *paths);
@@ -74,7 +74,7 @@ static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, k
     return KOKSMA_OK;
 }
 
-koksma_status koksma__tracer_draw(const koksma__trace *trace, uint32_t use, const float **pairs)
+koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, const float **pairs)
 {
     koksma__wavefront_scratch *scratch = trace->scratch;
     koksma__drawn *drawn = NULL;

@@ -33,7 +33,7 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                          koksma__sample_room *room, float *pairs)
+                          koksma__sample_scratch *room, float *pairs)
 {
     const image_samples *s = sampler->made;
     const set *from = s->sets, *const end = s->sets + s->n_sets;

@@ -72,7 +72,7 @@ static bool has_two(uint32_t use)
 /* A fresh set of a group, from which a use's coordinates go into room->xs. The room keeps it, as the group's other
    uses are drawn next, after this one of the pixels around. */
 static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pixel, uint32_t use,
-                                     koksma__sample_room *room)
+                                     koksma__sample_scratch *room)
 {
     const pixel_samples *samples = sampler->made;
     const koksma_render_options *options = samples->options;
@@ -98,7 +98,7 @@ static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pi
 
 /* A fresh set of a use, plus offset. */
 static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                              koksma__sample_room *room, float *pairs)
+                              koksma__sample_scratch *room, float *pairs)
 {
     const pixel_samples *samples = sampler->made;
     const koksma_render_options *options = samples->options;
@@ -123,7 +123,7 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
 /* The words of a pixel's permutation of the set with this key. Pixels beside each other have theirs one after the
    other. */
 static const uint32_t *pairing_words(const pixel_samples *samples, uint64_t pixel, uint32_t set_key,
-                                     koksma__sample_room *room)
+                                     koksma__sample_scratch *room)
 {
     const size_t counters = ((size_t)samples->options->spp + 3) / 4;
     const size_t pixels = counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS / counters : 1;
@@ -139,7 +139,7 @@ static const uint32_t *pairing_words(const pixel_samples *samples, uint64_t pixe
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                          koksma__sample_room *room, float *pairs)
+                          koksma__sample_scratch *room, float *pairs)
 {
     const pixel_samples *samples = sampler->made;
     const int u = koksma__use_index(use);
@@ -166,7 +166,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
 }
 
 static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                                 koksma__sample_room *room, float *pairs)
+                                 koksma__sample_scratch *room, float *pairs)
 {
     const pixel_samples *samples = sampler->made;
     const size_t n = (size_t)samples->options->spp, slot = pixel % sampler->kept_slots;

@@ -27,7 +27,7 @@ enum { KOKSMA__WORD_SLOTS = 8, KOKSMA__WORD_COUNTERS = 48 };
 
 /* What a thread needs for drawing: room for the points of one pixel; and the sets that several uses take their
    coordinates from, a native pattern's or those of groups of uses, for as many pixels as are drawn together. */
-typedef struct koksma__sample_room {
+typedef struct koksma__sample_scratch {
     double *xs;
     float *pairs;
     uint32_t *words;                        /* KOKSMA__WORD_SLOTS parts, of the uses by turns */
@@ -35,7 +35,7 @@ typedef struct koksma__sample_room {
     double *kept;
     uint64_t *kept_keys;   /* which set is in a slot; 0: none */
     const koksma_run *run; /* the sampler's, or one that always goes on */
-} koksma__sample_room;
+} koksma__sample_scratch;
 
 typedef struct koksma__sampler {
     void *made;
@@ -47,7 +47,7 @@ typedef struct koksma__sampler {
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* The pairs of a use of a pixel, plus offset; the second number of a one-dimensional use is idle. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                          koksma__sample_room *room, float *pairs);
+                          koksma__sample_scratch *room, float *pairs);
     void (*release)(struct koksma__sampler *sampler);
 } koksma__sampler;
 
@@ -71,8 +71,8 @@ koksma_status koksma__pixel_samples(const koksma_render_options *options, const 
 koksma_status koksma__image_samples(const koksma_render_options *options, const koksma__use_list *uses,
                                     const koksma_run *run, koksma__sampler *out);
 
-koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler);
-void koksma__sample_room_fini(koksma__sample_room *room);
+koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler);
+void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
 /* Where a use of uses.def has its coordinates. */
 typedef struct koksma__place_of_use {

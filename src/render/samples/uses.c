@@ -130,13 +130,13 @@ int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
     }
 }
 
-koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__sampler *sampler)
+koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler)
 {
     static const koksma_run alone = {.threads = 1};
     const size_t n = sampler->most, counters = (n + 3) / 4;
     const size_t words = 4 * (counters < KOKSMA__WORD_COUNTERS ? KOKSMA__WORD_COUNTERS : counters);
     const size_t kept = n * (size_t)sampler->kept_dim * sampler->kept_slots;
-    *room = (koksma__sample_room){
+    *room = (koksma__sample_scratch){
         .xs = malloc(2 * n * sizeof *room->xs),
         .pairs = malloc(2 * n * sizeof *room->pairs),
         .words = malloc(KOKSMA__WORD_SLOTS * words * sizeof *room->words),
@@ -145,18 +145,18 @@ koksma_status koksma__sample_room_init(koksma__sample_room *room, const koksma__
         .run = sampler->run ? sampler->run : &alone,
     };
     if (!room->xs || !room->pairs || !room->words || !room->kept || !room->kept_keys) {
-        koksma__sample_room_fini(room);
+        koksma__sample_scratch_fini(room);
         return koksma__fail_memory(24 * n + 4 * KOKSMA__WORD_SLOTS * words + 8 * kept);
     }
     return KOKSMA_OK;
 }
 
-void koksma__sample_room_fini(koksma__sample_room *room)
+void koksma__sample_scratch_fini(koksma__sample_scratch *room)
 {
     free(room->xs);
     free(room->pairs);
     free(room->words);
     free(room->kept);
     free(room->kept_keys);
-    *room = (koksma__sample_room){0};
+    *room = (koksma__sample_scratch){0};
 }

@@ -31,7 +31,7 @@ typedef struct koksma__adaptive_rules {
     koksma_status (*serve)(koksma__adaptive *run, size_t pixel);
     /* The pairs of this round's samples of a pixel. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                          koksma__sample_room *room, float *pairs);
+                          koksma__sample_scratch *room, float *pairs);
     /* Their values, as many as it asked for, and their weights as drawn from the filter (filters.h; NULL: all 1).
        Methods decide by the values as they are; in the result weights count as film.c says. */
     void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
@@ -93,7 +93,7 @@ enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
 koksma_status koksma__sets_open(koksma__adaptive *run);
 void koksma__sets_close(koksma__adaptive *run);
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                                koksma__sample_room *room, float *pairs);
+                                koksma__sample_scratch *room, float *pairs);
 void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
 double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb[3]);
 

@@ -23,7 +23,7 @@ typedef struct job {
 } job;
 
 typedef struct room {
-    koksma__workroom pixels;
+    koksma__task_scratch pixels;
     void *scratch;
 } room;
 
@@ -39,7 +39,7 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
-                          koksma__sample_room *room_for, float *pairs)
+                          koksma__sample_scratch *room_for, float *pairs)
 {
     const koksma__adaptive *run = sampler->made;
     return count(sampler, pixel) ? run->rules->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
@@ -96,7 +96,7 @@ static koksma_status render_group(const job *j, room *r, const koksma__group *gr
         koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->pixels.draw, r->pixels.values.film);
     if (!status) {
         koksma__film_place(f, group, false, &r->pixels.values);
-        status = j->pipeline->trace(f, r->pixels.own, group, &r->pixels.values);
+        status = j->pipeline->trace(f, r->pixels.pipeline_scratch, group, &r->pixels.values);
     }
     for (size_t p = 0; !status && p < group->count; p++) {
         if (group->start[p] < group->start[p + 1]) {
@@ -125,7 +125,7 @@ static koksma_status render_task(void *context, size_t task)
     }
     room r = {.scratch = malloc(run->scratch + 1)};
     koksma__group group;
-    status = koksma__workroom_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
+    status = koksma__task_scratch_init(&j->frame, j->pipeline, j->capacity, j->first, &r.pixels);
     if (!status && !r.scratch) {
         status = koksma__fail_memory(run->scratch + 1);
     }
@@ -136,7 +136,7 @@ static koksma_status render_task(void *context, size_t task)
     if (!run->probing) {
         atomic_fetch_add(&j->rays, r.pixels.values.rays);
     }
-    koksma__workroom_fini(&r.pixels);
+    koksma__task_scratch_fini(&r.pixels);
     free(r.scratch);
     return status;
 }
@@ -322,7 +322,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
                                             .kept_slots = run.base.kept_slots,
                                             .count = count,
                                             .draw = draw};
-        j.pipeline = koksma__direct_can(&j.frame) ? &koksma__direct_pipeline : &koksma__tracer_pipeline;
+        j.pipeline = koksma__pipeline_for(&j.frame);
         status = open_run(&run);
         status = status ? status : open_layers(&j.frame, out);
         status = status ? status : render_rounds(&j, how);

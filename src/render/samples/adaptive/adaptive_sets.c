@@ -120,7 +120,7 @@ size_t koksma__set_size(const koksma__adaptive *run)
 
 /* Sets first .. first + count - 1 as blocks of one sequence in two dimensions, each shuffled in itself. */
 static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint32_t use, size_t first, size_t count,
-                                 koksma__sample_room *room, float *pairs)
+                                 koksma__sample_scratch *room, float *pairs)
 {
     static const koksma_run alone = {.threads = 1};
     static const float none[2] = {0, 0};
@@ -146,7 +146,7 @@ static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint
 }
 
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                                koksma__sample_room *room, float *pairs)
+                                koksma__sample_scratch *room, float *pairs)
 {
     const size_t n = koksma__set_size(run), samples = run->asks[pixel].now;
     const size_t first = koksma__sets_of(run, pixel)->drawn;

@@ -226,7 +226,7 @@ size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel)
 }
 
 koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
-                                  koksma__sample_room *room, float *pairs)
+                                  koksma__sample_scratch *room, float *pairs)
 {
     const koksma__strata *s = run->state;
     const koksma__tree *tree = &s->trees[pixel];

@@ -10,7 +10,7 @@
  * are computed by all threads, and entered one after the other, so that threads change nothing. A place of the
  * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
  * scenes by as much as a third of the indirect light (at 192 x 144 pixels). Light that mirrors or glass throw from a
- * luminaire on a diffuse surface is left out: the few rays of a record that find it would make one place far too
+ * light on a diffuse surface is left out: the few rays of a record that find it would make one place far too
  * bright and others dark. A depth of 0 has no records, for there is no light between surfaces.
  */
 #include <math.h>
@@ -94,9 +94,9 @@ static void look_in(const cache *c, int level, const int64_t cell[3], const floa
 {
     for (int32_t k = c->buckets[bucket_of(level, cell)]; k >= 0; k = c->records[k].next) {
         const record *r = &c->records[k];
-        int64_t own[3];
-        cell_of(r->p, cell_size(c, level), own);
-        const bool here = r->level == level && !memcmp(own, cell, sizeof own); /* else another cell in the bucket */
+        int64_t home[3];
+        cell_of(r->p, cell_size(c, level), home);
+        const bool here = r->level == level && !memcmp(home, cell, sizeof home); /* else another cell in the bucket */
         const float inverse = here ? distance(r, p, n) : INFINITY;
         if (inverse < ACCURACY) {
             const float w = 1 / (inverse > 1e-4f ? inverse : 1e-4f);
@@ -164,38 +164,39 @@ static koksma_status enter(cache *c, const record *from)
 
 /* ---- Computing a record --------------------------------------------------------------------------------- */
 
-/* Room for the paths of one record. */
-typedef struct desk {
+/* Scratch for the paths of one record. */
+typedef struct record_scratch {
     void *scratch;
     koksma__values values;
-} desk;
+} record_scratch;
 
-static void close_desk(desk *d)
+static void close_scratch(record_scratch *d)
 {
-    koksma__tracer_close(d->scratch);
+    koksma__wavefront_close(d->scratch);
     free(d->values.albedo);
     free(d->values.normal);
     free(d->values.depth);
 }
 
-static koksma_status open_desk(const cache *c, desk *d)
+static koksma_status open_scratch(const cache *c, record_scratch *d)
 {
-    *d = (desk){.values = {.albedo = malloc(3 * RAYS * sizeof(float)),
-                           .normal = malloc(3 * RAYS * sizeof(float)),
-                           .depth = malloc(RAYS * sizeof(float))}};
+    *d = (record_scratch){.values = {.albedo = malloc(3 * RAYS * sizeof(float)),
+                                     .normal = malloc(3 * RAYS * sizeof(float)),
+                                     .depth = malloc(RAYS * sizeof(float))}};
     if (!d->values.albedo || !d->values.normal || !d->values.depth) {
-        close_desk(d);
+        close_scratch(d);
         return koksma__fail_memory(7 * RAYS * sizeof(float));
     }
-    const koksma_status status = koksma__tracer_open(&c->paths, RAYS, &d->scratch);
+    const koksma_status status = koksma__wavefront_open(&c->paths, RAYS, &d->scratch);
     if (status) {
-        close_desk(d);
+        close_scratch(d);
     }
     return status;
 }
 
 /* E / pi at (p, n) on a primitive, and R. key: of the place's random numbers. */
-static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma__surface *s, float time, record *out)
+static koksma_status compute(const cache *c, record_scratch *d, uint64_t key, const koksma__surface *s, float time,
+                             record *out)
 {
     koksma__wavefront_scratch *scratch = d->scratch;
     const koksma__group group = {.first = (size_t)key, .count = 1, .start = {0, RAYS}};
@@ -206,15 +207,15 @@ static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma
         scratch->drawn[i].done = false;
     }
     scratch->queues[0].n = 0;
-    koksma_status status = koksma__tracer_draw(&trace, KOKSMA__USE_LOBE, &us);
+    koksma_status status = koksma__wavefront_draw(&trace, KOKSMA__USE_LOBE, &us);
     for (uint32_t i = 0; !status && i < RAYS; i++) {
         koksma__path path = {.beta = {1, 1, 1}, .pdf = -1, .time = time, .from = s->primitive, .sample = i};
         memcpy(path.o, s->p, sizeof path.o);
         memcpy(path.n, s->n, sizeof path.n);
         koksma__cosine_direction(s->n, us + 2 * i, path.d);
-        status = koksma__tracer_push(&scratch->queues[0], &path);
+        status = koksma__wavefront_push(&scratch->queues[0], &path);
     }
-    status = status ? status : koksma__tracer_follow(&trace, &d->values);
+    status = status ? status : koksma__wavefront_follow(&trace, &d->values);
     double sums[3] = {0, 0, 0}, inverse = 0;
     for (size_t i = 0; !status && i < RAYS; i++) {
         for (size_t k = 0; k < 3; k++) {
@@ -231,24 +232,25 @@ static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma
     return status;
 }
 
-static koksma_status indirect(const koksma__frame *frame, const koksma__surface *s, float time, float out[3])
+koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, const koksma__surface *s, float time,
+                                                float out[3])
 {
     const cache *c = frame->cache;
     float light[3] = {0, 0, 0};
     koksma_status status = KOKSMA_OK;
     if (c && !look_up(c, s->p, s->n, light)) {
-        desk d;
+        record_scratch d;
         record r;
         uint32_t bits[4];
         memcpy(bits, s->p, sizeof s->p);
         memcpy(bits + 3, &s->n[1], sizeof *bits);
-        status = open_desk(c, &d);
+        status = open_scratch(c, &d);
         if (status) {
             return status;
         }
         status = compute(c, &d, koksma__hash(bits, sizeof bits), s, time, &r);
         memcpy(light, r.light, sizeof light);
-        close_desk(&d);
+        close_scratch(&d);
     }
     for (int k = 0; k < 3; k++) {
         out[k] += light[k];
@@ -292,8 +294,8 @@ static koksma_status compute_row(void *context, size_t row)
 {
     const grid *g = context;
     cache *c = g->cache;
-    desk d;
-    koksma_status status = open_desk(c, &d);
+    record_scratch d;
+    koksma_status status = open_scratch(c, &d);
     if (status) {
         return status;
     }
@@ -309,7 +311,7 @@ static koksma_status compute_row(void *context, size_t row)
             r->reach = fminf(fmaxf(r->reach, LEAST * pixel / ACCURACY), MOST * pixel / ACCURACY);
         }
     }
-    close_desk(&d);
+    close_scratch(&d);
     return status;
 }
 
@@ -337,7 +339,7 @@ static koksma_status fill_grid(cache *c, int step, float time, const koksma_run 
     return status;
 }
 
-static void close_cache(koksma__frame *frame)
+void koksma__irradiance_cache_close(koksma__frame *frame)
 {
     cache *c = frame->cache;
     if (c) {
@@ -350,7 +352,7 @@ static void close_cache(koksma__frame *frame)
     frame->cache = NULL;
 }
 
-static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
+koksma_status koksma__irradiance_cache_open(koksma__frame *frame, const koksma_run *run)
 {
     cache *c = frame->depth ? calloc(1, sizeof *c) : NULL;
     if (!c) {
@@ -382,18 +384,3 @@ static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
     }
     return status;
 }
-
-static const koksma__integrator_flags rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
-                                               .areas = true,
-                                               .shadows = true,
-                                               .open = open_cache,
-                                               .close = close_cache,
-                                               .indirect = indirect};
-
-const koksma_integrator koksma__integrator_irradiance_cache = {
-    .name = "irradiance-cache",
-    .title = "diffuse light between surfaces, interpolated",
-    .cite = "ward1988",
-    .depth = 6,
-    .rules = &rules,
-};

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Every integrator and every pipeline of their tables, in furnaces: under a white sky of radiance 1 a surface that
+ * absorbs nothing is as bright as the sky, and none is brighter. What an integrator leaves out is known from its
+ * flags: without `areas` the sky has no centre to light from; with `ambient` the scene's ambient light is added.
+ */
+#include "kinds.h"
+#include "render/frame.h"
+#include "render/materials/materials.h"
+
+#define CAMERA "\"camera\": {\"eye\": [0, 0.3, 3], \"target\": [0, 0, 0], \"fov_deg\": 12}"
+#define SKY "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"visible\": true}]"
+#define WHITE "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}]"
+
+static double picture(const char *text, const koksma_integrator *in, int depth, int spp, double *error)
+{
+    koksma_scene *scene = scene_of(text);
+    koksma_render_options options = options_of(scene, "random", in->name, spp, 16);
+    options.depth = depth;
+    const double mean = mean_of(scene, &options, error);
+    koksma_scene_close(scene);
+    return mean;
+}
+
+/* A ball of albedo 1/2, with ambient light 1/4 of the sky's. */
+static void convex_bodies_reflect_the_sky(void **state)
+{
+    static const char *const text =
+        "{" CAMERA ", \"ambient\": 0.25, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}],"
+        "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}]," SKY "}";
+    (void)state;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        double error;
+        const double mean = picture(text, koksma_integrator_at(i), -1, 16, &error);
+        const double expected = 0.5 * ((flags->areas ? 1 : 0) + (flags->ambient ? 0.25 : 0));
+        if (!(fabs(mean - expected) <= 5 * error + 1e-5)) {
+            fail_msg("%s: %g +- %g, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
+        }
+    }
+}
+
+/* A white corner of three walls: every path ends in the sky. Without light between surfaces it is darker. */
+static void closed_furnaces_are_white(void **state)
+{
+    static const char *const text =
+        "{\"camera\": {\"eye\": [3, 3, 3], \"target\": [0.3, 0.3, 0.3], \"fov_deg\": 10}, " WHITE ", \"shapes\": ["
+        "{\"kind\": \"rectangle\", \"centre\": [1, 0, 1], \"normal\": [0, 1, 0], \"half\": [1, 1], \"material\": \"m\"},"
+        "{\"kind\": \"rectangle\", \"centre\": [1, 1, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": \"m\"},"
+        "{\"kind\": \"rectangle\", \"centre\": [0, 1, 1], \"normal\": [1, 0, 0], \"half\": [1, 1], \"material\": "
+        "\"m\"}]," SKY "}";
+    (void)state;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        double error;
+        const double mean = picture(text, koksma_integrator_at(i), 40, 64, &error);
+        const bool all = flags->followed & KOKSMA__LOBE_DIFFUSE && !flags->is_biased;
+        if (!(mean <= 1 + 5 * error + 1e-5) || (all && !(mean >= 1 - 5 * error - 1e-5))) {
+            fail_msg("%s: %g +- %g in a white furnace", koksma_integrator_at(i)->name, mean, error);
+        }
+    }
+}
+
+/* Mirrors and glass show the sky to integrators that follow them; others see black. */
+static void specular_bodies_show_the_sky(void **state)
+{
+    static const char *const materials[] = {"\"kind\": \"mirror\", \"reflectance\": 1",
+                                            "\"kind\": \"dielectric\", \"ior\": 1.5"};
+    (void)state;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        for (size_t m = 0; m < 2; m++) {
+            char text[1024];
+            double error;
+            snprintf(text, sizeof text,
+                     "{" CAMERA ", \"materials\": [{\"name\": \"m\", %s}], \"shapes\": [{\"kind\": \"rectangle\", "
+                     "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [2, 2], \"material\": \"m\"}]," SKY "}",
+                     materials[m]);
+            const double mean = picture(text, koksma_integrator_at(i), 40, 16, &error);
+            const double expected = flags->followed & KOKSMA__LOBE_SPECULAR ? 1 : 0;
+            if (!(fabs(mean - expected) <= 5 * error + 1e-3)) { /* whitted cuts branches below 1/1000 */
+                fail_msg("%s: %g +- %g with %s", koksma_integrator_at(i)->name, mean, error, materials[m]);
+            }
+        }
+    }
+}
+
+/* ---- Pipelines ------------------------------------------------------------------------------------------------ */
+
+/* The mean of a row of pixels by a pipeline that takes the picture. */
+static double row_by(const koksma__frame *frame, const koksma__pipeline *pipeline)
+{
+    koksma__task_scratch scratch;
+    koksma__group group;
+    double sum = 0;
+    const size_t capacity = koksma__whole_lanes(frame->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK
+                                                                                    : frame->sampler.most);
+    assert_ok(koksma__task_scratch_init(frame, pipeline, capacity, false, &scratch));
+    for (size_t pixel = 160; pixel < 176; pixel += group.count) {
+        koksma__group_fill(frame, pixel, 176, &group);
+        assert_ok(koksma__group_draw(frame, &group, KOKSMA__USE_PIXEL, true, &scratch.draw, scratch.values.film));
+        assert_ok(pipeline->trace(frame, scratch.pipeline_scratch, &group, &scratch.values));
+        for (size_t i = 0; i < group.start[group.count]; i++) {
+            sum += (double)scratch.values.rgb[i * (size_t)frame->channels];
+        }
+    }
+    koksma__task_scratch_fini(&scratch);
+    return sum;
+}
+
+/* All pipelines that take a picture agree but for rounding, and there is one for every picture. */
+static void pipelines_agree(void **state)
+{
+    size_t compared = 0;
+    (void)state;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        for (size_t s = 0; koksma_scene_name_at(s); s++) {
+            koksma_scene *scene;
+            koksma__frame frame;
+            if (koksma_scene_open(koksma_scene_name_at(s), &scene)) {
+                continue; /* the bunny's files aren't ours to ship */
+            }
+            koksma_render_options options = options_of(scene, "jittered", koksma_integrator_at(i)->name, 4, 16);
+            if (((const koksma__integrator_flags *)koksma_integrator_at(i)->rules)->open) {
+                options.depth = 0; /* no records, which take long */
+            }
+            assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
+            const koksma__pipeline *best = koksma__pipeline_for(&frame);
+            assert_non_null(best);
+            const double mean = row_by(&frame, best);
+            for (size_t p = 0; koksma__pipelines[p]; p++) {
+                if (koksma__pipelines[p] != best && koksma__pipelines[p]->takes(&frame)) {
+                    const double other = row_by(&frame, koksma__pipelines[p]);
+                    if (!(fabs(mean - other) <= 1e-5 * fabs(mean) + 1e-5)) {
+                        fail_msg("%s by %s: %g, by %s: %g", koksma_scene_name_at(s), best->name, mean,
+                                 koksma__pipelines[p]->name, other);
+                    }
+                    compared++;
+                }
+            }
+            koksma__frame_close(&frame);
+            koksma_scene_close(scene);
+        }
+    }
+    assert_true(compared > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(convex_bodies_reflect_the_sky),
+        cmocka_unit_test(closed_furnaces_are_white),
+        cmocka_unit_test(specular_bodies_show_the_sky),
+        cmocka_unit_test(pipelines_agree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
