@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/spec.h"
+#include "api/generate.h"
 #include "patterns/shared/packing.h"
 #include "patterns/shared/radical.h"
 #include "test.h"

@@ -13,15 +13,16 @@ below() {
     stats) echo "core" ;;
     patterns) echo "core kernels stats" ;;
     measures) echo "core kernels warps" ;;
+    api) echo "core kernels patterns warps measures" ;;
     verify) echo "core kernels patterns measures" ;;
     image) echo "core kernels stats" ;;
     meshes) echo "core json image" ;;
     scene) echo "core json image meshes warps" ;;
     plot) echo "core kernels patterns warps measures image scene" ;;
-    render) echo "core kernels stats patterns warps measures image meshes scene" ;;
+    render) echo "core api kernels stats patterns warps measures image meshes scene" ;;
     study/plan) echo "core json render" ;;
     study/store) echo "core json study/plan" ;;
-    study/run) echo "core json stats image scene render study/plan study/store" ;;
+    study/run) echo "core api json stats image scene render study/plan study/store" ;;
     study/ranking | study/images) echo "core stats image render study/plan study/store study/run" ;;
     study/report) echo "core stats image measures plot study/plan study/store study/run" ;;
     *) echo "$1 is a folder without a line in tests/lint/layers.sh" >&2 ;;
@@ -38,7 +39,7 @@ done >/tmp/koksma-lint.$$
 while read -r problem; do complain "$problem"; done </tmp/koksma-lint.$$
 rm -f /tmp/koksma-lint.$$
 
-grep -nE '#include "[a-z_0-9]+/' cli/*.[ch] && complain "cli/ includes include/koksma/ only"
+grep -rnE --include='*.[ch]' '#include "[a-z_0-9]+/' cli && complain "cli/ includes include/koksma/ only"
 
 grep -nE '#include "' explorer/*.c && complain "explorer/ includes include/koksma/ only"
 
