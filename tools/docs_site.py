@@ -101,9 +101,12 @@ class Site:
         return ", ".join(links) or "-"
 
     def comment(self, path, name):
-        """The head comment of a source file, with a line that says where it is from."""
-        return (text.comment_html(text.head_comment(ROOT / path), name) +
-                f"<p><small>The text is the head comment of <code>{path}</code>.</small></p>")
+        """The comment of a member in its source file, or in a folder of its table, with a line that says where it is from."""
+        lines = text.head_comment(ROOT / path) if (ROOT / path).is_file() else None
+        if lines is None:
+            file, lines = text.member_comment(ROOT / path, name)
+            path = file.relative_to(ROOT)
+        return text.comment_html(lines, name) + f"<p><small>The text is a comment of <code>{path}</code>.</small></p>"
 
     def parameters(self, name):
         """The parameters of a member, with their ranges."""
