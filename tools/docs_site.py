@@ -86,9 +86,9 @@ class Site:
         self.lists = {}
         for kind in ("patterns", "measures", "scenes", "integrators", "filters", "adaptive", "warps", "uses", "parameters"):
             self.lists[kind], _ = program.rows("list", kind)
-        header = (ROOT / "include/koksma/koksma.h").read_text(encoding="utf-8")
-        self.claims = {name.lower().replace("_", "-"): re.sub(r"\s+", " ", meaning).strip()
-                       for name, meaning in re.findall(r"KOKSMA_CLAIM_(\w+) = 1u << \d+,?\s*/\*(.*?)\*/", header, re.S)}
+        table = (ROOT / "include/koksma/claims.def").read_text(encoding="utf-8")
+        self.claims = {name: "".join(re.findall('"([^"]*)"', meaning)) for name, meaning in
+                       re.findall(r'^KOKSMA_CLAIM\(\w+, \d+, "([\w-]+)",((?:\s*"[^"]*")+)\)', table, re.M)}
 
     def cite(self, keys, name, kind):
         """The references of a member as links, entered into the index of references."""

@@ -46,6 +46,9 @@ KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
 /* Whether the path's ending says a format that can be written. Errors: ARGUMENT, UNSUPPORTED (left out). */
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
+/* Whether a file of the path's ending holds several layers. */
+KOKSMA_API bool koksma_image_has_layers(const char *path);
+
 /* Writes by the ending of the path: .exr, .png or .pfm; whole or not at all. PNG clamps to [0,1]. metadata (may be
    NULL) is kept as a text where the format has a place for it. Errors: ARGUMENT (the ending; an image that has no
    pixels, or sizes or channels that koksma_image_init refuses), UNSUPPORTED (left out), IO, MEMORY. */
