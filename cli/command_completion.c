@@ -25,6 +25,12 @@ static const char *command_name_at(size_t i)
     return command ? command->name : NULL;
 }
 
+static const char *property_name_at(size_t i)
+{
+    const koksma_property *property = koksma_property_at(i);
+    return property ? property->name : NULL;
+}
+
 static const struct {
     const char *noun, *table; /* a table of `koksma list` */
     const char *(*name_at)(size_t i);
@@ -37,7 +43,7 @@ static const struct {
     {"FILTER", "filters", NULL, false},
     {"METHOD", "adaptive", NULL, false},
     {"WARP", "warps", NULL, false},
-    {"PROPERTY", NULL, koksma_property_name_at, false},
+    {"PROPERTY", NULL, property_name_at, false},
     {"COMMAND", NULL, command_name_at, false},
     {"PAPER", NULL, koksma_plan_name_at, true},
     {"PLAN", NULL, koksma_plan_name_at, true},

@@ -5,33 +5,15 @@
 #include <koksma/adaptive.h>
 #include <koksma/warp.h>
 
-#include "cli.h"
+#include "texts.h"
 
 static const struct {
     unsigned claim;
     const char *name;
 } claim_names[] = {
-    {KOKSMA_CLAIM_DETERMINISTIC, "deterministic"},
-    {KOKSMA_CLAIM_SEQUENCE, "sequence"},
-    {KOKSMA_CLAIM_ANY_N, "any-n"},
-    {KOKSMA_CLAIM_STRATIFIED, "stratified"},
-    {KOKSMA_CLAIM_LATIN, "latin"},
-    {KOKSMA_CLAIM_UNBIASED, "unbiased"},
-    {KOKSMA_CLAIM_EXCHANGEABLE, "exchangeable"},
-    {KOKSMA_CLAIM_MIN_DISTANCE, "min-distance"},
-    {KOKSMA_CLAIM_CENTRED, "centred"},
-    {KOKSMA_CLAIM_GRID, "grid"},
-    {KOKSMA_CLAIM_NET2, "net2"},
-    {KOKSMA_CLAIM_NET2_PREFIXES, "net2-prefixes"},
-    {KOKSMA_CLAIM_NET_PREFIXES, "net-prefixes"},
-    {KOKSMA_CLAIM_OA2, "oa2"},
-    {KOKSMA_CLAIM_OA3, "oa3"},
-    {KOKSMA_CLAIM_FRACTION, "fraction"},
-    {KOKSMA_CLAIM_MAXIMAL, "maximal"},
-    {KOKSMA_CLAIM_LATTICE, "lattice"},
-    {KOKSMA_CLAIM_BLUE, "blue"},
-    {KOKSMA_CLAIM_LATIN_PREFIXES, "latin-prefixes"},
-    {KOKSMA_CLAIM_INDEPENDENT, "independent"},
+#define KOKSMA_CLAIM(id, bit, name, meaning) {KOKSMA_CLAIM_##id, name},
+#include <koksma/claims.def>
+#undef KOKSMA_CLAIM
 };
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)
@@ -226,17 +208,25 @@ static const struct {
     {"adaptive", list_adaptive},       {"warps", list_warps},       {"parameters", list_parameters},
 };
 
+const char *cli_list_names(const char *comma, char *text, size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? comma : "", lists[i].name);
+    }
+    return text;
+}
+
 static int run(const cli_arguments *arguments)
 {
+    char names[256];
     const char *which = arguments->n_operands ? arguments->operands[0] : NULL;
     bool found = !which;
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         found = found || !strcmp(which, lists[i].name);
     }
     if (!found || arguments->n_operands > 1) {
-        return cli_usage_error(
-            arguments,
-            "it takes one of patterns, measures, scenes, integrators, filters, uses, adaptive, warps, parameters");
+        return cli_usage_error(arguments, "it takes one of %s", cli_list_names(", ", names, sizeof names));
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
@@ -252,8 +242,7 @@ static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};
 const cli_command cli_command_list = {
     .name = "list",
     .summary = "list the members of a table",
-    .synopsis = "[patterns|measures|scenes|integrators|filters] [--json]\n"
-                "       koksma list uses|adaptive|warps|parameters [--json]",
+    .synopsis = "[{lists}] [--json]",
     .details =
         "uses are what a sample is spent on, with their dimensions: 'koksma render -p USE=PATTERN' samples one by a\n"
         "pattern of its own, '-p USE+USE=PATTERN' several by one pattern of their dimensions together.",

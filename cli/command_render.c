@@ -85,13 +85,6 @@ static koksma_status write_image(const cli_arguments *arguments, const koksma_sc
     return status ? status : cli_adaptive_counts(arguments, &layers->samples);
 }
 
-/* Only an EXR has a place for layers; without them it is faster. */
-static bool has_layers(const char *path)
-{
-    const size_t length = strlen(path);
-    return length > 4 && !strcmp(path + length - 4, ".exr");
-}
-
 /* From here on the program says before it starts how much memory a picture takes. */
 #define LARGE (1ull << 30)
 
@@ -105,7 +98,7 @@ static double in_gib(uint64_t bytes)
 static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
                           const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
-    const bool layers = adaptive->method || has_layers(cli_text(arguments, "output", ""));
+    const bool layers = adaptive->method || koksma_image_has_layers(cli_text(arguments, "output", ""));
     const koksma_render_size size = koksma_render_size_of(scene, options, layers);
     const uint64_t first =
         size.film + size.samples + (adaptive->method ? koksma_adaptive_size_of(options, adaptive) : 0);
@@ -137,11 +130,11 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         return CLI_USAGE;
     }
     const double start = now_s();
-    koksma_status status =
-        adaptive->options.method
-            ? koksma_render_adaptive(scene, options, &adaptive->options, &work.run, &layers, &adaptive->report)
-        : has_layers(cli_text(arguments, "output", "")) ? koksma_render_layers(scene, options, &work.run, &layers)
-                                                        : koksma_render_only(scene, options, &work.run, &layers);
+    koksma_status status = adaptive->options.method ? koksma_render_adaptive(scene, options, &adaptive->options,
+                                                                             &work.run, &layers, &adaptive->report)
+                           : koksma_image_has_layers(cli_text(arguments, "output", ""))
+                               ? koksma_render_layers(scene, options, &work.run, &layers)
+                               : koksma_render_only(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
     cli_work_end(&work);
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
@@ -203,7 +196,7 @@ static const cli_option options[] = {
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
-    {'o', "output", "FILE", ".exr (with layers), .png or .pfm by its ending"},
+    {'o', "output", "FILE", "{image-formats} by its ending; an .exr has all layers"},
     CLI_SAMPLING_OPTIONS,
     CLI_ADAPTIVE_OPTIONS,
     CLI_ROW_OPTIONS,

@@ -33,23 +33,23 @@ static void put_rows(cli_rows *rows, const char *source, const koksma_points *po
     }
 }
 
-static bool is_property(const char *name)
+static const koksma_property *find_property(const char *name)
 {
-    const char *known;
-    for (size_t i = 0; (known = koksma_property_name_at(i)); i++) {
-        if (!strcmp(name, known)) {
-            return true;
+    const koksma_property *known;
+    for (size_t i = 0; (known = koksma_property_at(i)); i++) {
+        if (!strcmp(name, known->name)) {
+            return known;
         }
     }
-    return false;
+    return NULL;
 }
 
 static const char *all_properties(char *text, size_t size)
 {
-    const char *known;
+    const koksma_property *known;
     size_t used = 0;
-    for (size_t i = 0; (known = koksma_property_name_at(i)) && used < size; i++) {
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", known);
+    for (size_t i = 0; (known = koksma_property_at(i)) && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", known->name);
     }
     return text;
 }
@@ -58,7 +58,7 @@ static const char *all_properties(char *text, size_t size)
 static const char *misspelt(const char *list, char *name, size_t size)
 {
     for (size_t i = 0; cli_list_item(list, i, name, size); i++) {
-        if (!is_property(name)) {
+        if (!find_property(name)) {
             return name;
         }
     }
@@ -85,9 +85,10 @@ static bool disappoints(const char *list, const char *source, const koksma_point
                     source, name, points->n, points->dim);
             return true;
         }
-        if (!strncmp(name, "net-", 4) && points->dim > KOKSMA_VERIFY_NET_DIM) {
+        const int coordinates = find_property(name)->coordinates;
+        if (coordinates && points->dim > coordinates) {
             fprintf(stderr, "koksma verify: %s: %s was looked at in the first %d coordinates alone\n", source, name,
-                    KOKSMA_VERIFY_NET_DIM);
+                    coordinates);
             return true;
         }
     }
@@ -146,14 +147,8 @@ const cli_command cli_command_verify = {
     .summary = "find out which properties points really have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--json]",
     .details =
-        "Each property is one to wish for, 'yes' means that the points have it, and the detail names what the value\n"
-        "counts. net-base-2, -3, -5: prefixes are (t,m,s)-nets with t = 0, value: the worst t; stratified and "
-        "latin:\n"
-        "one point in each stratum; distinct: no point repeats another; distance-square and -torus: the smallest\n"
-        "distance is above 0; origin-unique: at most one point at the origin; origin-present: no unscrambled "
-        "sequence\n"
-        "has lost its first point, the origin; below-one-as-float: no coordinate becomes 1 as a float; progressive:\n"
-        "prefixes are at most twice as uneven as random points (L2 star).\n"
+        "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"
+        "{property-meanings}"
         "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "
         "looked\n"
         "at; 2 for a wrong command line, as an unknown property; 3 for points that are missing or malformed.",

@@ -1,53 +1,106 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The table of curves (curves.def): names, the options that each takes, and the means over sets that curves are made
+ * of.
+ */
 #include "curves.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "source.h"
 
-bool cli_curves_begin(const cli_arguments *arguments, cli_curves *c)
+static const cli_curve *const curves[] = {
+#define CURVE(name) &cli_curve_##name,
+#include "curves.def"
+#undef CURVE
+};
+
+const cli_curve *cli_curve_at(size_t i)
 {
-    *c = (cli_curves){.arguments = arguments};
-    c->method = cli_flag(arguments, "exact") ? KOKSMA_SPECTRUM_EXACT : KOKSMA_SPECTRUM_FAST;
-    return cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &c->seed) &&
-           cli_whole(arguments, "trials", 1, 1, 1000000000, &c->trials) &&
-           cli_whole(arguments, "half", 0, 1, KOKSMA_SPECTRUM_MAX_HALF, &c->half) &&
-           cli_whole(arguments, "bins", 100, 1, 1000000, &c->bins) &&
-           cli_real(arguments, "r-max", 0, 1e-6, 0.5, &c->r_max) && cli_work_begin(arguments, "curves", &c->work);
+    return i < sizeof curves / sizeof *curves ? curves[i] : NULL;
 }
 
-/* Whether word is one of words; all of them as in "a, b or c" in text, of `size` characters. */
-static bool find_word(const char *words, const char *word, char *text, size_t size)
+static const char *options_of(const cli_curve *curve, cli_curve_list list)
 {
-    bool found = false;
-    size_t used = 0;
-    for (const char *at = words; *at; at += strspn(at, " ")) {
-        const size_t length = strcspn(at, " ");
-        const char *joint = at == words ? "" : at[length] ? ", " : " or ";
-        found = found || (strlen(word) == length && !strncmp(at, word, length));
-        used += (size_t)snprintf(text + used, size - used, "%s%.*s", joint, (int)length, at);
-        at += length;
+    return list == CLI_PRINTED ? curve->print.options : curve->plot.options;
+}
+
+const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
+{
+    const cli_curve *curve;
+    for (size_t i = 0; (curve = cli_curve_at(i)); i++) {
+        if (options_of(curve, list) && !strcmp(name, curve->name)) {
+            return curve;
+        }
     }
-    return found;
+    return NULL;
 }
 
-bool cli_options_fit(const cli_arguments *arguments, const cli_kinds *table, const char *kind, const char *before)
+/* Whether a word is among words with blanks between. */
+static bool has_word(const char *words, const char *word)
 {
-    for (const cli_kinds *row = table; row->option; row++) {
-        char kinds[128];
-        if (cli_flag(arguments, row->option) && !find_word(row->kinds, kind, kinds, sizeof kinds)) {
-            cli_usage_error(arguments, "--%s goes with %s%s", row->option, before, kinds);
+    for (const char *at = words; *at; at += strcspn(at, " ")) {
+        at += strspn(at, " ");
+        if (strlen(word) == strcspn(at, " ") && !strncmp(at, word, strlen(word))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *cli_curve_names(cli_curve_list list, const char *option, const char *comma, const char *last, char *text,
+                            size_t size)
+{
+    const cli_curve *curve, *before = NULL;
+    size_t n = 0;
+    *text = '\0';
+    for (size_t i = 0; (curve = cli_curve_at(i)) || before; i++) {
+        const bool wanted =
+            curve && options_of(curve, list) && (!option || has_word(options_of(curve, list), option));
+        if (before && (wanted || !curve)) {
+            const size_t used = strlen(text);
+            snprintf(text + used, size - used, "%s%s", n == 0 ? "" : curve ? comma : last, before->name);
+            n++;
+            before = NULL;
+        }
+        before = wanted ? curve : before;
+        if (!curve) {
+            break;
+        }
+    }
+    return text;
+}
+
+/* Options that some curves take and this one has no use for are errors. */
+static bool options_fit(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list,
+                        const char *before)
+{
+    for (const cli_option *o = arguments->command->options; o->name; o++) {
+        char names[256];
+        cli_curve_names(list, o->name, ", ", " or ", names, sizeof names);
+        if (cli_flag(arguments, o->name) && *names && !has_word(options_of(curve, list), o->name)) {
+            cli_usage_error(arguments, "--%s goes with %s%s", o->name, before, names);
             return false;
         }
     }
     return true;
 }
 
-/* Calls add for the points of each trial; a set that is not of the plane ends it. */
-static int for_each_set(cli_curves *c, const char *source,
+bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list, const char *before,
+                      cli_curves *c)
+{
+    *c = (cli_curves){.arguments = arguments, .curve = curve, .output = cli_text(arguments, "output", NULL)};
+    c->method = cli_flag(arguments, "exact") ? KOKSMA_SPECTRUM_EXACT : KOKSMA_SPECTRUM_FAST;
+    return options_fit(arguments, curve, list, before) && cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &c->seed) &&
+           cli_whole(arguments, "trials", 1, 1, 1000000000, &c->trials) &&
+           cli_whole(arguments, "half", 0, 1, KOKSMA_SPECTRUM_MAX_HALF, &c->half) &&
+           cli_whole(arguments, "bins", 100, 1, 1000000, &c->bins) &&
+           cli_real(arguments, "r-max", 0, 1e-6, 0.5, &c->r_max) && cli_work_begin(arguments, "curves", &c->work);
+}
+
+int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context)
 {
@@ -87,32 +140,5 @@ int cli_curves_spectrum(cli_curves *c, const char *source, double per_root, koks
 {
     *out = (koksma_spectrum){0};
     spectrum_sum s = {out, per_root};
-    return for_each_set(c, source, add_spectrum, &s);
-}
-
-typedef struct pairs_sum {
-    koksma_tally *tallies;
-    double *values, r_max;
-} pairs_sum;
-
-static koksma_status add_pairs(cli_curves *c, const koksma_points *points, void *context)
-{
-    pairs_sum *s = context;
-    if (!(s->r_max > 0)) {
-        s->r_max = fmin(4 / sqrt((double)points->n), 0.5);
-    }
-    const koksma_status status = koksma_pair_correlation(points, s->r_max, c->bins, &c->work.run, s->values);
-    for (uint64_t b = 0; b < c->bins && !status; b++) {
-        koksma_tally_add(&s->tallies[b], s->values[b]);
-    }
-    return status;
-}
-
-int cli_curves_pairs(cli_curves *c, const char *source, koksma_tally *tallies, double *r_max)
-{
-    pairs_sum s = {tallies, malloc(c->bins * sizeof(double)), c->r_max};
-    const int code = s.values ? for_each_set(c, source, add_pairs, &s) : cli_no_memory();
-    free(s.values);
-    *r_max = s.r_max;
-    return code;
+    return cli_curves_each_set(c, source, add_spectrum, &s);
 }

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The program: finds the command that argv[1] names in the table (commands.def) and runs it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli.h"
 #include "options.h"
+#include "texts.h"
 
 static const cli_command *const commands[] = {
 #define COMMAND(name) &cli_command_##name,
@@ -15,14 +17,14 @@ static const cli_command *const commands[] = {
 
 const cli_command *cli_command_at(size_t i)
 {
-    return commands[i];
+    return commands[i] ? cli_expand(commands[i], i) : NULL;
 }
 
 const cli_command *cli_command_find(const char *name)
 {
-    for (int i = 0; commands[i]; i++) {
+    for (size_t i = 0; commands[i]; i++) {
         if (!strcmp(commands[i]->name, name)) {
-            return commands[i];
+            return cli_command_at(i);
         }
     }
     return NULL;

@@ -86,9 +86,9 @@ class Site:
         self.lists = {}
         for kind in ("patterns", "measures", "scenes", "integrators", "filters", "adaptive", "warps", "uses", "parameters"):
             self.lists[kind], _ = program.rows("list", kind)
-        header = (ROOT / "include/koksma/koksma.h").read_text(encoding="utf-8")
-        self.claims = {name.lower().replace("_", "-"): re.sub(r"\s+", " ", meaning).strip()
-                       for name, meaning in re.findall(r"KOKSMA_CLAIM_(\w+) = 1u << \d+,?\s*/\*(.*?)\*/", header, re.S)}
+        table = (ROOT / "include/koksma/claims.def").read_text(encoding="utf-8")
+        self.claims = {name: "".join(re.findall('"([^"]*)"', meaning)) for name, meaning in
+                       re.findall(r'^KOKSMA_CLAIM\(\w+, \d+, "([\w-]+)",((?:\s*"[^"]*")+)\)', table, re.M)}
 
     def cite(self, keys, name, kind):
         """The references of a member as links, entered into the index of references."""
@@ -101,9 +101,12 @@ class Site:
         return ", ".join(links) or "-"
 
     def comment(self, path, name):
-        """The head comment of a source file, with a line that says where it is from."""
-        return (text.comment_html(text.head_comment(ROOT / path), name) +
-                f"<p><small>The text is the head comment of <code>{path}</code>.</small></p>")
+        """The comment of a member in its source file, or in a folder of its table, with a line that says where it is from."""
+        lines = text.head_comment(ROOT / path) if (ROOT / path).is_file() else None
+        if lines is None:
+            file, lines = text.member_comment(ROOT / path, name)
+            path = file.relative_to(ROOT)
+        return text.comment_html(lines, name) + f"<p><small>The text is a comment of <code>{path}</code>.</small></p>"
 
     def parameters(self, name):
         """The parameters of a member, with their ranges."""

@@ -9,6 +9,18 @@ _SIGNS = (("&lt;=", "≤"), ("&gt;=", "≥"), (" != ", " ≠ "))
 _ACCENTS = {"'": "\u0301", "`": "\u0300", "^": "\u0302", '"': "\u0308", "~": "\u0303", "=": "\u0304", "v": "\u030c"}
 
 
+def member_comment(folder, name):
+    """The file of a member of a table and the lines of its comment: the file's head, or of a row the one that begins with
+    "name: "."""
+    file = folder / f"{name.replace('-', '_')}.c"
+    if file.exists():
+        return file, head_comment(file)
+    for file in sorted(folder.glob("*.c")):
+        for found in re.finditer(rf"/\*\s(?: \* )?({re.escape(name)}: .*?)\*/", file.read_text(encoding="utf-8"), re.S):
+            return file, _lines(found[1])
+    raise SystemExit(f"{folder}: no file and no row {name}")
+
+
 def head_comment(path):
     """The lines of the comment that a source file begins with, after its licence."""
     text = path.read_text(encoding="utf-8")
@@ -19,7 +31,12 @@ def head_comment(path):
         raise SystemExit(f"{path}: it has no head comment")
     if text[: found.start()].replace("/* SPDX-License-Identifier: Apache-2.0 */", "").strip():
         raise SystemExit(f"{path}: its first comment stands below code")
-    lines = [re.sub(r"^ \* ?", "", line).rstrip() for line in found[1].splitlines()]
+    return _lines(found[1])
+
+
+def _lines(comment):
+    """The lines of a comment's text without its stars."""
+    lines = [re.sub(r"^ \* ?", "", line).rstrip() for line in comment.splitlines()]
     lines[0] = lines[0].lstrip()
     while lines and not lines[0]:
         del lines[0]

@@ -197,7 +197,7 @@ def measure_page(site, row, numbers):
                               alt=f"16 jittered points and where {name} is reached")
     chart = program.picture(f"{name}-n.svg", "plot", "--curve", "convergence", "-m", name, "--sizes", sizes, "--trials", trials,
                             *sources, alt=f"{name} against n")
-    body = (site.comment(f"src/measures/{name.replace('-', '_')}.c", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
+    body = (site.comment("src/measures", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
             "<h2>Patterns by it</h2><p>Means over sets with standard errors, as on the pages of the patterns, which have the "
             "commands; the best first by the last column.</p>" + ranking(site, name, numbers))
     site.write(f"measures/{name}.html", page(name, row["what"], body))

@@ -52,6 +52,9 @@ KOKSMA_API const char *koksma_image_format(size_t i, const char **left_out);
    Errors: ARGUMENT (unknown ending), UNSUPPORTED (this build lacks the library). */
 KOKSMA_API koksma_status koksma_image_check_path(const char *path);
 
+/* Checks whether files with this path's ending can hold several layers. */
+KOKSMA_API bool koksma_image_has_layers(const char *path);
+
 /* Writes an image, completely or not at all.
      path      ends in .exr, .png (values are clamped to [0,1] and encoded as sRGB with 8 bits) or .pfm
      metadata  text that is stored in formats that can hold it; may be NULL

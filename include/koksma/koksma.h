@@ -189,38 +189,12 @@ KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
 
 /* ---- Patterns ----------------------------------------------------------------------------------------- */
 
-/* Properties that a pattern claims; each switches on its test for every pattern that makes it.
-   A stratum [j/m, (j+1)/m) is bounded by the doubles nearest to its two fractions. */
+/* Properties that a pattern claims, KOKSMA_CLAIM_DETERMINISTIC and so on: <koksma/claims.def> has their meanings.
+   Each claim switches on its test for every pattern that makes it. */
 enum {
-    KOKSMA_CLAIM_DETERMINISTIC = 1u << 0,  /* the seed does not matter, unless the parameter
-                                              scramble, shuffle or shift is set */
-    KOKSMA_CLAIM_SEQUENCE = 1u << 1,       /* the first k of n points are the set of k points */
-    KOKSMA_CLAIM_ANY_N = 1u << 2,          /* serves every n >= 1 */
-    KOKSMA_CLAIM_STRATIFIED = 1u << 3,     /* n = m^dim: one point in each of the m^dim cells, in order of the
-                                              cells: the last coordinate's cell changes fastest */
-    KOKSMA_CLAIM_LATIN = 1u << 4,          /* each coordinate has one point in each [j/n, (j+1)/n) */
-    KOKSMA_CLAIM_UNBIASED = 1u << 5,       /* each point set is uniform in the mean: E(#/n in B) = volume of B */
-    KOKSMA_CLAIM_EXCHANGEABLE = 1u << 6,   /* the order of the points is random already: shuffling has no effect */
-    KOKSMA_CLAIM_MIN_DISTANCE = 1u << 7,   /* no two points closer than parameter "d" (on the torus with torus=1) */
-    KOKSMA_CLAIM_CENTRED = 1u << 8,        /* with STRATIFIED: each point in the middle half of its cell */
-    KOKSMA_CLAIM_GRID = 1u << 9,           /* 2D, n = m^2: one point in each of the m x m cells, in any order */
-    KOKSMA_CLAIM_NET2 = 1u << 10,          /* 2D, n = 2^m: a (0,m,2)-net in base 2 */
-    KOKSMA_CLAIM_NET2_PREFIXES = 1u << 11, /* 2D: points a 2^m .. (a + 1) 2^m - 1 are a (0,m,2)-net in base
-                                              2, for every a and m */
-    KOKSMA_CLAIM_NET_PREFIXES = 1u << 12,  /* dim d, b the smallest prime >= d: the first b^m points are a
-                                              (0,m,d)-net in base b, for every m */
-    KOKSMA_CLAIM_OA2 = 1u << 13,           /* n = s^2: each 2D projection has one point in each of the s x s cells */
-    KOKSMA_CLAIM_OA3 = 1u << 14,           /* n = s^3 with strength=3: each 3D projection, s x s x s cells */
-    KOKSMA_CLAIM_FRACTION = 1u << 15,      /* 2D, on the torus: no two points closer than parameter "f" times the
-                                              distance of the densest packing */
-    KOKSMA_CLAIM_MAXIMAL = 1u << 16,       /* 2D: no place of the torus is further from all points than their smallest
-                                              distance: no point can be added */
-    KOKSMA_CLAIM_LATTICE = 1u << 17,       /* the differences of the points are a group on the torus */
-    KOKSMA_CLAIM_BLUE = 1u << 18,          /* 2D, 4 points or more, of a sequence 64: the smallest distance on the
-                                              torus is above half of the densest packing's */
-    KOKSMA_CLAIM_LATIN_PREFIXES = 1u << 19, /* the first b^m points have one point in each [j/b^m, (j+1)/b^m) of
-                                               coordinate k, b being the k-th prime */
-    KOKSMA_CLAIM_INDEPENDENT = 1u << 20     /* the points are random and independent of each other */
+#define KOKSMA_CLAIM(id, bit, name, meaning) KOKSMA_CLAIM_##id = 1u << (bit),
+#include <koksma/claims.def>
+#undef KOKSMA_CLAIM
 };
 
 struct koksma_pattern {

@@ -12,33 +12,15 @@
 extern "C" {
 #endif
 
-/* What was found: whether the points have a property, each of which is desirable, and a number, of which detail says
-   what it counts. The properties:
+/* A property that koksma_verify looks for; each is desirable. */
+typedef struct koksma_property {
+    const char *name;    /* "net-base-2" */
+    const char *meaning; /* what holds, and what a finding's value counts */
+    int coordinates;     /* only the first so many coordinates are looked at; 0: all */
+} koksma_property;
 
-   net-base-2, -3, -5
-       subject: two coordinates, or "all". value: the worst t of the (t,m,s)-nets that the prefixes of b^m points are;
-       detail: t for each m. Holds when t = 0 for all
-   stratified
-       subject: m x k cells in coordinates 0 and 1, or m^dim: one point in each. value: empty cells
-   latin
-       subject: a coordinate: one point in each of n strata. value: empty strata
-   distance-square, distance-torus
-       value: the smallest distance; detail: as a fraction of the densest packing's (exact for squares of 30 points
-       or fewer, else of an upper bound, which many points on the torus in 2D come near). Holds when above 0
-   distinct
-       value: points that repeat another. Holds when 0
-   origin-unique
-       value: points at the origin. Holds when at most 1
-   origin-present
-       value: points at the origin. Holds when there is one, and also when none is expected: it fails where each
-       coordinate has different multiples of 2^-m, 2^m > n, none of them 0 nor all odd, as an unscrambled sequence has
-       after its first point
-   below-one-as-float
-       value: coordinates that become 1 as a float. Holds when 0
-   progressive
-       value: the largest L2 star discrepancy of a prefix of 2^j >= 16 points over that of as many random points (root
-       mean square). Holds when at most 2. The longest prefix is of 2^22 points, in three dimensions 2^18, in four to
-       twelve 4,096 */
+/* What was found: whether the points have a property, and a number that the property's meaning explains. subject: the
+   coordinates ("0,1" or "all") or the cells ("4 x 8") in question, or "-"; detail: what the value is made of. */
 typedef struct koksma_finding {
     const char *property;
     char subject[48];
@@ -48,14 +30,14 @@ typedef struct koksma_finding {
 } koksma_finding;
 
 typedef struct koksma_findings {
-    size_t count, room;
+    size_t count, capacity;
     koksma_finding *items;
 } koksma_findings;
 
 enum { KOKSMA_VERIFY_NET_DIM = 32 }; /* nets are of pairs of the first so many coordinates */
 
-/* The name of property i, NULL past the end. */
-KOKSMA_API const char *koksma_property_name_at(size_t i);
+/* Property i, NULL past the end. */
+KOKSMA_API const koksma_property *koksma_property_at(size_t i);
 
 /* Looks for all properties in a point set; allocates findings. Properties that would take too long for so many
    points or dimensions are left out. Errors: ARGUMENT (no points, a coordinate outside [0,1]), DIM, MEMORY,

@@ -59,7 +59,7 @@ class Finding(Structure):
 
 
 class Findings(Structure):
-    _fields_ = [("count", c_size_t), ("room", c_size_t), ("items", POINTER(Finding))]
+    _fields_ = [("count", c_size_t), ("capacity", c_size_t), ("items", POINTER(Finding))]
 
 
 class Spectrum(Structure):

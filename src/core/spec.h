@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Specs as text, and the checks of their parameters. member is what errors call the pattern or measure. */
 #ifndef KOKSMA_CORE_SPEC_H
 #define KOKSMA_CORE_SPEC_H
 
@@ -6,20 +7,23 @@
 
 #include "core/visibility.h"
 
-/* Parses "key=value,key=value" for a table of parameters (NULL: it has none); values get defaults first.
-   owner is what errors call the thing. */
-KOKSMA__LAB koksma_status koksma__params_parse(const char *owner, const koksma_param *params, const char *text,
+/* Parses "key=value,key=value" for a table of parameters (NULL: it has none); values get defaults first. */
+KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text,
                                                double *values);
 
-/* What koksma_evaluate asks of its arguments: a measure's spec with parameters that it takes, and points of the unit
-   cube in as many dimensions as it has a form for. caller is what errors call the function. Errors: ARGUMENT, DIM. */
-koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points);
+/* Whether all values are in their ranges. Errors: ARGUMENT. */
+koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
 
-/* Whether a pattern's spec gives the same points for every seed: the pattern claims DETERMINISTIC, and neither shift
-   nor a parameter "scramble" or "shuffle" makes it random. */
-KOKSMA__LAB bool koksma__spec_is_deterministic(const koksma_spec *spec);
+/* Whether a member has a form in so many dimensions. Errors: DIM. */
+koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);
 
 /* Appends ":key=value,…" for the parameters that are not at their defaults. */
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
+
+/* The name before the colon, of up to 63 letters, and where the parameters begin. Errors: ARGUMENT. */
+koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
+
+/* What a spec hands to the functions of its member. */
+koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

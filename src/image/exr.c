@@ -355,7 +355,8 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
 }
 
-const koksma__image_format koksma__format_exr = {"exr", recognises, read, write, NULL};
+const koksma__image_format koksma__format_exr = {
+    .name = "exr", .recognises = recognises, .read = read, .write = write, .has_layers = true};
 #else
 
 #include <string.h>
@@ -368,6 +369,7 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 4 && !memcmp(bytes, magic, 4);
 }
 
-const koksma__image_format koksma__format_exr = {"exr", recognises, NULL, NULL, "OpenEXR"};
+const koksma__image_format koksma__format_exr = {
+    .name = "exr", .recognises = recognises, .has_layers = true, .left_out = "OpenEXR"};
 
 #endif

@@ -22,6 +22,8 @@ typedef struct koksma__image_format {
     koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
     /* Of n layers those that it has a place for: the first at least. */
     koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
+    bool has_layers; /* a file holds all layers; else the first alone */
+    double error; /* 0: every float is kept exactly; else numbers in [0,1] to within this, others as the nearer end */
     const char *left_out; /* the library that this build does without: there is no read, no write; else NULL */
 } koksma__image_format;
 

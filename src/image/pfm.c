@@ -99,4 +99,5 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return ok ? KOKSMA_OK : koksma__fail_memory(4 * row * (size_t)image->height);
 }
 
-const koksma__image_format koksma__format_pfm = {"pfm", recognises, read, write, NULL};
+const koksma__image_format koksma__format_pfm = {
+    .name = "pfm", .recognises = recognises, .read = read, .write = write};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Images as such, and their files by way of the table of formats. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -110,6 +111,22 @@ static koksma_status no_library(const koksma__image_format *format)
                         format->name);
 }
 
+/* All names as in "exr, png or pfm": of each, `before` and its letters, capitals or small. */
+static const char *list_names(const char *before, bool capitals, const char *comma, const char *last, char *text,
+                              size_t size)
+{
+    size_t used = 0;
+    for (size_t i = 0; formats[i] && used < size; i++) {
+        const char *between = i == 0 ? "" : formats[i + 1] ? comma : last;
+        used += (size_t)snprintf(text + used, size - used, "%s%s", between, before);
+        for (const char *letter = formats[i]->name; *letter && used + 1 < size; letter++) {
+            text[used++] = capitals ? (char)(*letter - 'a' + 'A') : *letter;
+            text[used] = '\0';
+        }
+    }
+    return text;
+}
+
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     const koksma__image_format *format = NULL;
@@ -119,7 +136,10 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
     }
     koksma_status status = KOKSMA_OK;
     if (!format) {
-        status = koksma__fail(KOKSMA_MALFORMED, size ? "neither EXR nor PNG nor PFM" : "empty");
+        char names[128];
+        status = size ? koksma__fail(KOKSMA_MALFORMED, "neither %s",
+                                     list_names("", true, " nor ", " nor ", names, sizeof names))
+                      : koksma__fail(KOKSMA_MALFORMED, "empty");
     } else {
         status = format->left_out ? no_library(format) : format->read(bytes, size, out);
     }
@@ -190,9 +210,17 @@ koksma_status koksma_image_check_path(const char *path)
 {
     const koksma__image_format *format = format_of_name(path);
     if (!format) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in .exr, .png or .pfm", path);
+        char names[128];
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in %s", path,
+                            list_names(".", false, ", ", " or ", names, sizeof names));
     }
     return format->left_out ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;
+}
+
+bool koksma_image_has_layers(const char *path)
+{
+    const koksma__image_format *format = format_of_name(path);
+    return format && format->has_layers;
 }
 
 koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)

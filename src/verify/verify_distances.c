@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smallest distances, by halving in 2D and by a sweep along the first coordinate in other dimensions; and equal
- * points. */
+/*
+ * distinct, distance-square and distance-torus, and the public koksma_smallest_distance. In the plane the closest
+ * pair is found by halving (core/closest_pair.c), O(n log n); in other dimensions by a sweep over the points sorted
+ * by their first coordinate, which looks at those pairs only that are nearer along it than the best so far: O(n^2 d)
+ * at worst, about n^(2 - 1/d) for even points. Fractions are of the densest packing's distance
+ * (patterns/shared/packing.h): exact for squares of 30 points or fewer, else an upper bound.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,7 +27,7 @@ typedef struct point {
 } point;
 
 /* As numbers: 0 and -0 are one. */
-static int compare_places(const point *p, const point *q)
+static int compare_positions(const point *p, const point *q)
 {
     for (int k = 0; k < p->dim; k++) {
         if (p->xs[k] != q->xs[k]) {
@@ -35,7 +40,7 @@ static int compare_places(const point *p, const point *q)
 static int compare(const void *a, const void *b)
 {
     const point *p = a, *q = b;
-    const int order = compare_places(p, q);
+    const int order = compare_positions(p, q);
     return order ? order : p->xs < q->xs ? -1 : p->xs > q->xs;
 }
 
@@ -71,20 +76,6 @@ static koksma_status sweep(const point *sorted, size_t n, bool torus, const koks
         }
     }
     *distance = sqrt(best);
-    return KOKSMA_OK;
-}
-
-static koksma_status add_distance(const koksma_points *points, bool torus, double distance, koksma_findings *findings)
-{
-    koksma_finding *f =
-        koksma__finding(findings, torus ? KOKSMA__PROPERTY_DISTANCE_TORUS : KOKSMA__PROPERTY_DISTANCE_SQUARE);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
-    f->value = distance;
-    f->holds = distance > 0;
-    koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
-                     distance / koksma__packing_distance(points->n, points->dim, torus));
     return KOKSMA_OK;
 }
 
@@ -124,31 +115,66 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
     return status;
 }
 
-koksma_status koksma__verify_distances(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
+static koksma_status look_distance(koksma__verification *v)
 {
-    const size_t n = points->n;
-    point *sorted = sort_points(points);
+    const koksma_points *points = v->points;
+    const bool torus = v->property == &koksma__property_distance_torus;
+    double distance;
+    if (points->n == 1 || (points->dim != 2 && points->n > 20000)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma_smallest_distance(points, torus, v->run, &distance);
+    if (status) {
+        return status;
+    }
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = distance;
+    f->holds = distance > 0;
+    koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
+                     distance / koksma__packing_distance(points->n, points->dim, torus));
+    return KOKSMA_OK;
+}
+
+static koksma_status look_distinct(koksma__verification *v)
+{
+    const size_t n = v->points->n;
+    point *sorted = sort_points(v->points);
     if (!sorted) {
         return KOKSMA_MEMORY;
     }
     size_t repeated = 0;
     for (size_t i = 1; i < n; i++) {
-        repeated += compare_places(&sorted[i], &sorted[i - 1]) == 0;
+        repeated += compare_positions(&sorted[i], &sorted[i - 1]) == 0;
     }
     free(sorted);
-    koksma_finding *f = koksma__finding(findings, KOKSMA__PROPERTY_DISTINCT);
-    koksma_status status = f ? KOKSMA_OK : KOKSMA_MEMORY;
-    if (!status) {
-        f->value = (double)repeated;
-        f->holds = repeated == 0;
-        snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
     }
-    for (int torus = 0; torus < 2 && n > 1 && !status && (points->dim == 2 || n <= 20000); torus++) {
-        double distance;
-        status = koksma_smallest_distance(points, torus, run, &distance);
-        if (!status) {
-            status = add_distance(points, torus, distance, findings);
-        }
-    }
-    return status;
+    f->value = (double)repeated;
+    f->holds = repeated == 0;
+    snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);
+    return KOKSMA_OK;
 }
+
+const koksma__property koksma__property_distinct = {
+    .public = {.name = "distinct", .meaning = "no point repeats another; value: points that do"},
+    .look = look_distinct,
+};
+
+const koksma__property koksma__property_distance_square = {
+    .public = {.name = "distance-square",
+               .meaning = "the smallest distance in the cube, the value, is above 0; detail: as a fraction of the "
+                          "densest packing's"},
+    .look = look_distance,
+};
+
+const koksma__property koksma__property_distance_torus = {
+    .public = {.name = "distance-torus",
+               .meaning = "the smallest distance on the torus, the value, is above 0; detail: as a fraction of the "
+                          "densest packing's"},
+    .look = look_distance,
+};

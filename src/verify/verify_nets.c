@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The findings net-base-2, -3 and -5: t of the prefixes of b^m points as nets (core/net.c), of all pairs of
+ * net-base-2, -3 and -5: t of the prefixes of b^m points as nets (core/net.c), of all pairs of
  * coordinates and, in up to 8 dimensions, of all coordinates together. Prefixes for which the search would take more
  * than a second or so are left out.
  */
@@ -18,7 +18,7 @@ typedef struct search {
     const koksma__net *net;
     const int *use;
     int dim;
-    const koksma_run *run;
+    koksma__verification *v;
 } search;
 
 /* C(m + dim - 1, dim - 1): the shapes of elementary intervals. */
@@ -31,7 +31,7 @@ static double shapes(int m, int dim)
     return count;
 }
 
-static koksma_status verify_net(search *s, koksma__property property, const char *subject, koksma_findings *findings)
+static koksma_status verify_net(search *s, const char *subject)
 {
     koksma_finding *f = NULL;
     koksma_status status = KOKSMA_OK;
@@ -40,7 +40,7 @@ static koksma_status verify_net(search *s, koksma__property property, const char
             break;
         }
         if (!f) {
-            f = koksma__finding(findings, property);
+            f = koksma__finding(s->v);
             if (!f) {
                 return KOKSMA_MEMORY;
             }
@@ -49,7 +49,7 @@ static koksma_status verify_net(search *s, koksma__property property, const char
             f->holds = true;
         }
         int t;
-        status = koksma__net_quality(s->net, m, s->use, s->dim, s->run, &t);
+        status = koksma__net_quality(s->net, m, s->use, s->dim, s->v->run, &t);
         const size_t used = strlen(f->detail);
         snprintf(f->detail + used, sizeof f->detail - used, " %d", t);
         f->value = t > f->value ? t : f->value;
@@ -58,41 +58,39 @@ static koksma_status verify_net(search *s, koksma__property property, const char
     return status;
 }
 
-static koksma_status verify_base(const koksma_points *points, const koksma_run *run, size_t base,
-                                 koksma__property property, koksma_findings *findings)
+static koksma_status look(koksma__verification *v)
 {
+    const koksma_points *points = v->points;
     const int dim = points->dim < KOKSMA_VERIFY_NET_DIM ? points->dim : KOKSMA_VERIFY_NET_DIM;
     int use[MAX_NET_DIM];
     koksma__net net;
-    koksma_status status = koksma__net_init(points, base, &net);
-    search s = {.net = &net, .use = use, .dim = 2, .run = run};
+    koksma_status status = koksma__net_init(points, v->property->base, &net);
+    search s = {.net = &net, .use = use, .dim = 2, .v = v};
     for (use[0] = 0; use[0] < dim && !status; use[0]++) {
         for (use[1] = use[0] + 1; use[1] < dim && !status; use[1]++) {
             char subject[48];
             snprintf(subject, sizeof subject, "%d,%d", use[0], use[1]);
-            status = verify_net(&s, property, subject, findings);
+            status = verify_net(&s, subject);
         }
     }
     if (!status && points->dim != 2 && points->dim <= MAX_NET_DIM) {
         for (s.dim = 0; s.dim < points->dim; s.dim++) {
             use[s.dim] = s.dim;
         }
-        status = verify_net(&s, property, "all", findings);
+        status = verify_net(&s, "all");
     }
     koksma__net_fini(&net);
     return status;
 }
 
-koksma_status koksma__verify_nets(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
-{
-    static const struct {
-        size_t base;
-        koksma__property property;
-    } bases[] = {
-        {2, KOKSMA__PROPERTY_NET_BASE_2}, {3, KOKSMA__PROPERTY_NET_BASE_3}, {5, KOKSMA__PROPERTY_NET_BASE_5}};
-    koksma_status status = KOKSMA_OK;
-    for (size_t b = 0; b < sizeof bases / sizeof *bases && !status; b++) {
-        status = verify_base(points, run, bases[b].base, bases[b].property, findings);
+#define NET(b)                                                                                                       \
+    const koksma__property koksma__property_net_base_##b = {                                                         \
+        .public = {.name = "net-base-" #b,                                                                           \
+                   .meaning = "prefixes of " #b "^m points are (t,m,s)-nets with t = 0; value: the worst t",         \
+                   .coordinates = KOKSMA_VERIFY_NET_DIM},                                                            \
+        .look = look,                                                                                                \
+        .base = (b),                                                                                                 \
     }
-    return status;
-}
+NET(2);
+NET(3);
+NET(5);

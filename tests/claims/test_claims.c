@@ -1,11 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Walks the table of patterns: the laws that all of them obey, then the test of each claim for every pattern that
-   makes it, for several n, dimensions and seeds. tests/claims/claims.h has the tests of single claims. */
+   makes it, for several n, dimensions and seeds. claim_<id>.c has the test of each claim. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "claims/claims.h"
 #include "test.h"
+
+static const struct {
+    unsigned claim;
+    claim_check *check;
+} claims[] = {
+#define KOKSMA_CLAIM(id, bit, name, meaning) {KOKSMA_CLAIM_##id, claim_##id},
+#include <koksma/claims.def>
+#undef KOKSMA_CLAIM
+};
+
+enum { n_claims = sizeof claims / sizeof *claims };
 
 static const size_t counts[] = {1, 2, 3, 4, 7, 8, 9, 16, 17, 25, 27, 32, 49, 64, 121, 125, 128, 256, 625, 1024};
 enum { N_COUNTS = sizeof counts / sizeof *counts };

@@ -17,7 +17,7 @@ for language in c c++; do
     for name in $names; do echo " && ($name) == 4711"; done
     echo ") - 1];"
     for name in $names KOKSMA_VERSION; do printf '#ifndef %s\n#error %s is gone\n#endif\n' "$name" "$name"; done
-    printf '#ifdef KOKSMA_STATUS\n#error KOKSMA_STATUS is left\n#endif\n'
+    printf '#ifdef %s\n#error %s is left\n#endif\n' KOKSMA_STATUS KOKSMA_STATUS KOKSMA_CLAIM KOKSMA_CLAIM
   } | $cc -x $language -I"$include" -Wall -Wextra -Werror -Wno-unused -fsyntax-only - || failed=1
 done
 

@@ -4,9 +4,9 @@
    variances are those of permutations drawn node by node, by the book, here. */
 #include <stdlib.h>
 
+#include "api/generate.h"
 #include "claims/claims.h"
 #include "core/random.h"
-#include "core/spec.h"
 #include "test.h"
 
 enum { MOST_DIM = 7 };

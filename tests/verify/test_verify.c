@@ -49,13 +49,13 @@ static void each_name_of_the_table_is_found(void **state)
     (void)state;
     koksma_points p = test_points("sobol", 64, 2, 0);
     koksma_findings all;
-    const char *name;
+    const koksma_property *property;
     size_t seen = 0;
     assert_ok(koksma_verify(&p, NULL, &all));
-    for (size_t i = 0; (name = koksma_property_name_at(i)); i++) {
+    for (size_t i = 0; (property = koksma_property_at(i)); i++) {
         const size_t before = seen;
         for (size_t f = 0; f < all.count; f++) {
-            seen += !strcmp(all.items[f].property, name);
+            seen += !strcmp(all.items[f].property, property->name);
         }
         assert_true(seen > before);
     }

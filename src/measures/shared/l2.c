@@ -12,25 +12,6 @@
 
 enum { SORT_FROM = 256, ROWS_PER_BLOCK = 128 };
 
-const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS] = {
-    /* 1 - max(u, v) */
-    [KOKSMA__L2_STAR] = {4, {9, -12, -12, 0}, {0.25, -0.5, 0, 0}, -0.5, 0, "l2-star"},
-    /* (1 - max(u, v)) min(u, v) */
-    [KOKSMA__L2_EXTREME] = {1, {3, 0, -12, 0}, {0.125, 0, -0.5, 0}, -0.5, 0.5, "l2-extreme"},
-    /* 1/2 - t + t^2, t = |u - v| */
-    [KOKSMA__L2_PERIODIC] = {4, {8, 0, 0, 0}, {0.25, 0, 0, 0}, -1, 1, "l2-periodic"},
-    /* 3/2 - t + t^2 */
-    [KOKSMA__L2_WRAPAROUND] = {16, {32, 0, 0, 0}, {0.75, 0, 0, 0}, -1, 1, "l2-wraparound"},
-    /* 2 - max(u, v) */
-    [KOKSMA__L2_MODIFIED] = {16, {33, -12, -12, 0}, {0.75, -0.5, 0, 0}, -0.5, 0, "l2-modified"},
-    /* 1 + |z_u|/2 + |z_v|/2 - t/2 */
-    [KOKSMA__L2_CENTERED] = {13, {24, 0, -12, 12}, {0.5, 0, 0, 0.5}, -0.5, 0, "l2-centered"},
-    /* 15/8 - |z_u|/4 - |z_v|/4 - 3t/4 + t^2/2 */
-    [KOKSMA__L2_MIXTURE] = {19, {40, 0, -6, -6}, {0.9375, 0, 0, -0.25}, -0.75, 0.5, "l2-mixture"},
-    /* 2 (1 - t) */
-    [KOKSMA__L2_SYMMETRIC] = {16, {36, 0, -48, 0}, {1, 0, 0, 0}, -2, 0, "l2-symmetric"},
-};
-
 double koksma__l2_polynomial(const double f[4], double u)
 {
     const double z = u - 0.5;
@@ -148,9 +129,9 @@ static bool divides(const koksma__l2_row *row, const koksma_points *points)
            points->n >= from[points->dim - 3][ranks - 1] && points->n <= (size_t)1 << 24;
 }
 
-koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out)
+koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                         koksma_value *out)
 {
-    const koksma__l2_row *row = &koksma__l2_rows[kind];
     const bool sort = points->dim <= 2 && points->n >= SORT_FROM && points->n < (size_t)1 << 28;
     if (!sort && !divides(row, points)) {
         return koksma__l2_value_by_pairs(row, points, run, out);

@@ -9,7 +9,7 @@
  *
  *     K(u, v) = g(z_u) + g(z_v) + q |u - v| + r (u - v)^2,
  *
- * with g and a polynomials in z, z^2 and |z|, so that one table of numbers drives them all.
+ * with g and a polynomials in z, z^2 and |z|, so that numbers drive them all: measures/l2_boxes.c has a row for each.
  */
 #ifndef KOKSMA_MEASURES_SHARED_L2_H
 #define KOKSMA_MEASURES_SHARED_L2_H
@@ -18,18 +18,6 @@
 
 #include "core/sum.h"
 #include "measures/shared/double_double.h"
-
-typedef enum koksma__l2_kind {
-    KOKSMA__L2_STAR,
-    KOKSMA__L2_EXTREME,
-    KOKSMA__L2_PERIODIC,
-    KOKSMA__L2_WRAPAROUND,
-    KOKSMA__L2_MODIFIED,
-    KOKSMA__L2_CENTERED,
-    KOKSMA__L2_MIXTURE,
-    KOKSMA__L2_SYMMETRIC,
-    KOKSMA__L2_KINDS
-} koksma__l2_kind;
 
 typedef struct koksma__l2_row {
     double c12;    /* 12 c */
@@ -41,8 +29,6 @@ typedef struct koksma__l2_row {
 
 enum { KOKSMA__L2_DIVIDE_DIM = 4 };
 
-extern const koksma__l2_row koksma__l2_rows[KOKSMA__L2_KINDS];
-
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
 koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 106 bits */
@@ -52,7 +38,8 @@ koksma__dd koksma__l2_linear(const koksma__l2_row *row, const double *x, int dim
 
 /* The value and its square into out: O(n log n) for d <= 2 and n not small, O(n log^(d-1) n)
    for d = 3 and 4 and n large, else O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
-koksma_status koksma__l2(koksma__l2_kind kind, const koksma_points *points, const koksma_run *run, koksma_value *out);
+koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                         koksma_value *out);
 
 /* The value by pairs, right also where terms of the square, or the square (which then is NaN), are beyond the range
    of doubles. DIM: so is the value, or a product over the first coordinates of a point. */

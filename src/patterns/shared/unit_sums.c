@@ -29,9 +29,9 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/dft.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "patterns/shared/chirps.h"
 #include "patterns/shared/unit_group.h"
 
 enum { MATRIX = 32 };
@@ -43,7 +43,7 @@ typedef struct block {
     double norm;    /* of the kernel */
     double *matrix; /* count x count, or NULL, and then: */
     koksma__unit_axis axes[KOKSMA__MAX_PRIMES];
-    koksma__chirps chirps[KOKSMA__MAX_PRIMES]; /* of the axes from 1 on */
+    koksma__dft chirps[KOKSMA__MAX_PRIMES]; /* of the axes from 1 on */
     int n_axes;
     bool cut;
     size_t lines, padded;          /* count / length of the first axis; length of the lines' transforms */
@@ -119,7 +119,7 @@ static koksma_status make_room(koksma__unit_sums *s)
         padded = b->padded > padded ? b->padded : padded;
         several = b->lines > 1 && b->count > several ? b->count : several;
         for (int k = 1; k < b->n_axes; k++) {
-            const size_t room = koksma__chirps_padded(b->axes[k].length);
+            const size_t room = koksma__dft_padded(b->axes[k].length);
             longest = room > longest ? room : longest;
         }
     }
@@ -174,8 +174,8 @@ static void transform_axes(koksma__unit_sums *s, const block *b, double *re, dou
         const size_t length = b->axes[k].length;
         for (size_t high = 0; high < b->count; high += stride * length) {
             for (size_t low = 0; low < stride; low++) {
-                koksma__chirps_transform(&b->chirps[k], &s->fourier, stride, re + high + low, im + high + low,
-                                         s->line_re, s->line_im);
+                koksma__dft_transform(&b->chirps[k], &s->fourier, stride, re + high + low, im + high + low,
+                                      s->line_re, s->line_im);
             }
         }
         stride *= length;
@@ -198,7 +198,7 @@ static koksma_status make_kernel(koksma__unit_sums *s, block *b)
     const size_t length = b->axes[0].length, room = b->lines * b->padded;
     koksma_status status = KOKSMA_OK;
     for (int k = 1; !status && k < b->n_axes; k++) {
-        status = koksma__chirps_init(&b->chirps[k], &s->fourier, b->axes[k].length);
+        status = koksma__dft_init(&b->chirps[k], &s->fourier, b->axes[k].length);
     }
     b->kernel_re = status ? NULL : calloc(2 * room, sizeof *b->kernel_re);
     if (!b->kernel_re) {
@@ -271,7 +271,7 @@ void koksma__unit_sums_close(koksma__unit_sums *s)
         free(b->matrix);
         free(b->kernel_re);
         for (int k = 1; k < b->n_axes; k++) {
-            koksma__chirps_fini(&b->chirps[k]);
+            koksma__dft_fini(&b->chirps[k]);
         }
     }
     if (s) {

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "api/generate.h"
 #include "core/random.h"
-#include "core/spec.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "render/samples/sampler.h"

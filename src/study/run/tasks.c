@@ -8,8 +8,8 @@
 
 #include <koksma/warp.h>
 
+#include "api/generate.h"
 #include "core/capacity.h"
-#include "core/spec.h"
 #include "core/status.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */

@@ -1,17 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Radix 4 with decimation in frequency one way and in time back, depth first, so that the parts soon fit a cache and
- * every loop is over neighbours. A convolution multiplies transforms entry by entry, and so takes them in any order:
- * the permutation and the second buffer of Stockham's transform (kernels/fast_fourier.c, 16 sequences side by side)
- * are saved. The reference twin of that kernel is the definition, whose n^2 steps are too many for a search's
- * lengths.
+ * The discrete Fourier transform of one sequence.
+ *
+ * Of a power of two: radix 4 with decimation in frequency one way and in time back, depth first, so that the parts
+ * soon fit a cache and every loop is over neighbours; in place, O(n log n). A convolution multiplies transforms entry
+ * by entry, and so takes them in any order: the permutation and the second buffer of Stockham's transform
+ * (kernels/fast_fourier.c, 16 sequences side by side) are saved.
+ *
+ * Of any length, in order: by the definition up to 16; above by Bluestein 1970: as jk = (j^2 + k^2 - (k - j)^2)/2,
+ * the transform is a convolution with the chirp exp(i pi j^2 / length) between two products with its conjugate, and a
+ * convolution can be as long as a power of two, with zeros behind. j^2 is taken modulo 2 length before it becomes an
+ * angle, so that long lengths lose no digits.
  */
-#include "patterns/shared/fourier_pow2.h"
+#include "core/dft.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/status.h"
+
+enum { SHORT = 16 };
 
 koksma_status koksma__fourier_init(koksma__fourier *f, size_t longest)
 {
@@ -122,5 +131,102 @@ void koksma__fourier_back(const koksma__fourier *f, size_t n, double *re, double
             koksma__fourier_back(f, n / 4, re + part, im + part);
         }
         join(f, n / 4, re, im);
+    }
+}
+
+size_t koksma__dft_padded(size_t length)
+{
+    size_t padded = 1;
+    while (length > SHORT && padded < 2 * length - 1) {
+        padded *= 2;
+    }
+    return length > SHORT ? padded : 0;
+}
+
+koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_t length)
+{
+    const size_t padded = koksma__dft_padded(length), count = 2 * (length + padded);
+    *dft = (koksma__dft){.length = length, .padded = padded};
+    double *memory = calloc(count, sizeof *memory);
+    if (!memory) {
+        return koksma__fail_memory(count * sizeof *memory);
+    }
+    dft->re = memory;
+    dft->im = memory + length;
+    dft->filter_re = dft->im + length;
+    dft->filter_im = dft->filter_re + padded;
+    const size_t halves = padded ? 2 * length : length;
+    for (size_t j = 0; j < length; j++) {
+        const double angle = 2 * M_PI * (double)((padded ? j * j : j) % halves) / (double)halves;
+        dft->re[j] = cos(angle);
+        dft->im[j] = -sin(angle);
+    }
+    if (padded) {
+        for (size_t j = 0; j < length; j++) {
+            const size_t mirrored = (padded - j) % padded;
+            dft->filter_re[j] = dft->filter_re[mirrored] = dft->re[j] / (double)padded;
+            dft->filter_im[j] = dft->filter_im[mirrored] = -dft->im[j] / (double)padded;
+        }
+        koksma__fourier_forward(f, padded, dft->filter_re, dft->filter_im);
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__dft_fini(koksma__dft *dft)
+{
+    free(dft->re);
+    *dft = (koksma__dft){0};
+}
+
+static void define(const koksma__dft *c, size_t stride, double *re, double *im, double *scratch_re,
+                   double *scratch_im)
+{
+    for (size_t k = 0; k < c->length; k++) {
+        double x = 0, y = 0;
+        for (size_t j = 0, turn = 0; j < c->length; j++) {
+            x += re[j * stride] * c->re[turn] - im[j * stride] * c->im[turn];
+            y += im[j * stride] * c->re[turn] + re[j * stride] * c->im[turn];
+            turn += k;
+            turn -= turn >= c->length ? c->length : 0;
+        }
+        scratch_re[k] = x;
+        scratch_im[k] = y;
+    }
+    for (size_t k = 0; k < c->length; k++) {
+        re[k * stride] = scratch_re[k];
+        im[k * stride] = scratch_im[k];
+    }
+}
+
+static void multiply(size_t n, const double *by_re, const double *by_im, double *re, double *im)
+{
+    for (size_t j = 0; j < n; j++) {
+        const double x = re[j] * by_re[j] - im[j] * by_im[j];
+        im[j] = im[j] * by_re[j] + re[j] * by_im[j];
+        re[j] = x;
+    }
+}
+
+void koksma__dft_transform(const koksma__dft *c, const koksma__fourier *f, size_t stride, double *re, double *im,
+                           double *scratch_re, double *scratch_im)
+{
+    if (!c->padded) {
+        define(c, stride, re, im, scratch_re, scratch_im);
+        return;
+    }
+    for (size_t j = 0; j < c->length; j++) {
+        scratch_re[j] = re[j * stride];
+        scratch_im[j] = im[j * stride];
+    }
+    memset(scratch_re + c->length, 0, (c->padded - c->length) * sizeof *scratch_re);
+    memset(scratch_im + c->length, 0, (c->padded - c->length) * sizeof *scratch_im);
+    multiply(c->length, c->re, c->im, scratch_re, scratch_im);
+    koksma__fourier_forward(f, c->padded, scratch_re, scratch_im);
+    multiply(c->padded, c->filter_re, c->filter_im, scratch_re, scratch_im);
+    koksma__fourier_back(f, c->padded, scratch_re, scratch_im);
+    multiply(c->length, c->re, c->im, scratch_re, scratch_im);
+    for (size_t j = 0; j < c->length; j++) {
+        re[j * stride] = scratch_re[j];
+        im[j * stride] = scratch_im[j];
     }
 }

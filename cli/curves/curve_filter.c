@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pixel filters and their frequency responses, in one chart. */
+/*
+ * filter and filter-response: pixel filters of integral 1, and the size of their frequency responses in decibels, in
+ * one chart. Leakage is the part of the squared response beyond half a cycle a pixel.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <koksma/render.h>
 
-#include "plots.h"
+#include "../charts.h"
 
-enum { PLACES = 401, MOST = 16, LABEL = 96 };
+enum { POSITIONS = 401, LABEL = 96 };
 
 /* Decibels below this are drawn here. */
 static const double floor_db = -80;
@@ -29,8 +31,8 @@ static double mass(const koksma_filter *filter)
 static void fill(const koksma_filter *filter, bool response, double *xs, double *ys)
 {
     const double scale = 1 / mass(filter);
-    for (int i = 0; i < PLACES; i++) {
-        xs[i] = (response ? 4.0 : 4.4) * i / (PLACES - 1) - (response ? 0 : 2.2);
+    for (int i = 0; i < POSITIONS; i++) {
+        xs[i] = (response ? 4.0 : 4.4) * i / (POSITIONS - 1) - (response ? 0 : 2.2);
         if (response) {
             ys[i] = fmax(20 * log10(fabs(koksma_filter_response(filter, xs[i]))), floor_db);
         } else {
@@ -39,14 +41,14 @@ static void fill(const koksma_filter *filter, bool response, double *xs, double 
     }
 }
 
-int plot_filters(plot_job *j)
+static int draw(cli_curves *c)
 {
-    const cli_arguments *arguments = j->curves.arguments;
-    const bool response = !strcmp(j->curve, "filter-response");
+    const cli_arguments *arguments = c->arguments;
+    const bool response = c->curve == &cli_curve_filter_response;
     const int n = arguments->n_operands;
-    const koksma_filter *filters[MOST];
-    koksma_curve curves[MOST] = {{0}};
-    char labels[MOST][LABEL];
+    const koksma_filter *filters[CLI_MAX_PANELS];
+    koksma_curve curves[CLI_MAX_PANELS] = {{0}};
+    char labels[CLI_MAX_PANELS][LABEL];
     for (int i = 0; i < n; i++) {
         filters[i] = koksma_filter_find(arguments->operands[i]);
         if (!filters[i]) {
@@ -54,25 +56,39 @@ int plot_filters(plot_job *j)
                                    arguments->operands[i]);
         }
     }
-    double *numbers = malloc(2 * PLACES * (size_t)n * sizeof *numbers);
+    double *numbers = malloc(2 * POSITIONS * (size_t)n * sizeof *numbers);
     if (!numbers) {
         return cli_no_memory();
     }
     for (int i = 0; i < n; i++) {
-        double *xs = numbers + (size_t)i * 2 * PLACES, *ys = xs + PLACES;
+        double *xs = numbers + (size_t)i * 2 * POSITIONS, *ys = xs + POSITIONS;
         fill(filters[i], response, xs, ys);
         snprintf(labels[i], LABEL, "%s", filters[i]->name);
         if (response) {
             snprintf(labels[i], LABEL, "%s: %.3f at 1/2, leakage %.1f %%", filters[i]->name,
                      koksma_filter_response(filters[i], 0.5), 100 * koksma_filter_leakage(filters[i]));
         }
-        curves[i] = (koksma_curve){.label = labels[i], .n = PLACES, .xs = xs, .ys = ys, .colour = (size_t)i};
+        curves[i] = (koksma_curve){.label = labels[i], .n = POSITIONS, .xs = xs, .ys = ys, .colour = (size_t)i};
     }
     koksma_chart chart = {.x_label = response ? "cycles a pixel" : "pixels from the middle",
                           .y_label = response ? "response [dB], -80 at least" : "filter, of integral 1",
                           .curves = curves,
                           .n_curves = (size_t)n};
-    const int code = plot_chart(j, &chart);
+    const int code = cli_write_chart(c, &chart);
     free(numbers);
     return code;
 }
+
+const cli_curve cli_curve_filter = {
+    .name = "filter",
+    .meaning = "pixel filters, whose names are the sources",
+    .cite = "-",
+    .plot = {.options = "", .draw = draw, .of_filters = true},
+};
+
+const cli_curve cli_curve_filter_response = {
+    .name = "filter-response",
+    .meaning = "their frequency responses; leakage is the part of the squared response beyond half a cycle a pixel",
+    .cite = "-",
+    .plot = {.options = "", .draw = draw, .of_filters = true},
+};

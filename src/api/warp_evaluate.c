@@ -9,9 +9,9 @@
 
 #include <koksma/warp.h>
 
+#include "api/evaluate.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "core/spec.h"
 #include "core/status.h"
 #include "core/sum.h"
 #include "measures/shared/disk_laws.h"

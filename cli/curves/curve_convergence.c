@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * convergence: a measure's mean over trials against n on logarithmic axes, with the line fitted by least squares to
+ * the logarithms, its slope and standard error, and dashed the slope that theory gives for the pattern, or else the
+ * best that any points can have. A file's sizes are its prefixes.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../bounds.h"
+#include "../charts.h"
+#include "../slope.h"
+#include "../source.h"
+
+enum { MAX_SIZES = CLI_MAX_SIZES, PER_SOURCE = 3 };
+
+/* --sizes, or powers of four from 16 (squares: patterns with cells have them) up to the source's n. */
+static bool choose_sizes(const cli_curves *c, size_t n, size_t *sizes, size_t *count)
+{
+    const char *text = cli_text(c->arguments, "sizes", NULL);
+    *count = 0;
+    for (size_t k = 16; !text && k <= n; k *= 4) {
+        sizes[(*count)++] = k;
+    }
+    while (text && *text) {
+        char *end;
+        const unsigned long long k = strtoull(text, &end, 10);
+        if (*text < '0' || *text > '9' || k == 0 || (*end && *end != ',') || *count == MAX_SIZES) {
+            cli_usage_error(c->arguments, "--sizes %s: it takes up to %d numbers as in 16,64,256", text, MAX_SIZES);
+            return false;
+        }
+        sizes[(*count)++] = k;
+        text = *end ? end + 1 : end;
+    }
+    return true;
+}
+
+/* A source's means over trials by size. */
+typedef struct convergence {
+    size_t sizes[MAX_SIZES], count;
+    koksma_tally tallies[MAX_SIZES];
+    cli_joint joint;
+    size_t n_cut; /* values that are bounds, as the search was cut short */
+} convergence;
+
+/* Values over sets of n points: a pattern's own sets of n, the first n of a file. */
+static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_source *source, const koksma_points *file,
+                       convergence *v)
+{
+    koksma_status status = KOKSMA_OK;
+    for (uint64_t t = 0; t < (file ? 1 : c->trials) && !status; t++) {
+        double values[MAX_SIZES];
+        for (size_t i = 0; i < v->count && !status; i++) {
+            koksma_points points = {0};
+            koksma_value value = {0};
+            if (!file) {
+                status = koksma_points_init(&points, v->sizes[i], source->dim);
+                status = status ? status : koksma_generate(&source->spec, c->seed + t, &c->work.run, &points);
+            }
+            if (!status) {
+                status =
+                    koksma_evaluate_prefixes(measure, file ? file : &points, &v->sizes[i], 1, &c->work.run, &value);
+            }
+            koksma_points_fini(&points);
+            values[i] = value.value;
+            v->n_cut += !status && cli_is_cut_short(measure, &value);
+            if (!status) {
+                koksma_tally_add(&v->tallies[i], value.value);
+            }
+        }
+        if (!status) {
+            cli_joint_add(&v->joint, v->count, values);
+        }
+    }
+    cli_work_end(&c->work);
+    return status ? cli_fail(c->arguments, status) : CLI_YES;
+}
+
+/* The fitted slope for the legend; the slope of theory through the fit's first point, dashed. */
+static void push_slopes(cli_chart_store *s, const koksma_line *line, double theory, const char *what)
+{
+    const koksma_curve *values = &s->curves[s->n - 1];
+    double *numbers = cli_next_numbers(s);
+    const double first = values->xs[0], last = values->xs[values->n - 1];
+    const double start = exp(line->intercept + line->slope * log(first));
+    char *label = s->labels[s->n];
+    if (!isfinite(theory)) {
+        return;
+    }
+    snprintf(label, CLI_CHART_LABEL, "slope -%.4g: %s", theory, what);
+    numbers[0] = first;
+    numbers[1] = last;
+    numbers[s->per] = start;
+    numbers[s->per + 1] = start * pow(last / first, -theory);
+    cli_push_curve(s, 2, 0, label);
+    s->curves[s->n - 1].dashed = true;
+    s->curves[s->n - 1].errors = NULL;
+}
+
+/* What the legend says of a source: its slope, with the trials' standard error or one set's residuals. */
+static void label_slope(char *label, const convergence *v, const koksma_line *line)
+{
+    const size_t used = strlen(label);
+    const char *error = v->joint.count > 1 ? "+-" : "by residuals +-";
+    const char *bounds = v->n_cut > 0 ? ", of lower bounds" : "";
+    if (line) {
+        snprintf(label + used, CLI_CHART_LABEL - used, ": slope %.3f %s %.3f%s", line->slope, error,
+                 line->slope_error, bounds);
+    } else if (v->n_cut > 0) {
+        snprintf(label + used, CLI_CHART_LABEL - used, ": lower bounds");
+    }
+}
+
+static int add_convergence(cli_curves *c, const koksma_spec *measure, const char *text, size_t colour,
+                           cli_chart_store *s)
+{
+    cli_source source;
+    koksma_points file = {0};
+    double *numbers = cli_next_numbers(s);
+    char *label = s->labels[s->n];
+    convergence *v = calloc(1, sizeof *v);
+    int code = v ? cli_source_open(c->arguments, text, &source) : cli_no_memory();
+    if (!code && !source.is_pattern) {
+        code = cli_source_points(c->arguments, text, 0, &c->work.run, &file);
+    }
+    if (!code && !choose_sizes(c, source.is_pattern ? source.n : file.n, v->sizes, &v->count)) {
+        code = CLI_USAGE;
+    }
+    code = code ? code : tally_sizes(c, measure, &source, source.is_pattern ? NULL : &file, v);
+    const int dim = code ? 0 : source.is_pattern ? source.dim : file.dim;
+    koksma_points_fini(&file);
+    if (code) {
+        free(v);
+        return code;
+    }
+    for (size_t i = 0; i < v->count; i++) {
+        numbers[i] = (double)v->sizes[i];
+        numbers[s->per + i] = v->tallies[i].mean;
+        numbers[2 * s->per + i] = koksma_tally_error(&v->tallies[i]);
+    }
+    koksma_line line;
+    const bool fitted = cli_slope(v->count, numbers, numbers + s->per, &v->joint, &line);
+    snprintf(label, CLI_CHART_LABEL, "%.80s", cli_label(text));
+    label_slope(label, v, fitted ? &line : NULL);
+    cli_tell_cuts(c->arguments, text, v->n_cut);
+    const size_t count = v->count;
+    free(v);
+    cli_push_curve(s, count, colour, label);
+    s->curves[s->n - 1].marks = true;
+    if (fitted) {
+        const double rate = source.is_pattern ? koksma_rate(&source.spec, measure->measure, dim) : (double)NAN;
+        const bool known = isfinite(rate);
+        push_slopes(s, &line, known ? rate : koksma_best_rate(measure->measure, dim),
+                    known ? "theory, without logarithms" : "no points are faster, logarithms aside");
+    }
+    return CLI_YES;
+}
+
+static int draw(cli_curves *c)
+{
+    const cli_arguments *arguments = c->arguments;
+    koksma_spec measure;
+    char y_label[KOKSMA_MAX_SPEC + 64];
+    cli_chart_store s;
+    koksma_status status = koksma_measure_spec(cli_text(arguments, "measure", "l2-star"), &measure);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    int code = cli_open_store(&s, PER_SOURCE * (size_t)arguments->n_operands, MAX_SIZES) ? CLI_YES : cli_no_memory();
+    for (int i = 0; i < arguments->n_operands && !code; i++) {
+        code = add_convergence(c, &measure, arguments->operands[i], (size_t)i, &s);
+    }
+    if (!code) {
+        koksma_spec_text(&measure, y_label);
+        if (c->trials > 1) {
+            const size_t used = strlen(y_label);
+            snprintf(y_label + used, sizeof y_label - used, ", mean of %llu sets", (unsigned long long)c->trials);
+        }
+        koksma_chart chart = {
+            .x_label = "n", .y_label = y_label, .log_x = true, .log_y = true, .curves = s.curves, .n_curves = s.n};
+        code = cli_write_chart(c, &chart);
+    }
+    cli_close_store(&s);
+    return code;
+}
+
+const cli_curve cli_curve_convergence = {
+    .name = "convergence",
+    .meaning =
+        "the mean of a measure over trials against n on logarithmic axes, with the fitted slope and its standard "
+        "error, and dashed the slopes that theory gives for the pattern, or else the best that any points can have; "
+        "a file's sizes are its prefixes",
+    .cite = "-",
+    .plot = {.options = "measure sizes trials", .draw = draw, .mixes_files = true},
+};

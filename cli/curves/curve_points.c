@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * points: the points themselves in the square or through a map of it, with cells, the region where a measure reaches
+ * its supremum, or the local discrepancy as colours behind them; one panel a source.
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../charts.h"
+#include "../source.h"
+
+enum { MAX_CELLS = 4096 };
+
+/* --grid M or MxN, --rooks, --columns and --rows. */
+static bool choose_cells(const cli_curves *c, const koksma_points *points, koksma_scatter_options *out)
+{
+    uint64_t columns, rows;
+    const char *grid = cli_text(c->arguments, "grid", NULL);
+    if (!cli_whole(c->arguments, "columns", 0, 1, MAX_CELLS, &columns) ||
+        !cli_whole(c->arguments, "rows", 0, 1, MAX_CELLS, &rows)) {
+        return false;
+    }
+    if (grid) {
+        char *end;
+        columns = rows = strtoull(grid, &end, 10);
+        bool good = grid[0] >= '0' && grid[0] <= '9';
+        if (good && *end == 'x') {
+            const char *second = end + 1;
+            rows = strtoull(second, &end, 10);
+            good = second[0] >= '0' && second[0] <= '9';
+        }
+        if (!good || *end || columns < 1 || rows < 1 || columns > MAX_CELLS || rows > MAX_CELLS) {
+            cli_usage_error(c->arguments, "--grid %s: it takes M, or MxN columns and rows, up to %d", grid,
+                            MAX_CELLS);
+            return false;
+        }
+    }
+    if (cli_flag(c->arguments, "rooks")) {
+        columns = rows = points->n < MAX_CELLS ? points->n : 0; /* closer than a line is wide */
+    }
+    out->columns = columns;
+    out->rows = rows;
+    return true;
+}
+
+/* One panel's points, its cells and its witness; caption has room for KOKSMA_MAX_SPEC characters. */
+static int add_points(cli_curves *c, const char *source, koksma_points *points, koksma_panel *panel,
+                      koksma_value *value, char *caption)
+{
+    koksma_spec measure;
+    int code = cli_source_points(c->arguments, source, c->seed, &c->work.run, points);
+    if (code) {
+        return code;
+    }
+    *panel = (koksma_panel){.points = points};
+    if (!choose_cells(c, points, &panel->scatter)) {
+        return CLI_USAGE;
+    }
+    panel->scatter.warp = c->warp;
+    panel->scatter.local_discrepancy = cli_flag(c->arguments, "local-discrepancy");
+    if (c->witness) {
+        koksma_status status = koksma_measure_spec(c->witness, &measure);
+        if (!status) {
+            status = koksma_evaluate(&measure, points, &c->work.run, value);
+        }
+        cli_work_end(&c->work);
+        if (status) {
+            return cli_fail(c->arguments, status);
+        }
+        const bool is_bound = !value->exact && measure.measure->answer != KOKSMA_ANSWER_SAMPLED;
+        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s %s %.6f", c->witness, is_bound ? ">=" : "=", value->value);
+        panel->scatter.witness = &value->witness;
+        panel->caption = caption;
+    } else if (c->arguments->n_operands > 1) {
+        panel->caption = cli_label(source);
+    }
+    return CLI_YES;
+}
+
+static int draw(cli_curves *c)
+{
+    const int n = c->arguments->n_operands;
+    koksma_points points[CLI_MAX_PANELS] = {{0}};
+    koksma_panel panels[CLI_MAX_PANELS] = {{0}};
+    koksma_value values[CLI_MAX_PANELS];
+    char captions[CLI_MAX_PANELS][KOKSMA_MAX_SPEC];
+    int code = CLI_YES;
+    for (int i = 0; i < n && !code; i++) {
+        code = add_points(c, c->arguments->operands[i], &points[i], &panels[i], &values[i], captions[i]);
+    }
+    if (!code) {
+        code = cli_draw_panels(c, panels, (size_t)n);
+    }
+    for (int i = 0; i < n; i++) {
+        koksma_points_fini(&points[i]);
+    }
+    return code;
+}
+
+const cli_curve cli_curve_points = {
+    .name = "points",
+    .meaning = "the points, with cells, a measure's witness or the local discrepancy",
+    .cite = "-",
+    .plot = {.options = "columns rows grid rooks witness warp local-discrepancy", .draw = draw},
+};

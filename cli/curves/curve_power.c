@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * power: the periodogram (1/n) |sum exp(-2 pi i k.x)|^2 of points of the plane at every frequency k, mean over
+ * trials; half of the plane of frequencies, since k and -k have the same. A picture leaves out the frequency 0.
+ */
+#include <string.h>
+
+#include <koksma/image.h>
+
+#include "../charts.h"
+
+static int compute(cli_curves *c, const char *source, cli_sink *sink)
+{
+    koksma_spectrum s;
+    const int code = cli_curves_spectrum(c, source, 2, &s);
+    sink->points = s.points;
+    if (s.sets > 0 && c->output) {
+        const koksma_status status = c->curve->print.write(c, &s);
+        koksma_spectrum_fini(&s);
+        return code ? code : status ? cli_fail(c->arguments, status) : CLI_YES;
+    }
+    for (int ky = 0; ky <= s.half && s.sets > 0; ky++) {
+        for (int kx = -s.half; kx <= s.half; kx++) {
+            sink->row(sink, (double[]){kx, ky, koksma_spectrum_power(&s, kx, ky)});
+        }
+    }
+    koksma_spectrum_fini(&s);
+    return code;
+}
+
+/* The grid as an image, ky = half on top. */
+static koksma_status write_image(const char *path, const koksma_spectrum *s)
+{
+    const int side = 2 * s->half + 1;
+    koksma_image image;
+    koksma_status status = koksma_image_init(&image, side, side, 1);
+    for (int row = 0; row < side && !status; row++) {
+        for (int column = 0; column < side; column++) {
+            image.pixels[(size_t)row * (size_t)side + (size_t)column] =
+                (float)koksma_spectrum_power(s, column - s->half, s->half - row);
+        }
+    }
+    if (!status) {
+        status = koksma_image_write(path, &image, NULL);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+/* An image by its ending, else text or numbers. */
+static koksma_status write(cli_curves *c, const koksma_spectrum *s)
+{
+    const char *dot = strrchr(c->output, '.');
+    const char *name, *left_out;
+    for (size_t i = 0; dot && (name = koksma_image_format(i, &left_out)); i++) {
+        if (!strcmp(dot + 1, name)) {
+            return write_image(c->output, s);
+        }
+    }
+    return koksma_spectrum_write(c->output, s);
+}
+
+static int draw(cli_curves *c)
+{
+    const int n = c->arguments->n_operands;
+    koksma_spectrum spectra[CLI_MAX_PANELS] = {{0}};
+    koksma_panel panels[CLI_MAX_PANELS] = {{0}};
+    double white;
+    int code = cli_real(c->arguments, "white", 2, 1e-9, 1e9, &white) ? CLI_YES : CLI_USAGE;
+    for (int i = 0; i < n && !code; i++) {
+        const char *source = c->arguments->operands[i];
+        code = cli_curves_spectrum(c, source, 2, &spectra[i]);
+        panels[i] = (koksma_panel){.spectrum = &spectra[i], .white = white, .caption = cli_label(source)};
+    }
+    if (!code) {
+        code = cli_draw_panels(c, panels, (size_t)n);
+    }
+    for (int i = 0; i < n; i++) {
+        koksma_spectrum_fini(&spectra[i]);
+    }
+    return code;
+}
+
+const cli_curve cli_curve_power = {
+    .name = "power",
+    .meaning = "the power spectrum (1/n)|sum exp(-2 pi i k.x)|^2 at every frequency k; a picture leaves out k = 0",
+    .cite = "ulichney1987",
+    .compute = compute,
+    .columns = {"kx", "ky", "value"},
+    .print = {.options = "half exact output trials", .write = write},
+    .plot = {.options = "half exact white trials", .draw = draw},
+};

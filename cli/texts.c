@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Help texts that name members of tables. A synopsis, an option's argument or help, or the details of a command may
+ * hold a placeholder in braces; cli_expand puts the names in, so that a new member is in help, completion and manual
+ * pages:
+ *
+ *     {curve}, {chart}                     power|rings|...: the curves that are printed, and those that are drawn
+ *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
+ *     {curve-meanings}, {chart-meanings}   a paragraph each
+ *     {property-meanings}                  a paragraph each, of `verify`
+ *     {image-formats}                      .exr, .png or .pfm
+ *     {lists}                              patterns|measures|...: what `list` lists
+ *
+ * Other braces stay as they are. The texts are kept until the program ends, in one block of fixed size; a text that
+ * does not fit is a mistake in the program and aborts.
+ */
+#include "texts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/image.h>
+#include <koksma/verify.h>
+
+#include "curves.h"
+
+enum { POOL = 1 << 15, WIDTH = 110, MOST_COMMANDS = 32 };
+
+static char pool[POOL];
+static size_t used;
+
+/* Appends to the text at the end of the pool. */
+static void put(const char *text, size_t length)
+{
+    if (used + length + 1 > sizeof pool) {
+        abort();
+    }
+    memcpy(pool + used, text, length);
+    used += length;
+}
+
+/* "name: meaning.", broken into lines. */
+static void put_meaning(const char *name, const char *meaning)
+{
+    size_t column = strlen(name) + 1;
+    put(name, strlen(name));
+    put(":", 1);
+    for (const char *at = meaning; *at; at += strcspn(at, " ")) {
+        at += strspn(at, " ");
+        const size_t length = strcspn(at, " ");
+        const bool fits = column + 1 + length <= WIDTH;
+        put(fits ? " " : "\n", 1);
+        put(at, length);
+        column = fits ? column + 1 + length : length;
+    }
+    put(".\n", 2);
+}
+
+static void put_curve_meanings(cli_curve_list list)
+{
+    const cli_curve *curve;
+    for (size_t i = 0; (curve = cli_curve_at(i)); i++) {
+        if (cli_curve_find(list, curve->name) == curve) {
+            put_meaning(curve->name, curve->meaning);
+        }
+    }
+}
+
+const char *cli_image_formats(char *text, size_t size)
+{
+    const char *name, *left_out;
+    size_t n = 0;
+    *text = '\0';
+    for (size_t i = 0; (name = koksma_image_format(i, &left_out)); i++) {
+        const char *next = koksma_image_format(i + 1, &left_out);
+        n += (size_t)snprintf(text + n, size - n, ".%s%s", name,
+                              !next                                   ? ""
+                              : koksma_image_format(i + 2, &left_out) ? ", "
+                                                                      : " or ");
+    }
+    return text;
+}
+
+/* What a placeholder, without its braces, stands for; false: it is none. */
+static bool put_placeholder(const char *name)
+{
+    char text[512] = "", option[32] = "";
+    const koksma_property *property;
+    const cli_curve_list list = strncmp(name, "chart", 5) == 0 ? CLI_DRAWN : CLI_PRINTED;
+    if (!strcmp(name, "curve") || !strcmp(name, "chart")) {
+        cli_curve_names(list, NULL, "|", "|", text, sizeof text);
+    } else if (sscanf(name, "curve:%31s", option) == 1 || sscanf(name, "chart:%31s", option) == 1) {
+        cli_curve_names(list, option, ", ", ", ", text, sizeof text);
+    } else if (!strcmp(name, "curve-meanings") || !strcmp(name, "chart-meanings")) {
+        put_curve_meanings(list);
+    } else if (!strcmp(name, "property-meanings")) {
+        for (size_t i = 0; (property = koksma_property_at(i)); i++) {
+            put_meaning(property->name, property->meaning);
+        }
+    } else if (!strcmp(name, "image-formats")) {
+        cli_image_formats(text, sizeof text);
+    } else if (!strcmp(name, "lists")) {
+        cli_list_names("|", text, sizeof text);
+    } else {
+        return false;
+    }
+    put(text, strlen(text));
+    return true;
+}
+
+static const char *expand(const char *text)
+{
+    if (!text || !strchr(text, '{')) {
+        return text;
+    }
+    const size_t start = used;
+    for (const char *at = text; *at;) {
+        char name[48];
+        int length = 0;
+        if (sscanf(at, "{%47[a-z:-]}%n", name, &length) == 1 && length > 0 && put_placeholder(name)) {
+            at += length;
+        } else {
+            put(at++, 1);
+        }
+    }
+    put("", 1);
+    return pool + start;
+}
+
+const cli_command *cli_expand(const cli_command *command, size_t i)
+{
+    static cli_command expanded[MOST_COMMANDS];
+    static cli_option options[MOST_COMMANDS][CLI_MAX_OPTIONS + 1];
+    if (i >= MOST_COMMANDS) {
+        abort();
+    }
+    if (!expanded[i].name) {
+        for (size_t k = 0; command->options[k].name; k++) {
+            options[i][k] = command->options[k];
+            options[i][k].argument = expand(command->options[k].argument);
+            options[i][k].help = expand(command->options[k].help);
+        }
+        expanded[i] = *command;
+        expanded[i].synopsis = expand(command->synopsis);
+        expanded[i].details = expand(command->details);
+        expanded[i].options = options[i];
+    }
+    return &expanded[i];
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* koksma_evaluate: the checks of arguments that every measure can rely on, then the measure's own function. A value
+   that is exact is its own lower and upper bound. */
+#include "api/evaluate.h"
+
+#include <math.h>
+
+#include "core/points_io.h"
+#include "core/spec.h"
+#include "core/status.h"
+
+koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points)
+{
+    const koksma_measure *m = spec->measure;
+    if (!m || !points->xs || points->n == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes the spec of a measure and at least 1 point", caller);
+    }
+    koksma_status status = koksma__dim_check(m->name, points->dim, m->min_dim, m->max_dim);
+    status = status ? status : koksma__params_check(m->name, m->params, spec->params);
+    return status ? status : koksma__points_check(points);
+}
+
+koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
+                              koksma_value *out)
+{
+    *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
+    koksma_status status = koksma__evaluate_check("koksma_evaluate", spec, points);
+    const koksma_args args = koksma__spec_arguments(spec, run);
+    if (!status) {
+        status = spec->measure->eval(points, &args, out);
+    }
+    if (!status && out->exact) {
+        out->lower = out->upper = out->value;
+    }
+    return status;
+}

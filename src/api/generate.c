@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* koksma_generate and koksma_generate_whole: the checks of arguments that every pattern can rely on, the pattern's
+   own function, and the random shift on the torus (Cranley & Patterson 1976) that every pattern takes. */
+#include "api/generate.h"
+
+#include <string.h>
+
+#include "core/points_io.h"
+#include "core/random.h"
+#include "core/spec.h"
+#include "core/status.h"
+
+/* x + u on the torus; never 1. */
+static void shift_points(uint64_t seed, koksma_points *out)
+{
+    double u[KOKSMA_MAX_DIM + 1];
+    for (int k = 0; k < out->dim; k += 2) {
+        koksma__random_pair(seed, KOKSMA__PURPOSE_SHIFT, 0, (uint32_t)k, u + k);
+    }
+    double *x = out->xs;
+    for (size_t i = 0; i < out->n; i++) {
+        for (int k = 0; k < out->dim; k++, x++) {
+            *x += u[k];
+            *x -= *x >= 1;
+        }
+    }
+}
+
+static koksma_status check_generate(const koksma_spec *spec, const koksma_pattern *p, int dim)
+{
+    const koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
+    return status ? status : koksma__params_check(p->name, p->params, spec->params);
+}
+
+static const koksma_pattern *pattern_of(const koksma_spec *spec)
+{
+    return spec->pattern && spec->pattern->alias_of ? koksma_pattern_find(spec->pattern->alias_of) : spec->pattern;
+}
+
+bool koksma__spec_is_deterministic(const koksma_spec *spec)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    bool deterministic = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC;
+    for (int k = 0; p->params && p->params[k].name; k++) {
+        if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
+            deterministic = deterministic && spec->params[k] == 0;
+        }
+    }
+    return deterministic;
+}
+
+koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    if (!p || !out->xs || out->n == 0) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "koksma_generate: it takes the spec of a pattern and initialised points");
+    }
+    koksma_status status = check_generate(spec, p, out->dim);
+    status = status ? status : koksma__points_fit(out->n, out->dim);
+    const koksma_args args = koksma__spec_arguments(spec, run);
+    if (!status) {
+        status = p->generate(seed, &args, out);
+    }
+    if (!status && spec->shift) {
+        shift_points(seed, out);
+    }
+    return status;
+}
+
+koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,
+                                    koksma_points *out)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    *out = (koksma_points){.dim = dim};
+    if (!p) {
+        return koksma__fail(KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
+    }
+    if (!p->whole) {
+        return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
+    }
+    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : KOKSMA_OK;
+    const koksma_args args = koksma__spec_arguments(spec, run);
+    if (!status) {
+        status = p->whole(seed, &args, out);
+    }
+    if (!status && spec->shift) {
+        shift_points(seed, out);
+    }
+    return status;
+}

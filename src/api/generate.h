@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_API_GENERATE_H
+#define KOKSMA_API_GENERATE_H
+
+#include <koksma/koksma.h>
+
+#include "core/visibility.h"
+
+/* Whether a pattern's spec gives the same points for every seed: the pattern claims DETERMINISTIC, and neither shift
+   nor a parameter "scramble" or "shuffle" makes it random. */
+KOKSMA__LAB bool koksma__spec_is_deterministic(const koksma_spec *spec);
+
+#endif

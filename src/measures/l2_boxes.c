@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The L2 discrepancies, one row each: the root of the squared norm of (points - volume) under a kernel K,
+ *
+ *     c^d - (2/n) sum_i prod_k a(x_ik) + (1/n^2) sum_ij prod_k K(x_ik, x_jk),
+ *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
+ *
+ * They differ in K alone, which a row holds as numbers (measures/shared/l2.h); shared/l2.c chooses the method by n
+ * and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or of 106 bits, and the value
+ * is good to 1e-11 of itself at 10^6 points; in more the square is good to about 1e-16 of its terms (l2-star: 1e-17).
+ */
+#include "measures/measures.h"
+#include "measures/shared/l2.h"
+
+/* koksma__measure_l2_KIND: c12, a24, g, q and r of its kernel, and what is listed. */
+#define L2(kind, title_, cite_, c12_, ...)                                                                           \
+    const koksma__l2_row koksma__l2_##kind = {.name = "l2-" #kind, .c12 = (c12_), __VA_ARGS__};                      \
+    static koksma_status eval_##kind(const koksma_points *points, const koksma_args *args, koksma_value *out)        \
+    {                                                                                                                \
+        return koksma__l2(&koksma__l2_##kind, points, args->run, out);                                               \
+    }                                                                                                                \
+    const koksma_measure koksma__measure_l2_##kind = {                                                               \
+        .name = "l2-" #kind,                                                                                         \
+        .title = (title_),                                                                                           \
+        .cite = (cite_),                                                                                             \
+        .cost = "n log n in 2D, n log^(d-1) n in 3D, 4D, n^2 d",                                                     \
+        .family = KOKSMA_FAMILY_BOXES,                                                                               \
+        .min_dim = 1,                                                                                                \
+        .max_dim = KOKSMA_MAX_DIM,                                                                                   \
+        .eval = eval_##kind,                                                                                         \
+    }
+
+/*
+ * l2-star: the root mean square, over all boxes [0,y) with a corner at the origin, of the difference between the
+ * share of points in the box and its volume. The first paper's S, the second's T with L2.
+ *
+ * Formula: S^2 = 3^-d - (2/n) sum_i prod_k (1 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (1 - max(x_ik, x_jk)).
+ * Source: Warnock 1972; Shirley 1991, section 5.5.7; Mitchell 1992, section 2; in O(n log n) after Heinrich 1996.
+ * Known exactly: one point at the centre of the square, S^2 = 23/288; random points, E(S^2) = (2^-d - 3^-d)/n;
+ * m x m jittered, E(S^2) = ((m-1)/6 + 5/36)/m^4; 4 x 4 centres, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
+ */
+L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
+   "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992", 4, .a24 = {9, -12, -12, 0},
+   .g = {0.25, -0.5, 0, 0}, .q = -0.5, .r = 0);
+
+/*
+ * l2-extreme: the root of the integral, over all boxes [lo, hi) with lo < hi in every coordinate, of the squared
+ * difference between the share of points in the box and its volume. Times 2^(d/2) it is the root mean square.
+ *
+ * Formula: 12^-d - (2/n) sum_i prod_k x(1-x)/2 + (1/n^2) sum_ij prod_k (1 - max) min, with x, max and min of
+ * coordinate k. Source: Morokoff and Caflisch 1994, whose T_N it is.
+ * Known exactly: one point at the centre of the square, square = 11/288; random points, E = (6^-d - 12^-d)/n.
+ */
+L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998", 1,
+   .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
+
+/*
+ * l2-periodic: the root mean square, over boxes on the torus whose starts and lengths are uniform, of the difference
+ * between the share of points in the box and its volume. Shifting all points on the torus does not change it.
+ *
+ * Formula: -(3^-d) + (1/n^2) sum_ij prod_k (1/2 - t + t^2), t = |x_ik - x_jk|.
+ * Source: Lev 1995; Hinrichs, Kritzinger and Pillichshammer 2020, who call it periodic.
+ * Known exactly: one point in the square, square = 1/4 - 1/9 = 5/36; random points, E = (2^-d - 3^-d)/n.
+ */
+L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev1995 hinrichs2020", 4,
+   .a24 = {8, 0, 0, 0}, .g = {0.25, 0, 0, 0}, .q = -1, .r = 1);
+
+/*
+ * l2-wraparound: l2-periodic summed over all projections: the square is the sum, over the non-empty sets of
+ * coordinates, of the square of l2-periodic of the points in these coordinates.
+ *
+ * Formula: -(4/3)^d + (1/n^2) sum_ij prod_k (3/2 - t + t^2), t = |x_ik - x_jk|.
+ * Source: Hickernell 1998. SciPy's qmc.discrepancy(method='WD') is the square.
+ * Known exactly: one point in the square, square = 9/4 - 16/9 = 17/36.
+ */
+L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", 16, .a24 = {32, 0, 0, 0}, .g = {0.75, 0, 0, 0},
+   .q = -1, .r = 1);
+
+/*
+ * l2-modified: l2-star summed over all projections: the square is the sum, over the non-empty sets of coordinates,
+ * of the square of l2-star of the points in these coordinates. It is the worst error of integration of functions
+ * with mixed first derivatives of norm 1, anchored at 1.
+ *
+ * Formula: (4/3)^d - (2/n) sum_i prod_k (3 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (2 - max(x_ik, x_jk)).
+ * Source: Hickernell 1998. Known exactly: one point at the centre of the line, square = 1/12.
+ */
+L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickernell1998", 16, .a24 = {33, -12, -12, 0},
+   .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
+
+/*
+ * l2-centered: as l2-modified, with boxes between a point and the corner of the cube next to it: reflecting the
+ * points about any plane x_k = 1/2 does not change it.
+ *
+ * Formula: (13/12)^d - (2/n) sum_i prod_k (1 + h/2 - h^2/2) + (1/n^2) sum_ij prod_k (1 + (h_i + h_j - t)/2), with
+ * h = |x_ik - 1/2|, t = |x_ik - x_jk|. Source: Hickernell 1998. SciPy's method='CD' is the square.
+ * Known exactly: one point at the centre of the square, square = 25/144.
+ */
+L2(centered, "centered L2 discrepancy", "hickernell1998", 13, .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5},
+   .q = -0.5, .r = 0);
+
+/*
+ * l2-mixture: between l2-centered and l2-wraparound: boxes that grow from the corner next to a point and boxes that
+ * wrap around, in equal parts.
+ *
+ * Formula: (19/12)^d - (2/n) sum_i prod_k (5/3 - h/4 - h^2/4)
+ *          + (1/n^2) sum_ij prod_k (15/8 - (h_i + h_j)/4 - 3t/4 + t^2/2), h = |x_ik - 1/2|, t = |x_ik - x_jk|.
+ * Source: Zhou, Fang and Ning 2013. SciPy's method='MD' is the square.
+ * Known exactly: one point at the centre of the line, square = 19/12 - 10/3 + 15/8 = 1/8.
+ */
+L2(mixture, "mixture L2 discrepancy", "zhou2013", 19, .a24 = {40, 0, -6, -6}, .g = {0.9375, 0, 0, -0.25}, .q = -0.75,
+   .r = 0.5);
+
+/*
+ * l2-symmetric: l2-star with every corner of the cube as the anchor: the square is 4^d times the mean, over the 2^d
+ * corners, of the square of l2-star.
+ *
+ * Formula: (4/3)^d - (2/n) sum_i prod_k (1 + 2x - 2x^2) + (1/n^2) sum_ij prod_k 2 (1 - t), t = |x_ik - x_jk|.
+ * Source: Hickernell 1998. Known exactly: one point at the centre of the square, square = 23/18.
+ */
+L2(symmetric, "symmetric L2 discrepancy (mean over all corners as anchors)", "hickernell1998", 16,
+   .a24 = {36, 0, -48, 0}, .g = {1, 0, 0, 0}, .q = -2, .r = 0);

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * below-one-as-float: a double just below 1 rounds to the float 1, outside of [0,1), where a renderer then reads past
+ * the end of a table. 1 - 2^-25 and above do. O(n dim).
+ */
+#include <stdio.h>
+
+#include "verify/verify.h"
+
+static koksma_status look(koksma__verification *v)
+{
+    const koksma_points *points = v->points;
+    size_t count = 0, first = 0;
+    for (size_t i = points->n * (size_t)points->dim; i-- > 0;) {
+        if ((float)points->xs[i] >= 1) {
+            count++;
+            first = i / (size_t)points->dim;
+        }
+    }
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count == 0;
+    const size_t all = points->n * (size_t)points->dim;
+    int used = snprintf(f->detail, sizeof f->detail, "%zu of %zu coordinates become 1", count, all);
+    if (count) {
+        snprintf(f->detail + used, sizeof f->detail - (size_t)used, ", first of point %zu", first);
+    }
+    return KOKSMA_OK;
+}
+
+const koksma__property koksma__property_below_one_as_float = {
+    .public = {.name = "below-one-as-float",
+               .meaning = "no coordinate becomes 1 as a float; value: coordinates that do"},
+    .look = look,
+};

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * origin-unique and origin-present: points at the origin. A digital sequence has one, its first point; generators
+ * that skip it spoil the nets of its prefixes. origin-present fails where the points look like points 1 .. n of such
+ * a sequence: in each coordinate different multiples of 2^-m, 2^m > n, none of them 0 nor all odd. O(n dim).
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "verify/verify.h"
+
+static size_t at_origin(const koksma_points *points)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < points->n; i++) {
+        bool zero = true;
+        for (int k = 0; k < points->dim; k++) {
+            zero = zero && points->xs[i * (size_t)points->dim + (size_t)k] == 0;
+        }
+        count += zero;
+    }
+    return count;
+}
+
+/* Points 1 .. n of a sequence like Sobol's: in each coordinate different multiples of 2^-m, 2^m > n, none of them 0.
+   Grids share coordinates, and those of centres are odd multiples all. `seen` has room for a bit each. */
+static bool is_sequence_from_one(const koksma_points *points, uint32_t *seen)
+{
+    size_t cells = 1;
+    while (cells <= points->n) {
+        cells *= 2;
+    }
+    for (int k = 0; k < points->dim; k++) {
+        bool odd = true;
+        memset(seen, 0, (cells / 32 + 1) * sizeof *seen);
+        for (size_t i = 0; i < points->n; i++) {
+            const double place = points->xs[i * (size_t)points->dim + (size_t)k] * (double)cells;
+            const size_t cell = (size_t)place;
+            if (place != (double)cell || cell == 0 || seen[cell / 32] >> cell % 32 & 1) {
+                return false;
+            }
+            seen[cell / 32] |= 1u << cell % 32;
+            odd = odd && cell % 2;
+        }
+        if (odd) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static koksma_status look_unique(koksma__verification *v)
+{
+    const size_t count = at_origin(v->points);
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count <= 1;
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin", count);
+    return KOKSMA_OK;
+}
+
+static koksma_status look_present(koksma__verification *v)
+{
+    const size_t count = at_origin(v->points);
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = (double)count;
+    f->holds = count > 0 || !is_sequence_from_one(v->points, v->counts);
+    snprintf(f->detail, sizeof f->detail, "%zu at the origin%s", count,
+             count > 0  ? ""
+             : f->holds ? ", where only unscrambled sequences need one"
+                        : ": different multiples of 2^-m in each coordinate, as a sequence without its first point");
+    return KOKSMA_OK;
+}
+
+const koksma__property koksma__property_origin_unique = {
+    .public = {.name = "origin-unique", .meaning = "at most one point is at the origin; value: points there"},
+    .look = look_unique,
+};
+
+const koksma__property koksma__property_origin_present = {
+    .public = {.name = "origin-present",
+               .meaning = "no unscrambled sequence has lost its first point, the origin; value: points there"},
+    .look = look_present,
+};

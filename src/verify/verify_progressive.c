@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * progressive: whether the points may be used in their order, a few at first and more later. Over the prefixes of 2^j
+ * points, 16 or more, the largest ratio of the L2 star discrepancy to its root mean square over random points,
+ * sqrt((2^-d - 3^-d) / n). The longest prefix is what takes about a second: 2^22 points in the plane, 2^18 in three
+ * dimensions, 2^12 in four to twelve.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "verify/verify.h"
+
+enum { PREFIX_LEAST = 16, PREFIX_MOST_DIM = 12 };
+
+/* The longest prefix that is measured, in a second or so. */
+static size_t longest_prefix(const koksma_points *points)
+{
+    const size_t most = points->dim <= 2 ? (size_t)1 << 22 : points->dim == 3 ? (size_t)1 << 18 : (size_t)1 << 12;
+    size_t n = PREFIX_LEAST;
+    while (n <= points->n / 2 && n < most) {
+        n *= 2;
+    }
+    return n;
+}
+
+static koksma_status look(koksma__verification *v)
+{
+    const koksma_points *points = v->points;
+    size_t worst = 0;
+    double value = 0;
+    koksma_spec l2_star;
+    koksma_status status = koksma_measure_spec("l2-star", &l2_star);
+    const size_t last = longest_prefix(points);
+    for (size_t n = PREFIX_LEAST; n <= points->n && n <= last && points->dim <= PREFIX_MOST_DIM && !status; n *= 2) {
+        const koksma_points prefix = {n, points->dim, points->xs};
+        const double random = (pow(2, -points->dim) - pow(3, -points->dim)) / (double)n;
+        koksma_value found;
+        status = koksma_evaluate(&l2_star, &prefix, v->run, &found);
+        const double ratio = status ? 0 : found.value / sqrt(random);
+        if (ratio > value) {
+            value = ratio;
+            worst = n;
+        }
+    }
+    if (status || worst == 0) {
+        return status;
+    }
+    koksma_finding *f = koksma__finding(v);
+    if (!f) {
+        return KOKSMA_MEMORY;
+    }
+    f->value = value;
+    f->holds = value <= 2;
+    snprintf(f->detail, sizeof f->detail, "the worst of the prefixes up to %zu points has %zu", last, worst);
+    return KOKSMA_OK;
+}
+
+const koksma__property koksma__property_progressive = {
+    .public = {.name = "progressive",
+               .meaning =
+                   "prefixes are at most twice as uneven as random points; value: the largest ratio (L2 star)"},
+    .look = look,
+};

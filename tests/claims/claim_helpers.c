@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the tests of several claims use. They read points; nothing here makes patterns but the sets of check_means. */
+#include "claims/claims.h"
+
+double param_of(const koksma_spec *spec, const char *name, double fallback)
+{
+    for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {
+        if (!strcmp(spec->pattern->params[k].name, name)) {
+            return spec->params[k];
+        }
+    }
+    return fallback;
+}
+
+size_t stratum(double x, size_t m)
+{
+    size_t j = (size_t)(x * (double)m);
+    while (j > 0 && x < (double)j / (double)m) {
+        j--;
+    }
+    while (j + 1 < m && x >= (double)(j + 1) / (double)m) {
+        j++;
+    }
+    return j;
+}
+
+bool one_in_each(const koksma_points *points, size_t n, const int *use, const size_t *m, int count)
+{
+    unsigned char *seen = calloc(n, 1);
+    bool ok = true;
+    for (size_t i = 0; i < n && ok; i++) {
+        size_t cell = 0;
+        for (int k = 0; k < count; k++) {
+            cell = cell * m[k] + stratum(points->xs[i * (size_t)points->dim + (size_t)use[k]], m[k]);
+        }
+        ok = cell < n && !seen[cell];
+        seen[cell < n ? cell : 0] = 1;
+    }
+    free(seen);
+    return ok;
+}
+
+size_t root_of(size_t n, int power)
+{
+    for (size_t m = 1;; m++) {
+        size_t product = 1;
+        for (int k = 0; k < power; k++) {
+            product *= m;
+        }
+        if (product >= n) {
+            return product == n ? m : 0;
+        }
+    }
+}
+
+double gap(double a, double b, bool torus)
+{
+    const double t = fabs(a - b);
+    return torus && t > 0.5 ? 1 - t : t;
+}
+
+double smallest_distance(const koksma_points *points, bool torus)
+{
+    double best = INFINITY;
+    const size_t dim = (size_t)points->dim;
+    for (size_t i = 0; i < points->n; i++) {
+        for (size_t j = 0; j < i; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < dim; k++) {
+                const double t = gap(points->xs[i * dim + k], points->xs[j * dim + k], torus);
+                sum += t * t;
+            }
+            best = sum < best ? sum : best;
+        }
+    }
+    return sqrt(best);
+}
+
+bool is_net2_block(const koksma_points *points, size_t first, size_t n)
+{
+    const koksma_points block = {.n = n, .dim = points->dim, .xs = points->xs + first * (size_t)points->dim};
+    const int use[2] = {0, 1};
+    bool ok = true;
+    for (size_t a = 1; a <= n && ok; a *= 2) {
+        const size_t ms[2] = {a, n / a};
+        ok = one_in_each(&block, n, use, ms, 2);
+    }
+    return ok;
+}
+
+static const double means_side[2] = {0.37, 0.61};
+
+/* What of the first n points lies in a box with sides 0.37, 0.61, ... */
+static double share_of_box(const koksma_points *points, size_t n)
+{
+    double inside = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool in = true;
+        for (int k = 0; k < points->dim; k++) {
+            in = in && points->xs[i * (size_t)points->dim + (size_t)k] < means_side[k % 2];
+        }
+        inside += in ? 1.0 / (double)n : 0;
+    }
+    return inside;
+}
+
+/* What of their coordinates lies in a band of width 0.04: that about 0 and 1, or another one. */
+static double share_of_band(const koksma_points *points, size_t n, double from)
+{
+    const size_t count = n * (size_t)points->dim;
+    double inside = 0;
+    for (size_t i = 0; i < count; i++) {
+        const double x = points->xs[i], turned = x < from ? x + 1 - from : x - from;
+        inside += turned < 0.04 ? 1.0 / (double)count : 0;
+    }
+    return inside;
+}
+
+void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only)
+{
+    enum { SETS = 120, BANDS = 3 };
+    static const double bands[BANDS] = {0.98, 0.105, 0.355};
+    double sum[BANDS + 1] = {0}, square[BANDS + 1] = {0}, volume = 1;
+    if (points->n > 32 || points->n < 4 || points->dim > 3 || seed != 0) {
+        return;
+    }
+    koksma_points other;
+    assert_ok(koksma_points_init(&other, points->n, points->dim));
+    for (uint64_t s = 0; s < SETS; s++) {
+        if (koksma_generate(spec, 1000 + s, NULL, &other)) {
+            fail_claim(spec, points, "seed %d: %s", (int)(1000 + s), koksma_error_text());
+        }
+        const size_t n = first_only ? 1 : other.n;
+        for (int b = 0; b <= BANDS; b++) {
+            const double inside = b < BANDS ? share_of_band(&other, n, bands[b]) : share_of_box(&other, n);
+            sum[b] += inside;
+            square[b] += inside * inside;
+        }
+    }
+    for (int k = 0; k < points->dim; k++) {
+        volume *= means_side[k % 2];
+    }
+    for (int b = 0; b <= BANDS; b++) {
+        const double mean = sum[b] / SETS, variance = fmax(square[b] / SETS - mean * mean, 1e-6);
+        const double expected = b < BANDS ? 0.04 : volume;
+        if (fabs(mean - expected) > 4.5 * sqrt(variance / SETS) + 1e-3) {
+            fail_claim(spec, points, "a %s of volume %.4f holds %.4f of the points in the mean",
+                       b < BANDS ? "band" : "box", expected, mean);
+        }
+    }
+    koksma_points_fini(&other);
+}

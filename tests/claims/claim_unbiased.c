@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* unbiased: each point set is uniform in the mean: E(#/n in B) = volume of B. */
+#include "claims/claims.h"
+
+void claim_UNBIASED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    check_means(spec, points, seed, false);
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Walks the table of warps: images lie in the domain, the Jacobian is the domain's measure over its density
+   everywhere, and equal parts of the domain, by coordinates of their own, get equal shares of a fine grid: a map that
+   covers half of the domain twice has the right Jacobian. */
+#include <string.h>
+
+#include <koksma/warp.h>
+
+#include "sets.h"
+
+enum { SIDE = 512, CELLS = 8, SAMPLES = 2000 };
+
+static void fail_domain(const koksma_warp *w)
+{
+    fail_msg("%s: its domain %d has no test here", w->name, (int)w->domain);
+}
+
+static bool is_inside(const koksma_warp *w, const double *x)
+{
+    const double e = 1e-12;
+    switch (w->domain) {
+    case KOKSMA_DOMAIN_DISK:
+        return x[0] * x[0] + x[1] * x[1] <= 1 + e;
+    case KOKSMA_DOMAIN_TRIANGLE:
+        return x[0] >= -e && x[1] >= -e && x[0] + x[1] <= 1 + e;
+    case KOKSMA_DOMAIN_HEMISPHERE:
+    case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
+        return fabs(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - 1) <= e && x[2] >= 0;
+    }
+    fail_domain(w);
+    return false;
+}
+
+/* The area that a unit of the square becomes, at x: 1 over the density. */
+static double area_at(const koksma_warp *w, const double *x)
+{
+    switch (w->domain) {
+    case KOKSMA_DOMAIN_DISK:
+        return M_PI;
+    case KOKSMA_DOMAIN_TRIANGLE:
+        return 0.5;
+    case KOKSMA_DOMAIN_HEMISPHERE:
+        return 2 * M_PI;
+    case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
+        return M_PI / x[2];
+    }
+    fail_domain(w);
+    return 0;
+}
+
+/* Coordinates in [0,1]^2 in which the domain's measure is uniform: cylinders, or lines through a corner. */
+static void straighten(const koksma_warp *w, const double *x, double *a, double *b)
+{
+    const double angle = atan2(x[1], x[0]) / (2 * M_PI), sum = x[0] + x[1];
+    *b = angle < 0 ? angle + 1 : angle;
+    switch (w->domain) {
+    case KOKSMA_DOMAIN_DISK:
+    case KOKSMA_DOMAIN_HEMISPHERE_COSINE:
+        *a = x[0] * x[0] + x[1] * x[1];
+        return;
+    case KOKSMA_DOMAIN_TRIANGLE:
+        *a = sum * sum;
+        *b = sum > 0 ? x[1] / sum : 0;
+        return;
+    case KOKSMA_DOMAIN_HEMISPHERE:
+        *a = x[2];
+        return;
+    }
+    fail_domain(w);
+}
+
+static void the_jacobian_is_the_area(void **state)
+{
+    (void)state;
+    const double h = 1e-6;
+    const koksma_warp *w;
+    for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
+        for (uint64_t s = 0; s < SAMPLES; s++) {
+            const double u[2] = {0.001 + 0.998 * sets_unit(40, s), 0.001 + 0.998 * sets_unit(41, s)};
+            double x[3] = {0}, sides[2][2][3] = {{{0}}}, d[2][3];
+            w->map(u, x);
+            if (!is_inside(w, x)) {
+                fail_msg("%s: (%g, %g) goes to (%g, %g, %g)", w->name, u[0], u[1], x[0], x[1], x[2]);
+            }
+            for (int k = 0; k < 2; k++) {
+                for (int side = 0; side < 2; side++) {
+                    double moved[2] = {u[0], u[1]};
+                    moved[k] += side ? h : -h;
+                    w->map(moved, sides[k][side]);
+                }
+                for (int c = 0; c < 3; c++) {
+                    d[k][c] = (sides[k][1][c] - sides[k][0][c]) / (2 * h);
+                }
+            }
+            const double nx = d[0][1] * d[1][2] - d[0][2] * d[1][1], ny = d[0][2] * d[1][0] - d[0][0] * d[1][2];
+            const double nz = d[0][0] * d[1][1] - d[0][1] * d[1][0], area = sqrt(nx * nx + ny * ny + nz * nz);
+            if (!(fabs(area / area_at(w, x) - 1) < 1e-4)) {
+                fail_msg("%s: at (%g, %g) the square's unit becomes %g, not %g", w->name, u[0], u[1], area,
+                         area_at(w, x));
+            }
+        }
+    }
+}
+
+static void equal_parts_get_equal_shares(void **state)
+{
+    (void)state;
+    const koksma_warp *w;
+    for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
+        double counts[CELLS][CELLS] = {{0}};
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            double x[3] = {0}, a, b;
+            w->map((double[2]){(k % SIDE + 0.5) / SIDE, (k / SIDE + 0.5) / SIDE}, x);
+            straighten(w, x, &a, &b);
+            counts[(int)fmin(a * CELLS, CELLS - 1)][(int)fmin(b * CELLS, CELLS - 1)] += 1;
+        }
+        for (int c = 0; c < CELLS * CELLS; c++) {
+            const double share = counts[c / CELLS][c % CELLS] * CELLS * CELLS / SIDE / SIDE;
+            if (!(fabs(share - 1) < 0.05)) {
+                fail_msg("%s: a part of the domain gets %.3f times its share", w->name, share);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_jacobian_is_the_area),
+        cmocka_unit_test(equal_parts_get_equal_shares),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
