@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Reports values that are bounds because a search was cut short. */
 #include "bounds.h"
 
 #include <stdio.h>

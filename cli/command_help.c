@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma help`, and the overview that `koksma --help` prints. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma list`: the members of the library's tables, one function a table. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma verify`: which properties points have, and with --expect an exit code that tells whether some hold. */
 #include <koksma/verify.h>
 
 #include <stdio.h>

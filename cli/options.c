@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Parses a command line by the command's table of options (getopt_long), prints the table as --help, and reports
+ * errors of the command line.
+ */
 #include "options.h"
 
 #include <errno.h>

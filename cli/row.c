@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Rows of results: JSON lines as they come, or aligned text at the end, when the widths of columns are known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Least-squares slopes of means against n on logarithmic axes. The standard error of several trials comes from how
+ * the values of a trial vary together (the delta method on their covariance), that of one trial from the residuals.
+ */
 #include "slope.h"
 
 #include <math.h>

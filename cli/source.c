@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Operands that name points: files, - for standard input, and pattern:SPEC@N[@DIM]. */
 #include "source.h"
 
 #include <ctype.h>

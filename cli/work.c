@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Long work: threads, the progress line on stderr, and Ctrl-C, which ends the work between blocks and keeps what
+ * was done.
+ */
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>

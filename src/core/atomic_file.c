@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A file is written under a temporary name beside its own and renamed when it is whole (POSIX rename is atomic), so
+ * that readers and later runs see the old file or the new one. Standard streams and paths such as /dev/fd/3 are
+ * written as they are. fsync before the rename keeps an empty file from surviving a crash.
+ */
 #include "core/atomic_file.h"
 
 #include <errno.h>

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * strtod and vsnprintf in the locale "C", on this thread alone (uselocale), because a host program may have chosen
+ * a decimal comma. The locale object is made once and kept until the process ends.
+ */
 #include "core/c_locale.h"
 
 #include <locale.h>

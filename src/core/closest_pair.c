@@ -46,8 +46,8 @@ static void set_best(search *s, double square)
 
 static void try_pair(search *s, const double *p, const double *q)
 {
-    const double dx = s->torus ? koksma__way(p[0], q[0]) : p[0] - q[0];
-    const double dy = s->torus ? koksma__way(p[1], q[1]) : p[1] - q[1];
+    const double dx = s->torus ? koksma__torus_difference(p[0], q[0]) : p[0] - q[0];
+    const double dy = s->torus ? koksma__torus_difference(p[1], q[1]) : p[1] - q[1];
     if (p != q && dx * dx + dy * dy < s->best) {
         set_best(s, dx * dx + dy * dy);
     }
@@ -56,8 +56,8 @@ static void try_pair(search *s, const double *p, const double *q)
     }
 }
 
-/* On the way places in the order of x come into that of y. room: for n. */
-static void divide(search *s, place *at, place *room, size_t n)
+/* On the way places in the order of x come into that of y. scratch: for n. */
+static void divide(search *s, place *at, place *scratch, size_t n)
 {
     if (n < 2 || s->stopped || !(s->best > 0)) {
         s->n_done += n;
@@ -65,37 +65,37 @@ static void divide(search *s, place *at, place *room, size_t n)
     }
     const size_t half = n / 2;
     const double middle = at[half].x;
-    divide(s, at, room, half);
-    divide(s, at + half, room, n - half);
+    divide(s, at, scratch, half);
+    divide(s, at + half, scratch, n - half);
     for (size_t i = 0, a = 0, b = half; i < n; i++) {
-        room[i] = b == n || (a < half && at[a].y <= at[b].y) ? at[a++] : at[b++];
+        scratch[i] = b == n || (a < half && at[a].y <= at[b].y) ? at[a++] : at[b++];
     }
-    memcpy(at, room, n * sizeof *at);
+    memcpy(at, scratch, n * sizeof *at);
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
         if (fabs(at[i].x - middle) <= s->reach) {
-            room[m++] = at[i];
+            scratch[m++] = at[i];
         }
     }
     for (size_t i = 0; i < m; i++) {
-        for (size_t j = i + 1; j < m && room[j].y - room[i].y <= s->reach && s->best > 0 && !s->stopped; j++) {
-            try_pair(s, room[i].point, room[j].point);
+        for (size_t j = i + 1; j < m && scratch[j].y - scratch[i].y <= s->reach && s->best > 0 && !s->stopped; j++) {
+            try_pair(s, scratch[i].point, scratch[j].point);
         }
     }
 }
 
 static koksma_status find(search *s, place *places, size_t n)
 {
-    place *room = malloc(n * sizeof *room);
-    if (!room) {
-        return koksma__fail_memory(n * sizeof *room);
+    place *scratch = malloc(n * sizeof *scratch);
+    if (!scratch) {
+        return koksma__fail_memory(n * sizeof *scratch);
     }
     qsort(places, n, sizeof *places, compare_x);
     s->n = n;
     s->n_done = 0;
     s->stopped = !koksma__keep_going(s->run, 0);
-    divide(s, places, room, n);
-    free(room);
+    divide(s, places, scratch, n);
+    free(scratch);
     return s->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
 

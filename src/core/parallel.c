@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A job of numbered blocks on several threads: each thread takes the next number from an atomic counter, so that
+ * the assignment of blocks to threads may differ and results must not depend on it. Threads are made for each job;
+ * the caller's thread works too. The first failure stops the job, and its text becomes the caller's.
+ */
 #include "core/parallel.h"
 
 #include <pthread.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Sets of points: memory, limits of n and dim, and the check that coordinates are in [0,1]. */
 #include <stdlib.h>
 
 #include "core/pages.h"

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Files of points: the first byte tells NumPy's format (points_npy.c) from text (points_text.c) when reading, the
+ * ending of the name when writing.
+ */
 #include "core/points_io.h"
 
 #include <errno.h>

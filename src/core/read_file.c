@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Reads a file or a pipe whole into memory, with a limit on its size; a 0 follows the last byte. */
 #include "core/read_file.h"
 
 #include <errno.h>
@@ -9,23 +10,23 @@
 
 #include "core/status.h"
 
-/* Reads to the end; room doubles, because a pipe does not tell its length. */
+/* Reads to the end; capacity doubles, because a pipe does not tell its length. */
 static koksma_status read_all(FILE *stream, const char *path, size_t max, unsigned char **bytes, size_t *size)
 {
-    size_t room = 1 << 14, used = 0;
+    size_t capacity = 1 << 14, used = 0;
     unsigned char *data = NULL;
     for (;;) {
-        unsigned char *more = realloc(data, room + 1);
+        unsigned char *more = realloc(data, capacity + 1);
         if (!more) {
             free(data);
-            return koksma__fail_memory(room);
+            return koksma__fail_memory(capacity);
         }
         data = more;
-        used += fread(data + used, 1, room - used, stream);
-        if (used < room || used > max) {
+        used += fread(data + used, 1, capacity - used, stream);
+        if (used < capacity || used > max) {
             break;
         }
-        room *= 2;
+        capacity *= 2;
     }
     if (ferror(stream) || used > max) {
         free(data);

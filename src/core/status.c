@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Statuses and the text of the last error, which each thread has for itself: a fixed buffer, so that running out of
+ * memory can be reported.
+ */
 #include "core/status.h"
 #include "core/c_locale.h"
 

@@ -2,8 +2,8 @@
 #ifndef KOKSMA_CORE_TORUS_H
 #define KOKSMA_CORE_TORUS_H
 
-/* From a to b on the torus: b - a the short way around, in [-1/2, 1/2]. */
-static inline double koksma__way(double a, double b)
+/* b - a on the torus: the representative of smallest size, in [-1/2, 1/2]. */
+static inline double koksma__torus_difference(double a, double b)
 {
     const double t = b - a;
     return t > 0.5 ? t - 1 : t < -0.5 ? t + 1 : t;

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Chooses the table of kernels once: the fastest instruction set that the processor has (cpuid), or the one that
+ * the environment variable KOKSMA_KERNELS names.
+ */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>

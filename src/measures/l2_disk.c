@@ -127,7 +127,9 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     if (cube) {
         p.points = points->xs;
     } else {
-        status = koksma__torus_cells_init(&p.cells, points, 2 * p.r);
+        /* Cells no smaller than a disk, with about one point each at the least. */
+        const double columns = fmin(floor(1 / (2 * p.r)), floor(sqrt((double)points->n)));
+        status = koksma__torus_cells_init(&p.cells, points, columns, true);
     }
     p.blocks = calloc(n_blocks, sizeof *p.blocks);
     if (!status && !p.blocks) {

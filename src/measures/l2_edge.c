@@ -4,7 +4,7 @@
  * points on a side of the line and the area on that side. The second paper's table 4, for all lines instead of
  * 10,000.
  *
- * Formula: points minus area is a signed measure of mass 0, so that with sigma(x, y), the chance that a line
+ * Formula: points minus area is a signed measure of mass 0, so that with sigma(x, y), the probability that a line
  * separates x and y,  L^2 = (1/n) sum_i P(x_i) - (1/2n^2) sum_ij sigma(x_i, x_j) - C/2,
  * P(x) = int sigma(x, y) dy over the square, C = int P. For isotropic lines sigma = |x - y|/2 and
  * C = (2 + sqrt 2 + 5 asinh 1)/30; for the paper's lines, with a >= b the larger and smaller of |dx| and |dy|,

@@ -24,7 +24,7 @@ static double nearest(const koksma_points *out, size_t placed, const double *x, 
     for (size_t i = 0; i < placed && best > enough; i++) {
         double sum = 0;
         for (int k = 0; k < out->dim; k++) {
-            const double t = koksma__way(x[k], out->xs[i * (size_t)out->dim + (size_t)k]);
+            const double t = koksma__torus_difference(x[k], out->xs[i * (size_t)out->dim + (size_t)k]);
             sum += t * t;
         }
         best = fmin(best, sum);

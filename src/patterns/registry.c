@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The table of patterns (patterns.def): member i, and the member of a name. */
 #include "core/lookup.h"
 #include "patterns/patterns.h"
 

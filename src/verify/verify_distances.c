@@ -48,7 +48,7 @@ static double square_of(const point *p, const point *q, bool torus)
 {
     double sum = 0;
     for (int k = 0; k < p->dim; k++) {
-        const double t = torus ? koksma__way(p->xs[k], q->xs[k]) : p->xs[k] - q->xs[k];
+        const double t = torus ? koksma__torus_difference(p->xs[k], q->xs[k]) : p->xs[k] - q->xs[k];
         sum += t * t;
     }
     return sum;

@@ -32,7 +32,8 @@ static void assert_holds(const koksma__torus_rows *rows, const koksma_points *po
         }
     }
     for (size_t i = 0; i < points->n; i++) {
-        const double a = koksma__way(x, points->xs[2 * i]), b = koksma__way(y, points->xs[2 * i + 1]);
+        const double a = koksma__torus_difference(x, points->xs[2 * i]),
+                     b = koksma__torus_difference(y, points->xs[2 * i + 1]);
         assert_true(seen[i] || a * a + b * b > radius * radius);
     }
     free(seen);
@@ -74,7 +75,8 @@ static void force_of_all_pairs(void **state)
         const double x = points.xs[2 * i], y = points.xs[2 * i + 1];
         double expected[2] = {0, 0}, force[2];
         for (size_t j = 0; j < points.n; j++) {
-            const double a = koksma__way(x, points.xs[2 * j]), b = koksma__way(y, points.xs[2 * j + 1]);
+            const double a = koksma__torus_difference(x, points.xs[2 * j]),
+                         b = koksma__torus_difference(y, points.xs[2 * j + 1]);
             const double w = a * a + b * b <= radius * radius ? exp(scale * (a * a + b * b)) : 0;
             expected[0] -= w * a;
             expected[1] -= w * b;

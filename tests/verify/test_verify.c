@@ -64,6 +64,39 @@ static void each_name_of_the_table_is_found(void **state)
     koksma_points_fini(&p);
 }
 
+/* Of any property: it is called as its line, looks whatever the number of threads, and finds nothing that is no
+ * number. */
+static void every_property_looks_alike_on_any_threads(void **state)
+{
+    (void)state;
+    static const int dims[] = {1, 2, 3, 9};
+    const koksma_property *property;
+    for (size_t i = 0; (property = koksma_property_at(i)); i++) {
+        assert_true(*property->name && *property->meaning);
+        assert_int_equal(strspn(property->name, "abcdefghijklmnopqrstuvwxyz0123456789-"), strlen(property->name));
+        for (size_t k = 0; k < i; k++) {
+            assert_string_not_equal(property->name, koksma_property_at(k)->name);
+        }
+    }
+    for (size_t d = 0; d < sizeof dims / sizeof *dims; d++) {
+        koksma_points p = test_points("random", 50, dims[d], 6);
+        koksma_findings one, three;
+        assert_ok(koksma_verify(&p, &(koksma_run){.threads = 1}, &one));
+        assert_ok(koksma_verify(&p, &(koksma_run){.threads = 3}, &three));
+        assert_int_equal(one.count, three.count);
+        for (size_t f = 0; f < one.count; f++) {
+            const koksma_finding *a = &one.items[f], *b = &three.items[f];
+            if (a->property != b->property || strcmp(a->subject, b->subject) != 0 || a->holds != b->holds ||
+                a->value != b->value || !isfinite(a->value) || strcmp(a->detail, b->detail) != 0) {
+                fail_msg("%s, %s: %g on one thread, %g on three", a->property, a->subject, a->value, b->value);
+            }
+        }
+        koksma_findings_fini(&one);
+        koksma_findings_fini(&three);
+        koksma_points_fini(&p);
+    }
+}
+
 static void a_broken_net(void **state)
 {
     (void)state;
@@ -346,6 +379,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(healthy_points_pass),
+        cmocka_unit_test(every_property_looks_alike_on_any_threads),
         cmocka_unit_test(each_name_of_the_table_is_found),
         cmocka_unit_test(a_broken_net),
         cmocka_unit_test(quality_in_other_bases_and_dimensions),

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Integrals over the laws of random disks and balls: the mean area that two disks of one random radius share when
+ * their centres are a distance apart, and the mean square of the area. Closed forms by h = distance / 2 and s =
+ * sqrt(r^2 - h^2): the lens of two circles is 2 r^2 atan2(s, h) - 2 h s, integrated over the law of r.
+ */
 #include "measures/shared/disk_laws.h"
 
 #include <math.h>

@@ -1,4 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * All disks with two given points on their rim, a pencil of circles: their centres are middle + t normal, |t| <=
+ * top, where 2h is the points' distance and the squared radius is h^2 + t^2 <= r^2.
+ *
+ * A third point at q from the middle is inside where |q|^2 - h^2 - 2 t q.n <= 0, a half-line of t: so each point
+ * enters or leaves the disk at one t, an event. Sorted by t, events are walked with a running count. Between events
+ * the count is constant and the area is monotonic on either side of t = 0, so that a supremum is at an event, at t
+ * = 0 (closed disks, whose excess wants the least area) or at |t| = top (open ones, whose deficit wants the
+ * largest).
+ *
+ * Before sorting, events are counted in BINS equal intervals of t, with the counts at their best and the areas at
+ * theirs: when no bin can beat the best disk so far the pencil is skipped, in O(n) instead of O(n log n). On the
+ * torus a point may have several images near enough. The rim is KOKSMA__DISK_RIM wide, above the rounding of
+ * squared distances.
+ */
 #include "measures/shared/disk_pencil.h"
 
 #include <math.h>

@@ -1,6 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Each point is a pivot, about which a line turns past the others in order of their angle. Order and ties of angles
-   are exact. See measures/edge.c. */
+/*
+ * The discrepancy of half-planes by a rotational sweep about each point, O(n^2 log n).
+ *
+ * Move a half-plane without passing a point and its count stays while its area changes, until its border touches
+ * points: so the supremum is reached by a line through two points, or through one, where the line is the chord
+ * that the point bisects (there the area is stationary as the line turns). For each point as the pivot the other
+ * points become rays, turned into the upper half-plane and sorted by angle:
+ *
+ *            \   c  /              the line turns counter-clockwise about the pivot o and passes a, b, c; a point of
+ *             \    /   b           the upper half-plane leaves the left side as the line passes it, one of the lower,
+ *              \  /  .'            which was turned up (flipped), enters: the count is updated in O(1) a ray, and the
+ *     ----------o------- a         area of the domain on one side is a closed form of the line.
+ *
+ * Points at one angle are passed together, and at each stop the closed half-plane (an excess) and the open one (a
+ * deficit) are tried, with the points on the line in or out. Sorting uses a key in doubles; nearly equal keys are
+ * ordered by the exact sign of the cross product (orientation.c), so that collinear points are found as such.
+ * Pivots are blocks of work for threads; a deadline leaves pivots out, and the value is then a lower bound. See
+ * measures/edge.c.
+ */
 #include "measures/shared/edge_sweep.h"
 
 #include <math.h>

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The L2 discrepancies by sums over all pairs, O(n^2 d), and the choice between the methods: sorting in one and two
+ * dimensions (l2_sort.c), divide and conquer in three and four (l2_divide.c), pairs elsewhere. Pairs are summed in
+ * blocks of rows by a kernel, blocks in order; the three terms of the square, which cancel, are brought together in
+ * double-double arithmetic.
+ */
 #include "measures/shared/l2.h"
 
 #include <math.h>

@@ -11,6 +11,16 @@
  * pairs across the order is known: the products go into weights, and the next coordinate is dealt with likewise. At
  * the last but one the halves come back sorted by the last one, and one pass with prefix sums does all pairs across.
  *
+ *     problem on coordinate k:  [ lower half | upper half ]   in order of coordinate k
+ *       within the halves:          solve      solve          the same problem, half as large
+ *       across:                     a <= b in coordinate k, so K(a, b) = sum_m A_m(a) B_m(b):
+ *                                   multiply the weights by A_m and B_m, and solve a problem
+ *                                   between two sets on coordinate k + 1, once for each m
+ *
+ * T_d(n) = 2 T_d(n/2) + M T_(d-1)(n) with M <= 3 products gives n log n for each coordinate but the last two,
+ * which one merge serves: n log^(d-1) n in all, with a constant that grows as M^(d-1). Below FEW points pairs are
+ * summed directly.
+ *
  * All sums are compensated. The weights are rounded products: independent errors of 1e-16 a point, which average out.
  * The halves are the same on any number of threads, and their sums are added in a fixed order.
  */

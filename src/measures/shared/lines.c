@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Lines and the unit square: the area on one side of a line, by corners that are triangles; the probability that a
+ * random line separates two points, under each law of lines; and that probability's integrals over the square
+ * (potential and constant), by closed forms or the double exponential rule. Formulas are at measures/l2_edge.c.
+ */
 #include "measures/shared/lines.h"
 
 #include <math.h>

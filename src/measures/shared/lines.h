@@ -24,7 +24,7 @@ double koksma__area_below(double a, double b, double c);
 /* The same for the line through p, whose distance from the origin need not be rounded. */
 double koksma__area_below_through(double a, double b, const double p[2]);
 
-/* sigma(|dx|, |dy|): the chance that a line separates two points at that distance; symmetric, homogeneous. */
+/* sigma(|dx|, |dy|): the probability that a line separates two points at that distance; symmetric, homogeneous. */
 double koksma__line_separates(koksma__line_law law, double dx, double dy);
 
 /* P(x) = the integral of sigma over the square from p, and C = the integral of P. */

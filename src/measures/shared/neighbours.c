@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Pairs of points nearer than r, by cells at least r wide: a point's partners are in its cell and the eight around
+   it. O(n + pairs) for spread points; where points crowd in few cells the smallest distance is found by halving
+   (core/closest_pair.c), O(n log n). Both ways square the same differences, so that their bits are equal. */
 #include "measures/shared/neighbours.h"
 
 #include <math.h>
@@ -11,46 +14,19 @@
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
+#include "measures/shared/torus_cells.h"
 
-typedef struct grid {
-    size_t m;      /* cells a side, each at least r wide; 1 or 2: every cell is a neighbour */
-    size_t *first; /* points of cell c: first[c] .. first[c + 1] - 1 */
-    double *xs;    /* in order of the cells */
-} grid;
-
-static size_t cell_of(double x, size_t m)
-{
-    const size_t c = (size_t)(x * (double)m);
-    return c < m ? c : m - 1;
-}
-
-static koksma_status open_grid(const koksma_points *p, double r, grid *g)
+/* Cells at least r wide, and about one point a cell at the least; 1 or 2 columns: every cell is a neighbour. */
+static koksma_status open_grid(const koksma_points *p, double r, koksma__torus_cells *g)
 {
     const size_t most = (size_t)sqrt((double)p->n) + 1, wanted = r > 0 ? (size_t)fmin(1 / r, 1e6) : most;
-    g->m = wanted < most ? wanted : most;
-    g->m = g->m > 0 ? g->m : 1;
-    const size_t cells = g->m * g->m, bytes = (cells + 2) * sizeof(size_t) + 2 * p->n * sizeof(double);
-    g->first = calloc(1, bytes);
-    if (!g->first) {
-        return koksma__fail_memory(bytes);
-    }
-    g->xs = (double *)(g->first + cells + 2);
-    for (size_t i = 0; i < p->n; i++) {
-        g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 2]++;
-    }
-    for (size_t c = 2; c < cells + 2; c++) {
-        g->first[c] += g->first[c - 1];
-    }
-    for (size_t i = 0; i < p->n; i++) {
-        const size_t at = g->first[cell_of(p->xs[2 * i + 1], g->m) * g->m + cell_of(p->xs[2 * i], g->m) + 1]++;
-        memcpy(g->xs + 2 * at, p->xs + 2 * i, 2 * sizeof(double));
-    }
-    return KOKSMA_OK;
+    return koksma__torus_cells_init(g, p, (double)(wanted < most ? wanted : most), false);
 }
 
-static double distance2(const double *a, const double *b, bool torus)
+static double distance2(double dx, double dy, bool torus)
 {
-    double dx = fabs(a[0] - b[0]), dy = fabs(a[1] - b[1]);
+    dx = fabs(dx);
+    dy = fabs(dy);
     if (torus) {
         dx = dx < 1 - dx ? dx : 1 - dx;
         dy = dy < 1 - dy ? dy : 1 - dy;
@@ -61,7 +37,7 @@ static double distance2(const double *a, const double *b, bool torus)
 enum { PAIRS_PER_QUESTION = 1 << 16 };
 
 typedef struct visit {
-    const grid *g;
+    const koksma__torus_cells *g;
     double r2;
     bool torus;
     const koksma_run *run;
@@ -74,18 +50,18 @@ typedef struct visit {
 /* Points of cell c with those of cell d that come later; false: no more are wanted. */
 static bool pairs_of_cells(visit *v, size_t c, size_t d)
 {
-    const grid *g = v->g;
-    for (size_t i = g->first[c]; i < g->first[c + 1]; i++) {
-        for (size_t j = d == c ? i + 1 : g->first[d]; j < g->first[d + 1]; j++) {
-            const double d2 = distance2(g->xs + 2 * i, g->xs + 2 * j, v->torus);
+    const koksma__torus_cells *g = v->g;
+    for (size_t i = g->start[c]; i < g->start[c + 1]; i++) {
+        for (size_t j = d == c ? i + 1 : g->start[d]; j < g->start[d + 1]; j++) {
+            const double d2 = distance2(g->xs[i] - g->xs[j], g->ys[i] - g->ys[j], v->torus);
             if (d2 < v->r2 && !v->f(v->context, d2)) {
                 return false;
             }
         }
-        v->unasked += 1 + g->first[d + 1] - g->first[d];
+        v->unasked += 1 + g->start[d + 1] - g->start[d];
         if (v->unasked > PAIRS_PER_QUESTION) {
             v->unasked = 0;
-            v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->m * g->m));
+            v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->columns * g->columns));
             if (v->stopped) {
                 return false;
             }
@@ -97,7 +73,7 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d)
 /* Points of cell c with those of the neighbours, each once, that do not come before. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
-    const size_t m = v->g->m;
+    const size_t m = v->g->columns;
     size_t seen[9], n_seen = 0;
     bool wanted = true;
     for (int k = 0; k < 9 && wanted; k++) {
@@ -117,7 +93,7 @@ static bool pairs_of_cell(visit *v, size_t c)
 
 static koksma_status visit_pairs(visit *v)
 {
-    for (size_t c = 0; c < v->g->m * v->g->m && pairs_of_cell(v, c); c++) {
+    for (size_t c = 0; c < v->g->columns * v->g->columns && pairs_of_cell(v, c); c++) {
     }
     return v->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
 }
@@ -125,14 +101,14 @@ static koksma_status visit_pairs(visit *v)
 koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                  koksma__near_pair_function f, void *context)
 {
-    grid g;
+    koksma__torus_cells g;
     koksma_status status = open_grid(points, r, &g);
     if (status) {
         return status;
     }
     visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = f, .context = context};
     status = visit_pairs(&v);
-    free(g.first);
+    koksma__torus_cells_fini(&g);
     return status;
 }
 
@@ -147,11 +123,11 @@ static bool keep_least(void *context, double d2)
 enum { CROWD = 64 };
 
 /* Whether the pairs within cells are few; those with the neighbours are then no more than nine times as many. */
-static bool is_spread(const grid *g, size_t n)
+static bool is_spread(const koksma__torus_cells *g, size_t n)
 {
     double pairs = 0;
-    for (size_t c = 0; c < g->m * g->m; c++) {
-        const double count = (double)(g->first[c + 1] - g->first[c]);
+    for (size_t c = 0; c < g->columns * g->columns; c++) {
+        const double count = (double)(g->start[c + 1] - g->start[c]);
         pairs += count * count;
     }
     return pairs <= CROWD * (double)n;
@@ -161,7 +137,7 @@ static bool is_spread(const grid *g, size_t n)
 static koksma_status least_of_many(const koksma_points *points, double r, bool torus, const koksma_run *run,
                                    double *distance)
 {
-    grid g;
+    koksma__torus_cells g;
     double least = HUGE_VAL;
     koksma_status status = open_grid(points, r, &g);
     if (status) {
@@ -173,7 +149,7 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
         status = visit_pairs(&v);
         *distance = sqrt(least);
     }
-    free(g.first);
+    koksma__torus_cells_fini(&g);
     return spread ? status : koksma__closest_pair(points, torus, run, distance);
 }
 
@@ -187,7 +163,8 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {
             for (size_t j = 0; j < i; j++) {
-                keep_least(&least, distance2(points->xs + 2 * i, points->xs + 2 * j, torus));
+                const double *a = points->xs + 2 * i, *b = points->xs + 2 * j;
+                keep_least(&least, distance2(a[0] - b[0], a[1] - b[1], torus));
             }
         }
     } else {

@@ -14,7 +14,7 @@ KOKSMA__LAB double koksma__volume_below(const double a[3], double c);
 KOKSMA__LAB double koksma__volume_below_through(const double a[3], const double p[3]);
 
 /* A random plane that hits the cube, by the measure that moving and turning does not change, separates two points
-   with the chance distance / 3. P(x) = the integral of that over the cube from p, and C = the integral of P. */
+   with the probability distance / 3. P(x) = the integral of that over the cube from p, and C = the integral of P. */
 KOKSMA__LAB double koksma__plane_potential(const double p[3]);
 KOKSMA__LAB double koksma__plane_constant(void);
 

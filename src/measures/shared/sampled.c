@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The root mean square of samples and its standard error: of the mean square, divided by twice the root (delta
+ * method).
+ */
 #include "measures/shared/sampled.h"
 
 #include <math.h>

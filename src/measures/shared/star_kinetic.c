@@ -5,6 +5,19 @@
  * the lines of a range of ranks; x only grows. A node holds the winning line of its leaves, and until when it is
  * known to win; `lazy` has not been added to its children yet. The lowest levels are blocks of leaves that are
  * scanned. Wins are decided in doubles: at a near tie either line has the value to the last bits.
+ *
+ * Why it is fast: the star discrepancy of the plane is the largest leaf over all x, and x takes n values from left
+ * to right. Between two insertions leaves are lines in x, so that the largest of a subtree stays the same line
+ * until another line overtakes it, at a crossing that is known when the subtree is computed:
+ *
+ *     value |        ____.--  line 2 overtakes at `until`    asking a subtree at x: below `until` the stored winner
+ *           |  __.--'  .--'                                  answers in O(1); past it the children are asked, and the
+ *           |-'    .--'  line 1 wins                         node's winner and `until` are computed again.
+ *           +----------|--------- x
+ *
+ * An insertion adds one to the counts of a range of ranks: O(log n) nodes take it in `lazy`, and only winners on
+ * the paths to the range's ends are compared again. Each recomputation is paid for by an overtaking. This is the
+ * kinetic tournament of Basch, Guibas & Hershberger 1999 with x as the time.
  */
 #include <math.h>
 #include <pthread.h>

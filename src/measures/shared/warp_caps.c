@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * l2-disk on the hemispheres, law=area: spherical caps of random direction whose area is uniform. By Stolarsky's
+ * principle the mean square is the mean distance under the domain's measure less that of the points' pairs: O(n^2),
+ * in closed form.
+ */
 #include <math.h>
 #include <stdlib.h>
 

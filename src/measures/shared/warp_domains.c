@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The disk, the triangle and the hemisphere as domains of random lines or great circles: the probability that one
+ * separates two points, its integral over the domain from a point (potential), and the integral of that (constant).
+ */
 #include "measures/shared/warp_domains.h"
 
 #include <math.h>

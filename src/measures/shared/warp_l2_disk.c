@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * l2-disk of points in the unit disk: the mean square over disks of radius r whose centres are uniform within 1 +
+ * r. The square expands into sums over pairs (areas that two disks share), over points and a constant; the last two
+ * are integrals over rings about the origin (quadrature.c), computed once for all radii of points by rows. O(n^2).
+ */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Patterns with one point in each cell of a grid: how n is cut into m^dim cells or into columns and rows, and a
+ * uniform place in each cell. Errors name the nearest n that would do.
+ */
 #include "patterns/shared/cells.h"
 
 #include <math.h>

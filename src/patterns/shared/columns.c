@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Fills points by blocks of rows on several threads. Coordinates come a column of 512 at a time, which stays in the
+ * cache, and kernels transpose columns into rows; sets larger than the caches are stored past them.
+ */
 #include "patterns/shared/columns.h"
 
 #include "core/parallel.h"

@@ -1,4 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The grid, the tiles and the shrinking cover of dart throwing; dart_cover.h has the algorithm, dart_round.c a
+ * round of darts.
+ *
+ * Cells are at most d / sqrt(2) wide, so that a cell holds one point at most, and whether a dart is near a point is
+ * decided by the 5 x 5 cells around it. The cover begins with all cells as squares. After a round each square is
+ * cut in four (one level of a quadtree, all leaves at one depth), and a quarter is dropped when it lies within d of
+ * one point, its farthest corner included: no dart can land there. The rest is the cover of the next round. It
+ * shrinks geometrically until no square is left or squares reach the resolution of doubles: then the set is
+ * maximal.
+ *
+ * Squares are lists, one a tile; a tile's cells carry a border of copies of its neighbours' cells, brought up to
+ * date between rounds, so that kernels read one contiguous array.
+ */
 #include "patterns/shared/dart_cover.h"
 
 #include <math.h>

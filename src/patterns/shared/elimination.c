@@ -192,7 +192,7 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
         const double *y = e->xs + member[m] * dim;
         double square = 0;
         for (size_t k = 0; k < dim && square < d_max2; k++) {
-            const double t = koksma__way(x[k], y[k]);
+            const double t = koksma__torus_difference(x[k], y[k]);
             square += t * t;
         }
         if (!(square < d_max2) || member[m] == point) {

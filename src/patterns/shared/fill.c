@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Uniform random numbers by the thousand: the kernel of counter-based random words, in blocks on several threads.
+ */
 #include "patterns/shared/fill.h"
 
 #include "core/parallel.h"

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Doubles a set level by level: new point start + i of a level takes the sibling half-stratum of its partner, and
+ * the digits below are fresh random bits. O(n) for each coordinate, without a tree and without comparing points
+ * (grow.h).
+ */
 #include "patterns/shared/grow.h"
 
 #include <koksma/sampler.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Jittered points of the plane with an independent uniform time each, for the patterns of pixel and time. */
 #include "patterns/shared/jittered_time.h"
 
 #include "core/random.h"

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Rank-1 lattices and the search for their multipliers, component by component (Sloan & Reztsov 2002). The sums for
+ * all candidates at once are a convolution over the group of units (unit_sums.c, after Nuyens & Cools 2006), O(n
+ * log n); they have rounding, so that the candidates within it of the least are summed again in a fixed order, and
+ * the smallest wins ties.
+ */
 #include "patterns/shared/lattice.h"
 
 #include <math.h>

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Radical inverses of consecutive indices: a table of the mirrored low digits, to which those above add a number
+ * that changes once a table's length. One division rounds, so that each value is the double nearest to its
+ * fraction.
+ */
 #include "patterns/shared/radical.h"
 
 #include <math.h>

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Direction numbers of Sobol' sequences from primitive polynomials and initial numbers (Joe & Kuo 2008; Bratley &
+ * Fox 1988), expanded by the recurrence of Sobol 1967, once.
+ */
 #include "patterns/shared/sobol_table.h"
 
 #include <pthread.h>

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Points of the torus in square cells, each a linked list, so that points go in and out one at a time in O(1). A
+ * search for the nearest looks at rings of cells outwards until no ring can hold a nearer one: O(1) for even
+ * points. Points that are sorted at once are in measures/shared/torus_cells.c or patterns/shared/torus_rows.c.
+ */
 #include "patterns/shared/torus_grid.h"
 
 #include <math.h>
@@ -67,7 +72,8 @@ static double nearest_in(const koksma__torus_grid *g, long cell_x, long cell_y, 
     cell_x -= cell_x >= cells ? cells : cell_x < 0 ? -cells : 0;
     cell_y -= cell_y >= cells ? cells : cell_y < 0 ? -cells : 0;
     for (uint32_t i = g->head[cell_y * cells + cell_x]; i != KOKSMA__NO_POINT; i = g->next[i]) {
-        const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
+        const double a = koksma__torus_difference(x, g->xs[2 * (size_t)i]),
+                     b = koksma__torus_difference(y, g->xs[2 * (size_t)i + 1]);
         best = a * a + b * b < best ? a * a + b * b : best;
     }
     return best;
@@ -122,7 +128,8 @@ bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, do
         for (long u = 0; u < columns.count; u++) {
             for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
                 const double px = g->xs[2 * (size_t)i], py = g->xs[2 * (size_t)i + 1];
-                const double a = torus ? koksma__way(x, px) : px - x, b = torus ? koksma__way(y, py) : py - y;
+                const double a = torus ? koksma__torus_difference(x, px) : px - x,
+                             b = torus ? koksma__torus_difference(y, py) : py - y;
                 if (a * a + b * b < d * d) {
                     return true;
                 }
@@ -141,7 +148,8 @@ void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, do
         const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
         for (long u = 0; u < columns.count; u++) {
             for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
-                const double a = koksma__way(x, g->xs[2 * (size_t)i]), b = koksma__way(y, g->xs[2 * (size_t)i + 1]);
+                const double a = koksma__torus_difference(x, g->xs[2 * (size_t)i]),
+                             b = koksma__torus_difference(y, g->xs[2 * (size_t)i + 1]);
                 if (a * a + b * b <= radius * radius) {
                     f(context, i, a, b);
                 }

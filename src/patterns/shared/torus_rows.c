@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Points of the torus sorted into square cells, row by row, by counting sort: O(n), again and again into the same
+ * memory. A disk about a place covers for each row of cells one run of consecutive points, or two where it wraps
+ * around, over which kernels sum without looking at cells.
+ */
 #include "patterns/shared/torus_rows.h"
 
 #include <math.h>
