@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "meshes/mesh_obj_names.h"
 
+#include "core/status.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
