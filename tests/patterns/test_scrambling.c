@@ -13,7 +13,7 @@ static void prefixes_to_4096_are_nets(void **state)
         for (uint64_t seed = 1; seed <= 3; seed++) {
             koksma_points points = test_points(patterns[p], 4096, 2, seed);
             for (size_t n = 1; n <= 4096; n *= 2) {
-                assert_true(is_net2(&points, n));
+                assert_true(is_net2_block(&points, 0, n));
             }
             koksma_points_fini(&points);
         }
