@@ -150,3 +150,28 @@ void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t 
     }
     koksma_points_fini(&other);
 }
+
+/* All ways of writing n = b^m as a product of powers of b along the coordinates. */
+static bool is_net_from(const koksma_points *points, size_t n, size_t b, int *use, size_t *ms, int k, size_t left)
+{
+    if (k == points->dim - 1) {
+        use[k] = k;
+        ms[k] = left;
+        return one_in_each(points, n, use, ms, points->dim);
+    }
+    bool ok = true;
+    for (size_t a = 1; a <= left && ok; a *= b) {
+        use[k] = k;
+        ms[k] = a;
+        ok = is_net_from(points, n, b, use, ms, k + 1, left / a);
+    }
+    return ok;
+}
+
+bool is_net_in_base(const koksma_points *points, size_t n, size_t b)
+{
+    int use[8];
+    size_t ms[8];
+    assert_true(points->dim <= 8);
+    return is_net_from(points, n, b, use, ms, 0, n);
+}

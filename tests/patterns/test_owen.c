@@ -214,10 +214,8 @@ static void blocks_are_nets(void **state)
             koksma_points all = scrambled_points("faure", most[d], dims[d], seed);
             for (size_t n = 1; n <= most[d]; n *= b) {
                 for (size_t first = 0; first < 3 * n && first + n <= most[d]; first += n) {
-                    int use[8];
-                    size_t ms[8];
                     const koksma_points block = {n, dims[d], all.xs + first * (size_t)dims[d]};
-                    assert_true(is_net(&block, n, b, use, ms, 0, n));
+                    assert_true(is_net_in_base(&block, n, b));
                 }
             }
             koksma_points_fini(&all);
@@ -228,10 +226,8 @@ static void blocks_are_nets(void **state)
         koksma_points all = scrambled_points("faure", b * b * b, dim, 3);
         for (int k = 0; k + 1 < dim; k += 3) {
             for (size_t n = b; n <= b * b * b; n *= b) {
-                int use[8];
-                size_t ms[8];
                 koksma_points plane = plane_of(&all, b * b * b - n, n, k, dim - 1);
-                assert_true(is_net(&plane, n, b, use, ms, 0, n));
+                assert_true(is_net_in_base(&plane, n, b));
                 koksma_points_fini(&plane);
             }
         }
