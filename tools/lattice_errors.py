@@ -14,6 +14,12 @@ import tempfile
 
 # Cools, Kuo & Nuyens 2006: exod2_base2_m20_CKN of Nuyens's Magic Point Shop, the first ten numbers.
 CKN = [1, 182667, 469891, 498753, 110745, 446247, 250185, 118627, 245333, 283199]
+# Lattice rules B, C and D of QuantLib, which cites the same paper (A is CKN): up to 2^20 points, other weights.
+CKN_B = [1, 182667, 213731, 255351, 96013, 116671, 479315, 424089, 271103, 464421]
+CKN_C = [1, 433461, 103659, 481853, 186513, 108043, 230553, 308877, 315969, 296357]
+CKN_D = [1, 182667, 279195, 223491, 205755, 359329, 198937, 246491, 466233, 379083]
+# Kuo's vector with weights 1/j^2 for up to 2^32 points, as LatticeRules.jl has it (K_3600_32).
+K32 = [1, 433461, 472323, 440637, 231645, 275007, 113895, 331051, 283181, 384579]
 # Hickernell, Kritzer, Kuo & Nuyens 2012: weights all 1, ten dimensions, as LatNet Builder has it.
 HKKN = [1, 364981, 245389, 97823, 488939, 62609, 400749, 385317, 21281, 223487]
 GAMMA = 3 / (8 * math.pi**2)
@@ -74,11 +80,11 @@ def name(n):
 
 def main():
     program, most = sys.argv[1], 1 << (16 if "small" in sys.argv[2:] else 20)
-    show("n", "lattice-rank1", "korobov", "Cools, Kuo & Nuyens", "Hickernell et al.")
+    show("n", "lattice-rank1", "korobov", "CKN", "B", "C", "D", "Kuo, 2^32", "Hickernell et al.")
     for n in [1 << k for k in (10, 12, 14, 16, 17, 18, 19, 20)] + [1009, 3000, 10007, 30030, 65537, 131071, 720720]:
         if n <= most:
             own = [vector(program, spec, n, 10) for spec in ("lattice-rank1", "korobov")]
-            show(name(n), *(p2(n, z, GAMMA) for z in own + [CKN, HKKN]))
+            show(name(n), *(p2(n, z, GAMMA) for z in own + [CKN, CKN_B, CKN_C, CKN_D, K32, HKKN]))
     show("n", "fibonacci", "lattice-rank1", "ratio")
     for n in (5, 8, 13, 21, 55, 233, 987, 4181, 17711, 75025, 317811):
         if n <= most:

@@ -189,13 +189,20 @@ static void components_are_the_best_of_all(void **state)
     }
 }
 
-/* Of Cools, Kuo & Nuyens 2006, for powers of two up to 2^20 at once, order-2 weights: the first ten numbers of the
-   vector that Nuyens's Magic Point Shop has as exod2_base2_m20_CKN; P_2 as others computed it. */
-static const size_t ckn[10] = {1, 182667, 469891, 498753, 110745, 446247, 250185, 118627, 245333, 283199};
+/* The first ten numbers of vectors for powers of two up to 2^20 at once (docs/findings/lattices.md has the sources):
+   Cools, Kuo & Nuyens 2006 with order-2 weights (exod2_base2_m20_CKN of Nuyens's Magic Point Shop); lattice rules B,
+   C and D of QuantLib; Kuo's for up to 2^32; Hickernell, Kritzer, Kuo & Nuyens 2012 with weights 1. */
+enum { PUBLISHED = 6 };
+static const size_t published[PUBLISHED][10] = {
+    {1, 182667, 469891, 498753, 110745, 446247, 250185, 118627, 245333, 283199},
+    {1, 182667, 213731, 255351, 96013, 116671, 479315, 424089, 271103, 464421},
+    {1, 433461, 103659, 481853, 186513, 108043, 230553, 308877, 315969, 296357},
+    {1, 182667, 279195, 223491, 205755, 359329, 198937, 246491, 466233, 379083},
+    {1, 433461, 472323, 440637, 231645, 275007, 113895, 331051, 283181, 384579},
+    {1, 364981, 245389, 97823, 488939, 62609, 400749, 385317, 21281, 223487},
+};
 
-/* Of Hickernell, Kritzer, Kuo & Nuyens 2012, for all n up to 2^20, weights all 1; LatNet Builder has it. */
-static const size_t hkkn[10] = {1, 364981, 245389, 97823, 488939, 62609, 400749, 385317, 21281, 223487};
-
+/* P_2 of the first vector as others computed it. */
 static void published_errors_are_found(void **state)
 {
     (void)state;
@@ -204,7 +211,7 @@ static void published_errors_are_found(void **state)
         double error;
     } rows[] = {{10, 2.79e-4}, {12, 8.69e-5}, {14, 2.37e-5}, {16, 9.4e-6}, {17, 6.5e-6}, {18, 5.0e-6}, {20, 8.8e-7}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows && rows[i].bits <= MOST_BITS; i++) {
-        assert_near(p2((size_t)1 << rows[i].bits, ckn, 10, WEIGHT) / rows[i].error, 1, 0.01);
+        assert_near(p2((size_t)1 << rows[i].bits, published[0], 10, WEIGHT) / rows[i].error, 1, 0.01);
     }
 }
 
@@ -223,9 +230,12 @@ static void search_is_no_worse_than_others(void **state)
         multipliers("lattice-rank1", n, 10, z);
         multipliers("korobov", n, 10, powers);
         const double own = p2(n, z, 10, WEIGHT), korobov = p2(n, powers, 10, WEIGHT);
-        const double first = p2(n, ckn, 10, WEIGHT), second = p2(n, hkkn, 10, WEIGHT);
-        if (!(own <= korobov * (1 + 1e-12) && own <= first && own <= second)) {
-            fail_msg("n = %zu: %.4g; korobov %.4g, published %.4g and %.4g", n, own, korobov, first, second);
+        double least = HUGE_VAL;
+        for (int v = 0; v < PUBLISHED; v++) {
+            least = fmin(least, p2(n, published[v], 10, WEIGHT));
+        }
+        if (!(own <= korobov * (1 + 1e-12) && own <= least)) {
+            fail_msg("n = %zu: %.4g; korobov %.4g, the best published %.4g", n, own, korobov, least);
         }
         if (c <= 20 && !(own < before / 2.2)) { /* it falls to .36 on average */
             fail_msg("n = %zu: %.4g after %.4g with half as many points", n, own, before);
