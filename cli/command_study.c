@@ -325,7 +325,7 @@ static const cli_option options[] = {
     {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
-    {0, "reference", "FILE", "images: what they are compared with"},
+    {0, "reference", "FILE", "images: the reference image"},
     {0, "format", "csv|json|npy", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
