@@ -23,7 +23,6 @@ same() {
   cmp -s "$folder/.s" "$folder/turned.s" || complain "$2/$1: the order of its lines changes $3"
   rm -f "$folder"/*.s
 }
-same render/materials/materials.def src src/render/materials/material_table.c
 same render/samples/uses.def src src/render/samples/uses.c
 same koksma/status.def include src/core/status.c
 
@@ -31,8 +30,8 @@ same koksma/status.def include src/core/status.c
 # made together.
 for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
   case $table in
-    */materials.def | */uses.def | */status.def) ;;
-    */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */adaptive.def | */formats.def | \
+    */uses.def | */status.def) ;;
+    */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */materials.def | */lights.def | */adaptive.def | */formats.def | \
       */commands.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
     */kernels.def | */batch.def) ;;
     */properties.def) ;;
