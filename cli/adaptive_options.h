@@ -8,14 +8,12 @@
 #include "cli.h"
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \
-    {0, "adaptive", "METHOD", "after SPP samples more where needed: see 'koksma list adaptive'"},                    \
-        {0, "budget", "SPP", "of --adaptive: samples a pixel in the mean, at most (default: no limit)"},             \
-        {0, "strata", "X,Y:FILE",                                                                                    \
-         "of --adaptive: picture of how pixel X,Y was split in each space; with --probe,\n"                          \
-         "needed splits are circled and needless ones black; .svg, .pdf or .png"},                                   \
-        {0, "probe", "K", "of --adaptive: K samples that count for nothing tell needless splits (default: 0)"},      \
+    {0, "adaptive", "METHOD", "take more samples where needed; see 'koksma list adaptive'"},                         \
+        {0, "budget", "SPP", "with --adaptive: the most samples a pixel, on average (default: no limit)"},           \
+        {0, "strata", "X,Y:FILE", "with --adaptive: draw how pixel X,Y was split; .svg, .pdf or .png"},              \
+        {0, "probe", "K", "with --adaptive: K extra samples find needless splits (default: 0)"},                     \
     {                                                                                                                \
-        0, "counts", "FILE", "picture of the samples of each pixel; .png: over the largest"                          \
+        0, "counts", "FILE", "image of the number of samples of each pixel; in .png 1 is the largest"                \
     }
 
 /* How the samples are spread; without a method as many in each pixel. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What the commands share. A command is one file with one cli_command; its option table parses the command line and
- * prints the help. stdout is data, stderr is talk, exit codes are those of koksma_status_exit_code().
+ * prints the help. Results go to stdout, messages to stderr; exit codes are those of koksma_status_exit_code().
  */
 #ifndef KOKSMA_CLI_CLI_H
 #define KOKSMA_CLI_CLI_H
@@ -54,9 +54,9 @@ const cli_command *cli_command_find(const char *name);
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
-        {0, "progress", "auto|always|never", "show how far it is (default: auto, when stderr is a terminal)"},       \
+        {0, "progress", "auto|always|never", "show progress (default: auto, when stderr is a terminal)"},            \
     {                                                                                                                \
-        'q', "quiet", NULL, "no talk on stderr but errors"                                                           \
+        'q', "quiet", NULL, "print only errors to stderr"                                                            \
     }
 
 /* An option's text, or fallback; whether a flag is set. The name must be in the table. */

@@ -110,24 +110,23 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE", "the picture of the absolute errors (of one image)"},
-    {0, "max-mean", "E", "exit code 1 when the mean absolute error is above E"},
+    {'o', "output", "FILE", "write an image of the absolute error (with one image)"},
+    {0, "max-mean", "E", "exit with code 1 if the mean absolute error is above E"},
     CLI_ROW_OPTIONS,
     {0},
 };
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "the error of an image against a reference, and whether it is noise or bands",
+    .summary = "compare images with a reference: size of the error, noise or bands",
     .synopsis = "IMAGE... REFERENCE [-o DIFFERENCE] [--max-mean E]",
     .details =
-        "Mean, standard deviation and maximum of the absolute error in luminance, and the root mean square error; "
-        "of\n"
-        "several images (one pattern with several seeds) their means.\n"
-        "coherence: the peak of the error's power spectrum over its mean, averaged over the images. 95 % of errors\n"
-        "that are white noise have one from noise_low to noise_high; coherent: it is above what 99.5 % of them\n"
-        "have. Then the error has bands or another pattern, of frequency_x and frequency_y cycles a pixel (--json).\n"
-        "An image with a pixel that is no finite number is malformed.",
+        "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"
+        "error. With several images (one pattern with several seeds) it prints their means.\n"
+        "coherence: the peak of the error's power spectrum divided by its mean, averaged over the images. For white\n"
+        "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that fewer than 0.5 % of noise\n"
+        "reaches the value: the error has bands or another pattern, at frequency_x and frequency_y cycles a pixel\n"
+        "(--json). Every pixel must be a finite number.\n",
     .options = options,
     .run = run,
 };

@@ -75,7 +75,7 @@ static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
-    {0, "warp", "WARP", "the points mapped onto a disk, triangle or hemisphere: see 'koksma list warps'"},
+    {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
     {'o', "output", "FILE", ".txt, .csv or .npy by its ending (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
@@ -86,10 +86,10 @@ const cli_command cli_command_generate = {
     .summary = "generate the points of a pattern",
     .synopsis = "PATTERN -n N [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
-        "PATTERN is a name with parameters, as in poisson-disk:d=0.2,torus=1; 'koksma list patterns' has them all.\n"
-        "Equal arguments give equal bits, on any number of threads. Poisson disks, best candidates, eliminated\n"
-        "samples, pmj02bn and scan-time take one, for each point depends on those before it; so do uniform-jittered\n"
-        "and most of orthogonal-array.",
+        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'.\n"
+        "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
+        "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
+        "uniform-jittered and most of orthogonal-array.\n",
     .options = options,
     .run = run,
 };

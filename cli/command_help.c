@@ -14,10 +14,11 @@ void cli_print_overview(FILE *stream)
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
-    fputs("\n'koksma COMMAND --help' says more. Exit codes: 0 done; 1 it ran and the answer is no; 2 the command "
+    fputs("\n'koksma COMMAND --help' prints the options. Exit codes: 0 done; 1 it ran and the answer is no; 2 the "
+          "command "
           "line is\n"
-          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, what was done is "
-          "kept.\n",
+          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, finished "
+          "results are kept.\n",
           stream);
 }
 
@@ -42,7 +43,7 @@ static const cli_option options[] = {{0}};
 
 const cli_command cli_command_help = {
     .name = "help",
-    .summary = "what the commands do, or all about one of them",
+    .summary = "print what the commands do, or all about one of them",
     .synopsis = "[COMMAND]",
     .details = "The same as koksma --help, and koksma COMMAND --help or -h.",
     .options = options,

@@ -92,10 +92,10 @@ static void put_overview(void)
     }
     printf(
         ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
-        "missing or\nmalformed; 4 the system failed; 130 interrupted, what was done is kept.\n"
+        "missing or\nmalformed; 4 the system failed; 130 interrupted, finished results are kept.\n"
         ".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
-        "avx512; by itself the\nfastest that the machine has, and one that it lacks is refused. Results are equal "
-        "bit for bit.\n");
+        "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
+        "bits.\n");
 }
 
 static int run(const cli_arguments *arguments)

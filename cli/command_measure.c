@@ -311,7 +311,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'m', "measures", "MEASURE,..|all", "what is measured (default: star,l2-star,extreme; of --warp its domain's)"},
+    {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
     {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
     {'t', "trials", "T",
      "T sets of pattern: sources, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
@@ -335,28 +335,21 @@ const cli_command cli_command_measure = {
     .summary = "measure how irregular points are",
     .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m MEASURE,..|all] [--json]",
     .details =
-        "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures the points of a pattern without a file.\n"
-        "The witness is the region where a supremum is reached: count its points and compare with its volume.\n"
-        "The first points of a pattern that is no sequence, such as n-rooks, are a strip of a set: --prefixes "
-        "refuses "
-        "it,\n"
-        "and --sizes measures a set of each N, whatever the source's own N is. powers leaves out sizes that a "
-        "measure\n"
-        "does not take, such as one point for min-distance, which has no distance.\n"
-        "Slopes of --prefixes and --sizes stand beside the exponent that theory gives for the pattern and the best "
-        "that any "
-        "points\n"
-        "can have, powers of logarithms aside. Their standard error is that of the trials' spread; one set has "
-        "none,\n"
-        "and residual_error says how far its values are off the line.\n"
-        "With --time-limit, star-lower, extreme, edge, disk and, from 3 dimensions on, star end in time, and rows "
-        "say\n"
-        "exact, lower and upper, bounds that hold for certain; those of trials, differences and slopes say for how\n"
-        "many of them all values are exact. The others, and star of the line and the plane and extreme:grid, have "
-        "no\n"
-        "bounds to give and take the time they need. disk ends without a limit too, after 2^28 looks at points at\n"
-        "most: where they don't do, as for lattices of hundreds and other sets of thousands of points, rows say so\n"
-        "in the same way, and so does a line on stderr.",
+        "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures N points of a pattern, without a file.\n"
+        "The witness is the region where the supremum is reached: count its points and compare with its volume.\n"
+        "\n"
+        "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"
+        "--sizes measures a new set for each N instead, whatever N the source has. 'powers' leaves out sizes that\n"
+        "a measure does not accept, such as one point for min-distance.\n"
+        "Both print the fitted slope beside the proven exponent for the pattern and the best possible one (up to\n"
+        "powers of logarithms). The standard error of a slope comes from the trials; with one set there is none,\n"
+        "and residual_error is the scatter of the values about the line.\n"
+        "\n"
+        "--time-limit applies to star-lower, extreme, edge, disk and, from 3 dimensions on, star. A row that ran\n"
+        "out of time has proven bounds: lower and upper. Rows of trials, differences and slopes count how many of\n"
+        "their values are exact. Other measures, and extreme:grid, take the time they need.\n"
+        "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
+        "reports bounds and warns.\n",
     .options = options,
     .run = run,
 };

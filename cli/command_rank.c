@@ -231,13 +231,13 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
-    {'p', "patterns", "PATTERN,..|thesis|later", "what is ranked (default: thesis)"},
-    {0, "size", "WxH", "pixels (default: the scene's, halved until there are 19,200 at most)"},
-    {0, "one-size", NULL, "don't check the best patterns at half and twice the size"},
+    {'p', "patterns", "PATTERN,..|thesis|later", "patterns to rank (default: thesis)"},
+    {0, "size", "WxH", "pixels (default: the scene's, halved until at most 19,200)"},
+    {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
     {0, "time-limit", "S", "seconds, for all rankings together (default: 60)"},
-    {0, "max-trials", "N", "pictures of a pattern at a size, 8 to 65536 (default: 4096)"},
+    {0, "max-trials", "N", "images of each pattern at each size, 8 to 65536 (default: 4096)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -245,34 +245,35 @@ static const cli_option options[] = {
 
 const cli_command cli_command_rank = {
     .name = "rank",
-    .summary = "which pattern leaves the least error in a scene",
+    .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size]\n"
                 "  [--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--json]",
     .details =
-        "Renders the scene again and again with every pattern and ranks the patterns by the mean absolute error of\n"
-        "the picture. The sequence of work depends on the command line only: rounds of 8, 16, 32, ... trials until\n"
-        "the best pattern is decided and the best of those without bands, then the same for the first three of\n"
-        "those at half and at twice the size, then rounds until every pair is decided. A pair is decided when the "
-        "interval of the quotient of its errors excludes 1\n"
-        "or lies within 2 % of 1 (equal). A time limit cuts the sequence short: a longer one never names another\n"
-        "best pattern, and without enough time the answer is 'undecided', with an estimate of what would do.\n"
+        "Renders the scene many times with every pattern and ranks the patterns by the mean absolute error of the\n"
+        "image. Patterns are compared as they are used, including random shifts.\n"
         "\n"
-        "position: 1 + the number of patterns that are decided to be better; 'behind' is the relative difference to\n"
-        "the first row. All intervals and decisions of a ranking hold together with 95 %, with the reference's own\n"
-        "error in them. A pattern whose first 8 trials take more than its share of the time is put off until the\n"
-        "others are decided, and is not ranked when no time is left. The advice goes to stderr.\n"
+        "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
+        "until the best pattern is decided, and the best of those without bands; then the same for the first three\n"
+        "of these at half and twice the size; then rounds until every pair is decided. A pair is decided if the\n"
+        "confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1 (equal). A\n"
+        "time limit ends the sequence early: a longer limit never names another best pattern. With too little time\n"
+        "the answer is 'undecided', with an estimate of the time needed.\n"
         "\n"
-        "coherence: the peak of the spectrum of the error over its mean, of the first 8 trials; coherent: it is "
-        "above\n"
-        "what 99.5 % of noise has (koksma compare --help). Such an error has bands or another pattern in it, which\n"
-        "is seen more than noise of that size: the advice is the best pattern whose error is not coherent, and says\n"
-        "what a coherent one would save. Patterns are judged as they are used: behind a random shift a pixel, if "
-        "so.\n"
-        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is not for one or more.\n"
+        "position: 1 + the number of patterns that are decided to be better. behind: relative difference to the\n"
+        "first row. All intervals and decisions of a ranking hold together with 95 % probability, and include the\n"
+        "error of the reference image. A pattern whose first 8 trials exceed its part of the time limit is put\n"
+        "off until the others are decided, and is not ranked if no time is left. The advice goes to stderr.\n"
         "\n"
-        "Light between surfaces is only in what --integrator path and irradiance-cache render.\n"
-        "PATTERN may name patterns of single uses or groups of uses, as in 'random;pixel+time=scan-time'.\n"
-        "thesis: the seven patterns of Shirley 1991; later: 17 with those that came after.",
+        "coherence: the peak of the error's power spectrum divided by its mean, over the first 8 trials. 'coherent'\n"
+        "means that fewer than 0.5 % of noise reaches the value (koksma compare --help). Such an error has bands or\n"
+        "another pattern, which eyes notice more than noise of the same size. The advice is therefore the best\n"
+        "pattern whose error is not coherent, with what a coherent one would save.\n"
+        "\n"
+        "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
+        "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
+        "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
+        "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
+        "one.\n",
     .options = options,
     .run = run,
 };

@@ -192,7 +192,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'p', "pattern", "[USE[+USE]=]PATTERN...",
-     "pattern of every use, of one, or of several together; again for others (default: n-rooks)"},
+     "pattern of all uses, of one, or of a group; may be repeated (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
@@ -210,15 +210,16 @@ const cli_command cli_command_render = {
     .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
                 "                     [--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
-        "SCENE is a name of 'koksma list scenes', a JSON file (docs/scenes.md), or a mesh file (.obj .ply .off .gltf "
-        ".glb).\n"
-        "Every use of a sample ('koksma list uses') has a pattern of its own in every pixel; 'shuffled' pairs them\n"
-        "by random permutations, 'aligned' in their own order; 'native' is one pattern with all dimensions. Uses "
-        "that are\n"
-        "joined by '+' (pixel+time=scan-time) take the coordinates of one pattern of their total dimension. With\n"
-        "--scope image one pattern of SPP x pixels points covers the image, without regard to pixels.\n"
-        "With --adaptive every pixel has SPP samples at first, and then more in rounds until METHOD or the budget\n"
-        "says that it is enough.",
+        "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md) or a mesh file (.obj, .ply, .off,\n"
+        ".gltf, .glb).\n"
+        "A use is what sample dimensions are spent on, such as the lens; see 'koksma list uses'. Each use has its "
+        "own\n"
+        "point set in every pixel. --pairing combines them: 'shuffled' by random permutations, 'aligned' in the "
+        "order\n"
+        "of the pattern, 'native' as one set with all dimensions. Uses joined by '+' (pixel+time=scan-time) share\n"
+        "the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole image.\n"
+        "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends "
+        "it.\n",
     .options = options,
     .run = run,
 };

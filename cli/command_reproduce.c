@@ -146,12 +146,12 @@ const cli_command cli_command_reproduce = {
     .summary = "reproduce the tables and figures of papers",
     .synopsis = "PAPER... -o DIR [--quick] [--papers-only] [--trials T] [--table ID] [--json]",
     .details =
-        "PAPER is shirley1991 or mitchell1992, or a plan of your own (./my.json; studies/README.md has the fields).\n"
-        "Both papers together also bring the plan open-questions: what the papers leave open, answered.\n"
-        "The rows go to DIR/results.sqlite as they are made. Interrupted in any way and started again, it goes\n"
-        "on where it was and ends with the same report. 'verdict' says how a printed mean goes with ours: agrees,\n"
-        "fitted (within 25 % in a scene fitted to the printed numbers), explained (differs for a known reason),\n"
-        "unexplained, new (nothing is printed) or waiting (too few trials).",
+        "PAPER is shirley1991 or mitchell1992, or your own plan (./my.json; studies/README.md lists the fields).\n"
+        "Both papers together add the plan open-questions: answers to what the papers leave open.\n"
+        "Results go to DIR/results.sqlite as they are computed. An interrupted run continues when it is started\n"
+        "again, and ends with the same report. The verdict compares our mean with the published one: agrees, fitted\n"
+        "(within 25 % in a scene that was fitted to the published numbers), explained (differs for a known reason),\n"
+        "unexplained, new (the paper has no number) or waiting (too few trials).\n",
     .options = option_table,
     .run = run,
 };

@@ -37,9 +37,9 @@ const cli_command cli_command_scene = {
     .summary = "check a scene file",
     .synopsis = "check SCENE",
     .details =
-        "SCENE is a name, a JSON file (docs/scenes.md) or a mesh file. What makes it no scene is an error that\n"
-        "names file, line, field and reason (exit code 3); what is odd but can be rendered is a warning (exit\n"
-        "code 1). stdout has what the scene is made of.",
+        "SCENE is a name, a JSON file (docs/scenes.md) or a mesh file. An error names file, line, field and reason\n"
+        "(exit code 3). A warning is about something odd that can be rendered (exit code 1). stdout lists what the\n"
+        "scene contains.\n",
     .options = options,
     .run = run,
 };

@@ -325,7 +325,7 @@ static const cli_option options[] = {
     {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
-    {0, "reference", "FILE", "images: what they are compared with"},
+    {0, "reference", "FILE", "images: the reference image"},
     {0, "format", "csv|json|npy", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -334,7 +334,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_study = {
     .name = "study",
-    .summary = "patterns x measures or scenes x trials, from a plan",
+    .summary = "run patterns x measures or scenes x trials, from a plan",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
                 "       koksma study new [FILE]\n"
                 "       koksma study estimate PLAN... [--json]\n"
@@ -342,14 +342,17 @@ const cli_command cli_command_study = {
                 "       koksma study report DIR\n"
                 "       koksma study images 'PLACES' --reference FILE [--json]",
     .details =
-        "PLAN is a shipped name or a JSON file (./plan.json); 'new' writes one to begin with, over no other file,\n"
-        "and 'estimate' says what it would cost on one thread. Files that a plan names are relative to the current\n"
-        "folder. Results go to DIR/results.sqlite as they are made. Stopped in any way and started again, a run\n"
-        "goes on where it was. Where a pattern finds no set for a trial, all others are made, with exit code 2.\n"
-        "'export' writes all rows sorted by their keys: the same bytes for any number of threads and interruptions.\n"
-        "It and 'report' are refused while a run is at work on DIR, and where DIR can't be written. 'images' makes\n"
-        "such tables for pictures that another renderer made: PLACES is a path with {spp}, {trial} and other names\n"
-        "in braces; 'koksma compare --help' says what coherence is.",
+        "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
+        "the current folder.\n"
+        "run       runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
+        "          started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2\n"
+        "new       writes an example plan; it overwrites no file\n"
+        "estimate  measures samples and prints what the study would cost on one thread\n"
+        "export    writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
+        "          'export' and 'report' fail while a run uses DIR, and if DIR cannot be written\n"
+        "report    writes DIR/report.html\n"
+        "images    compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
+        "          braces. 'koksma compare --help' explains coherence\n",
     .options = options,
     .run = run,
 };

@@ -145,7 +145,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_verify = {
     .name = "verify",
-    .summary = "find out which properties points really have",
+    .summary = "check which properties points have",
     .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--json]",
     .details =
         "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"

@@ -63,11 +63,11 @@ static const cli_option options[] = {{0, "json", NULL, "one JSON object instead 
 
 const cli_command cli_command_version = {
     .name = "version",
-    .summary = "print the version, the kernels, and which optional parts are in",
+    .summary = "print the version, the kernels and the optional parts",
     .synopsis = "[--json]",
-    .details = "kernels names the instruction set whose inner loops run: avx512, avx2 or baseline, the first of "
-               "these that the\n"
-               "machine has, or what the environment variable KOKSMA_KERNELS names; ref is the plain twins.",
+    .details =
+        "kernels: the instruction set of the inner loops, the first of avx512, avx2 and baseline that the processor\n"
+        "has. The environment variable KOKSMA_KERNELS selects another one, or ref: plain C, for tests.\n",
     .options = options,
     .run = run,
 };

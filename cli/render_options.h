@@ -13,18 +13,17 @@
     }
 #define CLI_FILTER_OPTION                                                                                            \
     {                                                                                                                \
-        0, "filter", "FILTER", "of pixels: see 'koksma list filters' (default: box)"                                 \
+        0, "filter", "FILTER", "pixel filter; see 'koksma list filters' (default: box)"                              \
     }
 #define CLI_SAMPLING_OPTIONS                                                                                         \
-    {0, "pairing", "shuffled|aligned|native", "of a pixel's uses (default: shuffled)"},                              \
-        {0, "scope", "pixel|image", "of a pattern (default: pixel)"},                                                \
+    {0, "pairing", "shuffled|aligned|native", "how the point sets of a pixel are combined (default: shuffled)"},     \
+        {0, "scope", "pixel|image", "what one point set covers (default: pixel)"},                                   \
         {0, "lights", "all|one|power|uniform",                                                                       \
-         "shadow rays go to all, or to one light: by estimate (one), power or uniformly (default: all)"},            \
-        CLI_INTEGRATOR_OPTION, {0, "depth", "D", "bounces at most (default: the integrator's)"}, CLI_FILTER_OPTION,  \
+         "lights that get a shadow ray: all, or one by estimate (one), by power or uniformly (default: all)"},       \
+        CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
-        0, "splat", NULL,                                                                                            \
-            "spread samples over all pixels in the filter's reach, instead of drawing from it: less error"           \
-    }
+        0, "splat", NULL, "add samples to all pixels that the filter reaches, instead of drawing from it: less error"
+}
 
 /* Values of --integrator and --filter; *integrator and *filter are the defaults. False after an error that names one.
  */
