@@ -128,10 +128,6 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
-    if (!status && f->geometry.shapes && koksma__pipeline_for(f)->culls) {
-        status = koksma__frustum_cull_open(&f->camera, f->geometry.shapes, options->width, options->height,
-                                           &f->frustum_cull);
-    }
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What is odd in a scene that can be rendered all the same. */
+#include "render/scene_warnings.h"
+
 #include <stdio.h>
 
 #include "core/status.h"

@@ -7,8 +7,8 @@
 #ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
 #define KOKSMA_RENDER_ACCEL_INTERSECT_H
 
+#include "render/description.h"
 #include "render/pipelines/batch.h"
-#include "render/scene.h"
 
 typedef struct koksma__geometry {
     void *made;

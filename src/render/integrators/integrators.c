@@ -5,9 +5,9 @@
  * its formula: E is emission, f the material, cos and cos' are at the surface and at the light, V is 1 where the
  * light is seen.
  */
-#include "render/integrators/integrators.h"
-
 #include <string.h>
+
+#include "render/integrators/irradiance_cache.h"
 
 /*
  * utah: the local model. A surface reflects the scene's ambient light and what comes from the centre of each

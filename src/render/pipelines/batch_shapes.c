@@ -11,8 +11,8 @@
  */
 #include <math.h>
 
+#include "render/description.h"
 #include "render/pipelines/batch_kernel.h"
-#include "render/scene.h"
 
 typedef enum bounds { ENDLESS, IN_RECTANGLE, IN_DISK } bounds;
 

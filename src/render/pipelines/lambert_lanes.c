@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/frame.h"
+#include "render/pipelines/pipelines.h"
 
 typedef struct scratch {
     koksma__sample_scratch draw;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "render/pipelines/pipelines.h"
 #include "render/pipelines/wavefront.h"
 #include "render/texture.h"
 #include "render/vector3.h"
