@@ -12,7 +12,7 @@
  *     }
  *
  * Each pixel spends its samples on named uses: the place in the pixel, and what the scene has a need of: the lens,
- * the time, a place on each luminaire, which luminaire, lobe or end of a path (koksma_use_at lists all). Each use
+ * the time, a place on each light, which light, lobe or end of a path (koksma_use_at lists all). Each use
  * gets a set of points of its own in the one or two dimensions that it has, drawn afresh for every pixel unless
  * `scope` or `pairing` says otherwise; or several uses form a group and take the coordinates of one set.
  */
@@ -47,7 +47,7 @@ KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
 /* What is odd in a scene that can be rendered all the same: warning i as a line of text; false past the end. */
 KOKSMA_API bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size);
 
-/* What it has: shapes, meshes, placements of meshes, triangles, luminaires. */
+/* What it has: shapes, meshes, placements of meshes, triangles, lights. */
 typedef struct koksma_scene_counts {
     size_t shapes, meshes, placements, triangles, materials, lights;
 } koksma_scene_counts;
@@ -71,7 +71,7 @@ typedef enum koksma_scope {
     KOKSMA_SCOPE_IMAGE  /* one pattern of spp width height points over the image, without regard to pixels */
 } koksma_scope;
 
-/* Which luminaires get a shadow ray at a vertex. */
+/* Which lights get a shadow ray at a vertex. */
 typedef enum koksma_light_selection {
     KOKSMA_LIGHTS_ALL,     /* each */
     KOKSMA_LIGHTS_ONE,     /* one, chosen in proportion to its estimated contribution (Shirley 1991, section 5.4) */
@@ -99,7 +99,7 @@ KOKSMA_API const koksma_use *koksma_use_at(size_t i);
 
 /* Uses that one pattern samples together, in as many dimensions as they have in all: sample i takes the coordinates
    of point i, in the order of `uses`. A set serves what a sample has once (pixel, lens, time) with the first vertex
-   of its path and one luminaire there; every further vertex, and every further luminaire, takes its coordinates of a
+   of its path and one light there; every further vertex, and every further light, takes its coordinates of a
    set of its own, paired with the others as separate uses are. */
 typedef struct koksma_use_group {
     koksma_spec pattern;
@@ -181,7 +181,7 @@ KOKSMA_API void koksma_use_group_text(const koksma_use_group *group, char *text)
 
 /* ---- Rendering ------------------------------------------------------------------------------------------- */
 
-/* Rays that one sample casts at its first hit: one from the camera, and one to each luminaire. */
+/* Rays that one sample casts at its first hit: one from the camera, and one to each light. */
 KOKSMA_API int koksma_scene_rays_per_sample(const koksma_scene *scene);
 
 /* Whether samples of this scene by these options are spent on use i: a pattern for another (of the lens, where there

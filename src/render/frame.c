@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is the same for all pixels of a picture, made once; and the room for the values of a group. */
+/*
+ * What is the same for all pixels of a picture, made once: materials and lights in floats, the camera as steps on the
+ * film, the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is the same for all
+ * pictures of a scene, so the scene keeps it (scene_cache) under a lock for as long as it lives.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
