@@ -1,7 +1,7 @@
 #!/bin/sh
 # Msamples/s of Blender's Cycles and of koksma on `ball`, 512 x 384, 64 samples a pixel, one thread, direct light, by
 # processor time, best of three pictures. Throughput only: Cycles shades in colour with all its generality, has a mesh for the
-# ball, and sends one shadow ray a camera ray to one of the two luminaires, where koksma sends one to each.
+# ball, and sends one shadow ray a camera ray to one of the two lights, where koksma sends one to each.
 set -eu
 cd "$(dirname "$0")/.."
 if ! command -v blender >/dev/null; then

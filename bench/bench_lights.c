@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* `many-lights` with a shadow ray to every luminaire and with one shadow ray a viewing ray, at the same time on one
-   thread: root mean square errors against 512 samples of all luminaires, over seeds, and whether the one is biased.
+/* `many-lights` with a shadow ray to every light and with one shadow ray a viewing ray, at the same time on one
+   thread: root mean square errors against 512 samples of all lights, over seeds, and whether the one is biased.
  */
 #include <math.h>
 #include <stdio.h>
@@ -73,7 +73,7 @@ int main(void)
     if (!measure(scene, &options, &reference, &all)) {
         return 1;
     }
-    printf("all luminaires   %4d spp  %.3f s  rmse %.5f\n", options.spp, all.seconds, all.rmse);
+    printf("all lights   %4d spp  %.3f s  rmse %.5f\n", options.spp, all.seconds, all.rmse);
     options.lights = KOKSMA_LIGHTS_ONE;
     for (options.spp = 64; options.spp < MOST_SPP; options.spp *= 2) {
         if (!measure(scene, &options, &reference, &one)) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Msamples/s of POV-Ray and of koksma on `ball`, 512 x 384, 64 samples a pixel, one thread, a shadow ray to each of the two
-# luminaires, by processor time with starting and writing the picture, best of three rounds. Throughput only: POV-Ray's
+# lights, by processor time with starting and writing the picture, best of three rounds. Throughput only: POV-Ray's
 # shadows are those of points, and it shades in colour with all its generality.
 set -eu
 cd "$(dirname "$0")/.."

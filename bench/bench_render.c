@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Msamples/s of `ball` at 512 x 384, 64 samples a pixel, direct light (a sample is a camera ray and a shadow ray to
-   each of the two luminaires), best of a few runs, on one and on two threads, and whether the bits are the same.
+   each of the two lights), best of a few runs, on one and on two threads, and whether the bits are the same.
    By processor time, a thread's share of it, so that other work on the machine counts little, and by the clock. It is
    a small scene of grey analytic shapes, all that lambert_lanes.c does: general renderers pay for meshes, spectra,
    textures and materials that anyone may add. */

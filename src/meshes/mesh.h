@@ -26,8 +26,8 @@ typedef struct koksma__placement {
     int mesh;
     double matrix[12], motion[3];
     double low[3], high[3]; /* a box around it at time 0 */
-    int material;           /* -1 for a luminaire's own surface, which reflects nothing */
-    int light;              /* the luminaire whose surface this is, or -1 */
+    int material;           /* -1 for a light's own surface, which reflects nothing */
+    int light;              /* the light whose surface this is, or -1 */
     bool smooth;            /* normals are interpolated over the triangles */
 } koksma__placement;
 
@@ -70,7 +70,7 @@ typedef struct koksma__unread {
     size_t animations, skins;
     size_t vertex_colours;         /* meshes */
     size_t second_uvs, transforms; /* textures of base colour by other coordinates than the first, or by moved ones */
-    size_t too_bright;             /* luminaires, or materials that glow */
+    size_t too_bright;             /* lights, or materials that glow */
     size_t see_through;            /* materials */
     size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
     char library[256], material[256]; /* the first of each */

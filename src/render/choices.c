@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The words for what a render can be told to do, and the end of what it gives. */
+/*
+ * The words for the options of a render that are enumerations (pairing, scope, choice of lights), and the end of a
+ * picture with its layers. Parsers of plans and of the command line compare with these words.
+ */
 #include <stddef.h>
 
 #include <koksma/render.h>

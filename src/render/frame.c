@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is the same for all pixels of a picture, made once; and the room for the values of a group. */
+/*
+ * What is the same for all pixels of a picture, made once: materials and lights in floats, the camera as steps on the
+ * film, the sampler, the filter's table and the geometry. The geometry (for meshes Embree's tree) is the same for all
+ * pictures of a scene, so the scene keeps it (scene_cache) under a lock for as long as it lives.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,10 +132,6 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
                                                   : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
-    if (!status && f->geometry.shapes && koksma__pipeline_for(f)->culls) {
-        status = koksma__frustum_cull_open(&f->camera, f->geometry.shapes, options->width, options->height,
-                                           &f->frustum_cull);
-    }
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }

@@ -12,7 +12,7 @@
 #include "render/accel/intersect.h"
 #include "render/filters/filters.h"
 #include "render/frustum_cull.h"
-#include "render/integrators/integrators.h"
+#include "render/integrators/integrator_flags.h"
 #include "render/lights/lights.h"
 #include "render/samples/sampler.h"
 
@@ -55,7 +55,7 @@ typedef struct koksma__values {
 typedef struct koksma__pipeline {
     const char *name;
     int preference; /* among those that take a picture */
-    /* Whether it can render this picture. Called before and after the frame's geometry is there. */
+    /* Whether it can render this picture. */
     bool (*takes)(const koksma__frame *frame);
     bool culls; /* it wants frame->frustum_cull */
     /* A task's scratch. Errors: MEMORY. */
@@ -78,14 +78,6 @@ void koksma__frame_close(koksma__frame *frame);
 
 /* What samples will be spent on. */
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options);
-
-/* All pipelines, then NULL; the one that renders this picture (wavefront takes all). */
-extern const koksma__pipeline *const koksma__pipelines[];
-const koksma__pipeline *koksma__pipeline_for(const koksma__frame *frame);
-
-#define PIPELINE(name) extern const koksma__pipeline koksma__pipeline_##name;
-#include "render/pipelines/pipelines.def"
-#undef PIPELINE
 
 /* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Pixels in groups, and the scratch memory of a task. */
+/*
+ * Pixels in groups that fill KOKSMA__BLOCK lanes, their samples, and the scratch memory of a task. A group is as many
+ * whole pixels as fit, one at least; the last pixel's samples are repeated to whole lanes, so that loops over lanes
+ * have no remainder.
+ */
 #include <stdlib.h>
 #include <string.h>
 

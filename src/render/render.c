@@ -12,7 +12,9 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "render/film.h"
+#include "render/pipelines/pipelines.h"
 #include "render/rows.h"
+#include "render/scene_warnings.h"
 
 enum { SAMPLES_A_TASK = 1 << 15, SAMPLES_A_LOOK = 1 << 12 };
 
@@ -116,8 +118,9 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
     j->caller = pthread_self();
     f->sampler.run = run && run->keep_going ? &inner : NULL;
     j->capacity = koksma__whole_lanes(f->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : f->sampler.most);
-    j->pipeline = koksma__pipeline_for(f);
-    koksma_status status = koksma__film_init(f, all_layers, tasks, out, &j->film);
+    koksma_status status = koksma__pipeline_for(f, &j->pipeline);
+    const koksma_status film = koksma__film_init(f, all_layers, tasks, out, &j->film);
+    status = status ? status : film;
     status = status ? status : koksma__parallel(run, tasks, render_rows, j);
     f->sampler.run = NULL;
     if (!status || status == KOKSMA_INTERRUPTED) {

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is odd in a scene that can be rendered all the same. */
+/*
+ * What is odd in a scene that can be rendered all the same: materials that nothing uses, lights without light, parts
+ * of a model file that are not read. Warnings have no storage: warning i is found by counting down from i through all
+ * checks, in one fixed order.
+ */
+#include "render/scene_warnings.h"
+
 #include <stdio.h>
 
 #include "core/status.h"
@@ -73,23 +79,23 @@ static bool of_lights(const koksma_scene *scene, asked *a)
 {
     for (size_t i = 0; i < scene->n_lights; i++) {
         if (is_dark(scene->lights[i].radiance) && here(a)) {
-            snprintf(a->text, a->size, "luminaire %zu gives no light", i);
+            snprintf(a->text, a->size, "light %zu gives no light", i);
             return true;
         }
     }
     if (scene->unread.too_bright && here(a)) {
-        snprintf(a->text, a->size, "luminaires or glowing materials brighter than 1e6 (%zu) are dimmed to it",
+        snprintf(a->text, a->size, "lights or glowing materials brighter than 1e6 (%zu) are dimmed to it",
                  scene->unread.too_bright);
         return true;
     }
     if (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) && here(a)) {
-        snprintf(a->text, a->size, "no luminaire, no ambient light, no background: the picture will be black");
+        snprintf(a->text, a->size, "no light, no ambient light, no background: the picture will be black");
         return true;
     }
     return false;
 }
 
-/* Only a path that meets a luminaire brings its light round by a mirror or through glass. */
+/* Only a path that meets a light brings its light round by a mirror or through glass. */
 static bool of_hidden_lights(const koksma_scene *scene, asked *a)
 {
     size_t hidden = 0;
@@ -104,7 +110,7 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
         return false;
     }
     snprintf(a->text, a->size,
-             "no ray meets some luminaires (%zu): with path, mirrors and glass throw none of their light on other "
+             "no ray meets some lights (%zu): with path, mirrors and glass throw none of their light on other "
              "surfaces",
              hidden);
     return true;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a picture takes of the memory, from what its parts allocate for each pixel and sample. */
+/*
+ * How many bytes a picture takes, before it is made: what the film and an image-wide pattern hold for all pixels.
+ */
 #include "render/film.h"
 
 koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Colours of an image at texture coordinates: bilinear between the four nearest pixels, whose centres are at half
+ * numbers; repeated or, beyond the edge, the edge's own.
+ */
 #include "render/texture.h"
 
 #include <math.h>

@@ -127,7 +127,7 @@ static void take_colour_map(koksma__build *build, const koksma__file_texture *fr
     note(build, status, m->lost);
 }
 
-/* Luminaires shine evenly: with the texture's mean. One that isn't there leaves the surface dark, as most of such a
+/* Lights shine evenly: with the texture's mean. One that isn't there leaves the surface dark, as most of such a
    texture is. */
 static void take_glow_map(koksma__build *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
@@ -299,7 +299,7 @@ koksma_status koksma__build_lights(koksma__build *build)
 {
     koksma_status status = build->gltf.n_lights <= KOKSMA__GLTF_LIGHTS
                                ? KOKSMA_OK
-                               : koksma__fail(KOKSMA_MALFORMED, "more than %d luminaires", KOKSMA__MAX_LIGHTS);
+                               : koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
     for (size_t i = 0; !status && i < build->gltf.n_lights; i++) {
         status = build_light(build, i);
     }

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scene files: what docs/scenes.md says, with an error that names line and field for everything else. */
+/*
+ * Scene files: the root object and its lists, in the order that references need (materials before shapes before
+ * lights), as docs/scenes.md says. Every failure names file, line and field.
+ */
 #include "scene/parse.h"
 
 #include <math.h>

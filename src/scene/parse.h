@@ -19,7 +19,7 @@ koksma_status koksma__parse_light(const char *name, const field *f, koksma_scene
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
 
-/* Makes the placement a luminaire. Errors: MALFORMED (too many, or it has no area where it stands). */
+/* Makes the placement a light. Errors: MALFORMED (too many, or it has no area where it stands). */
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
 
 /* The albedo of a material with an image: its mean. */

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Shapes of kind "mesh" and "instance": which file, where it stands, what it is made of. */
+/*
+ * Shapes of kind "mesh" and "instance": which file, where it stands, what it is made of. A mesh is read once; its
+ * instances are placements of the same triangles.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -90,7 +93,7 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
         return status;
     }
     if (p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth) {
-        return koksma__json_fail(f, "a luminaire is neither smooth nor does it move");
+        return koksma__json_fail(f, "a light is neither smooth nor does it move");
     }
     const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
@@ -124,7 +127,7 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, 
     return status;
 }
 
-/* "material", or "emission": the radiance of a luminaire. */
+/* "material", or "emission": the radiance of a light. */
 static koksma_status parse_surface(const field *f, koksma_scene *scene, const koksma__mesh *mesh,
                                    koksma__placement *p)
 {

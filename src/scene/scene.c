@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Scenes as users open them: by the name of one that ships, from a JSON file, or from a mesh file; and their end. The
+ * scenes that ship are embedded in the library as texts.
+ */
 #include "scene/scene.h"
 
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scenes from texts. The description that comes of it is render/scene.h. */
+/* Scenes from texts. The description that comes of it is render/description.h. */
 #ifndef KOKSMA_SCENE_SCENE_H
 #define KOKSMA_SCENE_SCENE_H
 
-#include "render/scene.h"
+#include "render/description.h"
 
 /* The map of the square to a lens: "concentric" or "polar"; NULL for another name. */
 const koksma_warp *koksma__lens_map(const char *name);

@@ -6,6 +6,7 @@
 #include "rendering.h"
 
 #include "render/film.h"
+#include "render/pipelines/pipelines.h"
 
 enum { SIDE = 16, EDGE = 3 /* beyond which splatted pixels have all their samples */ };
 

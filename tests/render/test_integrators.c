@@ -5,8 +5,8 @@
  * flags: without `areas` the sky has no centre to light from; with `ambient` the scene's ambient light is added.
  */
 #include "kinds.h"
-#include "render/frame.h"
 #include "render/materials/materials.h"
+#include "render/pipelines/pipelines.h"
 
 #define CAMERA "\"camera\": {\"eye\": [0, 0.3, 3], \"target\": [0, 0, 0], \"fov_deg\": 12}"
 #define SKY "\"lights\": [{\"kind\": \"environment\", \"radiance\": 1, \"visible\": true}]"
@@ -45,8 +45,10 @@ static void closed_furnaces_are_white(void **state)
 {
     static const char *const text =
         "{\"camera\": {\"eye\": [3, 3, 3], \"target\": [0.3, 0.3, 0.3], \"fov_deg\": 10}, " WHITE ", \"shapes\": ["
-        "{\"kind\": \"rectangle\", \"centre\": [1, 0, 1], \"normal\": [0, 1, 0], \"half\": [1, 1], \"material\": \"m\"},"
-        "{\"kind\": \"rectangle\", \"centre\": [1, 1, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": \"m\"},"
+        "{\"kind\": \"rectangle\", \"centre\": [1, 0, 1], \"normal\": [0, 1, 0], \"half\": [1, 1], \"material\": "
+        "\"m\"},"
+        "{\"kind\": \"rectangle\", \"centre\": [1, 1, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": "
+        "\"m\"},"
         "{\"kind\": \"rectangle\", \"centre\": [0, 1, 1], \"normal\": [1, 0, 0], \"half\": [1, 1], \"material\": "
         "\"m\"}]," SKY "}";
     (void)state;
@@ -57,6 +59,29 @@ static void closed_furnaces_are_white(void **state)
         const bool all = flags->followed & KOKSMA__LOBE_DIFFUSE && !flags->is_biased;
         if (!(mean <= 1 + 5 * error + 1e-5) || (all && !(mean >= 1 - 5 * error - 1e-5))) {
             fail_msg("%s: %g +- %g in a white furnace", koksma_integrator_at(i)->name, mean, error);
+        }
+    }
+}
+
+/* Inside a ball of radius 1 and albedo 0.8, with a point light of intensity 1 in its centre. Every wall gets 1
+   directly, and all walls the same from each other, so the radiance is 0.8 / pi (1 + 0.8 + 0.8^2 + ...) = 4 / pi. */
+static void closed_balls_add_up_all_bounces(void **state)
+{
+    static const char *const text =
+        "{\"camera\": {\"eye\": [0.3, 0.2, 0.4], \"target\": [0, 1, -0.2], \"fov_deg\": 20}, \"materials\": "
+        "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.8}], \"shapes\": [{\"kind\": \"sphere\", "
+        "\"centre\": "
+        "[0, 0, 0], \"radius\": 1, \"material\": \"m\"}], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 0, 0], "
+        "\"intensity\": 1}]}";
+    (void)state;
+    for (size_t i = 0; koksma_integrator_at(i); i++) {
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        double error;
+        const double mean = picture(text, koksma_integrator_at(i), 64, 64, &error), direct = 0.8 / M_PI;
+        const double expected = flags->followed & KOKSMA__LOBE_DIFFUSE || flags->indirect ? 5 * direct : direct;
+        const double bias = flags->is_biased ? 0.05 * expected : 1e-5;
+        if (!(fabs(mean - expected) <= 5 * error + bias)) {
+            fail_msg("%s: %g +- %g inside a ball, expected %g", koksma_integrator_at(i)->name, mean, error, expected);
         }
     }
 }
@@ -93,8 +118,8 @@ static double row_by(const koksma__frame *frame, const koksma__pipeline *pipelin
     koksma__task_scratch scratch;
     koksma__group group;
     double sum = 0;
-    const size_t capacity = koksma__whole_lanes(frame->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK
-                                                                                    : frame->sampler.most);
+    const size_t capacity =
+        koksma__whole_lanes(frame->sampler.most < KOKSMA__BLOCK ? KOKSMA__BLOCK : frame->sampler.most);
     assert_ok(koksma__task_scratch_init(frame, pipeline, capacity, false, &scratch));
     for (size_t pixel = 160; pixel < 176; pixel += group.count) {
         koksma__group_fill(frame, pixel, 176, &group);
@@ -108,7 +133,68 @@ static double row_by(const koksma__frame *frame, const koksma__pipeline *pipelin
     return sum;
 }
 
-/* All pipelines that take a picture agree but for rounding, and there is one for every picture. */
+/* Compares all pipelines that take the picture; how many there were beside the best. */
+static size_t compare(const koksma_scene *scene, const koksma_integrator *in, const char *what)
+{
+    koksma__frame frame;
+    const koksma__pipeline *best = NULL;
+    size_t compared = 0;
+    koksma_render_options options = options_of(scene, "jittered", in->name, 4, 16);
+    if (((const koksma__integrator_flags *)in->rules)->open) {
+        options.depth = 0; /* no records, which take long */
+    }
+    assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
+    assert_ok(koksma__pipeline_for(&frame, &best));
+    const double mean = row_by(&frame, best);
+    for (size_t p = 0; koksma__pipelines[p]; p++) {
+        if (koksma__pipelines[p] != best && koksma__pipelines[p]->takes(&frame)) {
+            const double other = row_by(&frame, koksma__pipelines[p]);
+            if (!(fabs(mean - other) <= 1e-5 * fabs(mean) + 1e-5)) {
+                fail_msg("%s by %s: %g, by %s: %g", what, best->name, mean, koksma__pipelines[p]->name, other);
+            }
+            compared++;
+        }
+    }
+    koksma__frame_close(&frame);
+    return compared;
+}
+
+/* A disk of the material, under a rectangle that no ray sees: grey and still, through a lens, in colour, or moving.
+ */
+enum { PLAIN, LENS, COLOUR, MOTION, N_VARIANTS };
+
+static koksma_scene *disk_of(const koksma__bsdf *bsdf, int variant)
+{
+    char fields[1024], text[2048];
+    kind_fields(&bsdf->kind, 3, fields, sizeof fields);
+    snprintf(
+        text, sizeof text,
+        "{" CAMERA ", \"materials\": [{\"name\": \"m\", \"kind\": \"%s\"%s%s}], \"shapes\": [{\"kind\": "
+        "\"disk\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"radius\": 1, \"material\": \"m\"}], \"lights\": "
+        "[{\"kind\": \"rectangle\", \"centre\": [0, 1, 3], \"facing\": [0, 0, 0], \"half\": [0.5, 0.5], "
+        "\"strength\": 1}]}",
+        bsdf->kind.name,
+        bsdf->diffuse & KOKSMA__ALBEDO ? ", \"albedo\": 0.01"
+        : bsdf->diffuse                ? ", \"albedos\": [0.3, 0.6], \"period\": 0.2"
+                                       : "",
+        fields);
+    koksma_scene *scene = scene_of(text);
+    koksma__material *m = &scene->materials[0];
+    for (const koksma__parameter *p = bsdf->kind.parameters; p && p->name; p++) {
+        double *values = (double *)(void *)((char *)m + p->at);
+        if (p->type == KOKSMA__COLOUR) {
+            values[0] = values[1] = values[2] = 0.5 * values[0];
+        }
+    }
+    scene->grey = variant != COLOUR;
+    scene->camera.lens_radius = variant == LENS ? 0.3 : 0;
+    scene->camera.focus_distance = 2;
+    scene->camera.motion[0] = variant == MOTION ? 0.5 : 0;
+    scene->moves = variant == MOTION;
+    return scene;
+}
+
+/* All pipelines that take a picture agree but for rounding: of all shipped scenes, and of all materials. */
 static void pipelines_agree(void **state)
 {
     size_t compared = 0;
@@ -116,30 +202,17 @@ static void pipelines_agree(void **state)
     for (size_t i = 0; koksma_integrator_at(i); i++) {
         for (size_t s = 0; koksma_scene_name_at(s); s++) {
             koksma_scene *scene;
-            koksma__frame frame;
-            if (koksma_scene_open(koksma_scene_name_at(s), &scene)) {
-                continue; /* the bunny's files aren't ours to ship */
+            if (!koksma_scene_open(koksma_scene_name_at(s), &scene)) { /* the bunny's files aren't ours to ship */
+                compared += compare(scene, koksma_integrator_at(i), koksma_scene_name_at(s));
+                koksma_scene_close(scene);
             }
-            koksma_render_options options = options_of(scene, "jittered", koksma_integrator_at(i)->name, 4, 16);
-            if (((const koksma__integrator_flags *)koksma_integrator_at(i)->rules)->open) {
-                options.depth = 0; /* no records, which take long */
+        }
+        for (size_t b = 0; koksma__bsdfs[b]; b++) {
+            for (int variant = 0; variant < N_VARIANTS; variant++) {
+                koksma_scene *scene = disk_of(koksma__bsdfs[b], variant);
+                compared += compare(scene, koksma_integrator_at(i), koksma__bsdfs[b]->kind.name);
+                koksma_scene_close(scene);
             }
-            assert_ok(koksma__frame_open(scene, &options, NULL, &frame));
-            const koksma__pipeline *best = koksma__pipeline_for(&frame);
-            assert_non_null(best);
-            const double mean = row_by(&frame, best);
-            for (size_t p = 0; koksma__pipelines[p]; p++) {
-                if (koksma__pipelines[p] != best && koksma__pipelines[p]->takes(&frame)) {
-                    const double other = row_by(&frame, koksma__pipelines[p]);
-                    if (!(fabs(mean - other) <= 1e-5 * fabs(mean) + 1e-5)) {
-                        fail_msg("%s by %s: %g, by %s: %g", koksma_scene_name_at(s), best->name, mean,
-                                 koksma__pipelines[p]->name, other);
-                    }
-                    compared++;
-                }
-            }
-            koksma__frame_close(&frame);
-            koksma_scene_close(scene);
         }
     }
     assert_true(compared > 0);
@@ -150,6 +223,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(convex_bodies_reflect_the_sky),
         cmocka_unit_test(closed_furnaces_are_white),
+        cmocka_unit_test(closed_balls_add_up_all_bounces),
         cmocka_unit_test(specular_bodies_show_the_sky),
         cmocka_unit_test(pipelines_agree),
     };

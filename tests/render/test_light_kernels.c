@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Choosing luminaires, rays that start on shapes, and shapes that move: the same bits for every instruction set, and
+/* Choosing lights, rays that start on shapes, and shapes that move: the same bits for every instruction set, and
    plain twins in double precision. */
 #include <math.h>
 #include <string.h>
@@ -194,7 +194,7 @@ static void small_spheres_far_away_shade(void **state)
                 *from[k] = (passes ? 1.02f : 0.98f) * radius * across - distance * n[k];
                 *to[k] = far * n[k];
             }
-            aimed[i] = i % 8 == 4 ? 7 : i % 8; /* to this luminaire; to another one */
+            aimed[i] = i % 8 == 4 ? 7 : i % 8; /* to this light; to another one */
             dark[i] = !passes && !stops && aimed[i] != 7;
             hits.primitive[i] = -1;
         }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What luminaires of every kind are thought to give, when one of them is chosen, against what they do give. */
+/* What lights of every kind are thought to give, when one of them is chosen, against what they do give. */
 #include "render/lights/lights.h"
 #include "render/pipelines/batch.h"
 #include "rendering.h"
 
-/* A small disk overhead and another luminaire, which reflect the same: pi 10^-4 L / pi is intensity / pi, irradiance
+/* A small disk overhead and another light, which reflect the same: pi 10^-4 L / pi is intensity / pi, irradiance
    / pi, or the radiance of the sky. By power the disk's is pi A L, a point's 4 pi I and a sphere's 4 pi times that of
    the disk that it shows, which are four times as much; one that is far away has the power of what it reflects. */
 static void choices_are_in_proportion(void **state)

@@ -87,7 +87,7 @@ static void furnace_shows_the_albedo(void **state)
     "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"                                    \
     "\"shapes\": [{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}]"
 
-/* What a patch of albedo 0.9 reflects under one luminaire. */
+/* What a patch of albedo 0.9 reflects under one light. */
 static void lights_are_their_form_factors(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void lights_are_their_form_factors(void **state)
     }
 }
 
-/* A luminaire that is seen does not stand in its own light, be it small and far or all of it far from the origin,
+/* A light that is seen does not stand in its own light, be it small and far or all of it far from the origin,
    where places are known to a thousandth. */
 static void seen_lights_do_not_shade_themselves(void **state)
 {
@@ -160,7 +160,7 @@ static void seen_lights_do_not_shade_themselves(void **state)
     }
 }
 
-/* A luminaire that is seen gives the same light, sampled, met by chance, or both, on a diffuse and on a glossy floor.
+/* A light that is seen gives the same light, sampled, met by chance, or both, on a diffuse and on a glossy floor.
  */
 static void seen_lights_give_the_same(void **state)
 {
@@ -329,7 +329,7 @@ static void cache_is_the_same_for_any_number_of_threads(void **state)
     koksma_scene_close(scene);
 }
 
-/* ---- Choosing luminaires ------------------------------------------------------------------------------- */
+/* ---- Choosing lights ------------------------------------------------------------------------------- */
 
 static void one_light_stands_for_all(void **state)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The integrator `whitted`: luminaires as points at their centres, and the tree of rays in glass. */
+/* The integrator `whitted`: lights as points at their centres, and the tree of rays in glass. */
 #include "rendering.h"
 
 static double seen(const char *text, int depth)
@@ -66,7 +66,7 @@ static void glass_sends_rays_both_ways(void **state)
     assert_near(seen(scene, 9), r + t * t * (1 + r + r * r), 1e-5); /* the next weighs less than 1/1000 */
 }
 
-/* A luminaire that is chosen stands for all of them, and has no place on it to draw. */
+/* A light that is chosen stands for all of them, and has no place on it to draw. */
 static void one_light_stands_for_all(void **state)
 {
     (void)state;

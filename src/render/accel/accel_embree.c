@@ -39,11 +39,130 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/accel/mesh_parts.h"
+#include "meshes/mesh.h"
+#include "render/pipelines/batch.h"
+#include "render/vector3.h"
 
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
 #define SHADOW_END (1 - 0x1p-16f) /* as for the analytic shapes */
+
+/* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
+
+/* What is known of a placement. Vertices are placed, or (of an instance) in the mesh's coordinates. */
+typedef struct part {
+    const koksma__mesh *mesh;
+    float *placed; /* owned by Embree; NULL: the mesh's own */
+    bool is_instance, smooth, moves;
+    float matrix[12], normal_matrix[9], motion[3];
+    int32_t material, light;
+    int32_t first; /* number of its first triangle, as a primitive */
+} part;
+
+static void place(const part *p, const float v[3], float out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *row = p->matrix + 4 * k;
+        out[k] = row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3];
+    }
+}
+
+/* Rays leave a large mesh's triangles in no order that the processor could foresee: what a block of them needs is
+   asked for together, before the first of it is used. */
+static void fetch_triangle(const part *p, uint32_t triangle)
+{
+    __builtin_prefetch(p->mesh->indices + 3 * (size_t)triangle);
+}
+
+static void fetch_corners(const part *p, uint32_t triangle)
+{
+    const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
+    const float *vertices = p->placed ? p->placed : p->mesh->vertices;
+    for (int c = 0; c < 3; c++) {
+        __builtin_prefetch(vertices + 3 * (size_t)index[c]);
+    }
+}
+
+/* l->primitive: numbers of parts, -1: none. */
+static void fetch_landings(const part *parts, const koksma__landings *l, int n)
+{
+    for (int i = 0; i < n; i++) {
+        if (l->primitive[i] >= 0) {
+            fetch_corners(&parts[l->primitive[i]], l->triangle[i]);
+        }
+    }
+}
+
+/* Triangle `triangle` of the part at this time, into lane i. */
+static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma__landings *l)
+{
+    const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
+    const float *vertices = p->placed ? p->placed : p->mesh->vertices;
+    for (int c = 0; c < 3; c++) {
+        const float *v = vertices + 3 * (size_t)index[c];
+        float moved[3];
+        if (p->is_instance) {
+            place(p, v, moved);
+            v = moved;
+        }
+        for (int k = 0; k < 3; k++) {
+            l->corners[3 * c + k][i] = v[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        l->shift[k][i] = p->moves ? time * p->motion[k] : 0;
+    }
+    l->primitive[i] = p->first + (int32_t)triangle;
+    l->material[i] = p->material;
+}
+
+/* The normal between the vertices' own, turned to the side of the triangle's; false where there is none, or where it
+   leads away from the eye although the triangle is seen. What a mirror or glass sends off by it may run into the
+   triangle's own mesh, and its light is lost: of a white octahedron .014 in mirror, .021 in glass (docs/scenes.md).
+ */
+static bool smooth_normal(const part *p, const uint32_t *index, const float w[3], const float geometric[3],
+                          const float d[3], float out[3])
+{
+    float n[3] = {0, 0, 0};
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 3; k++) {
+            n[k] += w[c] * p->mesh->normals[3 * (size_t)index[c] + (size_t)k];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        const float *row = p->normal_matrix + 3 * k;
+        out[k] = row[0] * n[0] + row[1] * n[1] + row[2] * n[2];
+    }
+    if (!(koksma__dot3(out, out) > 1e-12f)) {
+        return false;
+    }
+    const float side = koksma__dot3(out, geometric) < 0 ? -1.0f : 1.0f;
+    for (int k = 0; k < 3; k++) {
+        out[k] *= side;
+    }
+    koksma__unit3(out);
+    return koksma__dot3(out, d) < 0;
+}
+
+/* What lane i has of its vertices: the normal between theirs, and the texture's coordinates. */
+static void refine(const part *p, const koksma__landings *l, const koksma__rays *rays, int i, koksma__hits *hits)
+{
+    const uint32_t *index = p->mesh->indices + 3 * (size_t)(l->primitive[i] - p->first);
+    const float w[3] = {1 - l->u[i] - l->v[i], l->u[i], l->v[i]};
+    const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
+    float bent[3];
+    if (p->smooth && smooth_normal(p, index, w, n, d, bent)) {
+        hits->nx[i] = bent[0];
+        hits->ny[i] = bent[1];
+        hits->nz[i] = bent[2];
+    }
+    for (int c = 0; p->mesh->uvs && c < 3; c++) {
+        hits->u[i] += w[c] * p->mesh->uvs[2 * (size_t)index[c]];
+        hits->v[i] += w[c] * p->mesh->uvs[2 * (size_t)index[c] + 1];
+    }
+}
+
+/* ---- The geometry --------------------------------------------------------------------------------------------- */
 
 typedef struct embree {
     RTCDevice device;
@@ -134,12 +253,83 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
 #define OCCLUDED(width, valid, e, packet) PASTE(rtcOccluded, width)(valid, (e)->scene, packet, &occluded_how)
 #endif
 
-#define WIDTH 8
-#include "render/accel/accel_packet.h"
-#undef WIDTH
-#define WIDTH 16
-#include "render/accel/accel_packet.h"
-#undef WIDTH
+/* intersect_8, intersect_16, shade_8 and shade_16: the same for either width of packets.
+   intersect: rays start .. start + WIDTH - 1 of the block; on gets the parts (as primitives) and triangles that are
+   closer than what hits has, and the return value is their number. shade: takes away the light of those that meet
+   something. */
+#define PACKETS(WIDTH)                                                                                               \
+    static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
+                                 bool coherent, const koksma__hits *hits, koksma__landings *on)                      \
+    {                                                                                                                \
+        _Alignas(64) int valid[WIDTH];                                                                               \
+        struct RTCRayHit##WIDTH packet;                                                                              \
+        int landed = 0;                                                                                              \
+        memcpy(packet.ray.org_x, s->x + start, sizeof packet.ray.org_x);                                             \
+        memcpy(packet.ray.org_y, s->y + start, sizeof packet.ray.org_y);                                             \
+        memcpy(packet.ray.org_z, s->z + start, sizeof packet.ray.org_z);                                             \
+        memcpy(packet.ray.dir_x, rays->dx + start, sizeof packet.ray.dir_x);                                         \
+        memcpy(packet.ray.dir_y, rays->dy + start, sizeof packet.ray.dir_y);                                         \
+        memcpy(packet.ray.dir_z, rays->dz + start, sizeof packet.ray.dir_z);                                         \
+        memcpy(packet.ray.tfar, hits->t + start, sizeof packet.ray.tfar);                                            \
+        for (int i = 0; i < WIDTH; i++) {                                                                            \
+            valid[i] = -1;                                                                                           \
+            packet.ray.tnear[i] = 0;                                                                                 \
+            packet.ray.mask[i] = ~0u;                                                                                \
+            packet.ray.id[i] = packet.ray.flags[i] = 0;                                                              \
+            packet.ray.time[i] = e->moves ? rays->time[start + i] : 0;                                               \
+            packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;                                \
+        }                                                                                                            \
+        CONTEXT(coherent);                                                                                           \
+        INTERSECT(WIDTH, valid, e, &packet);                                                                         \
+        memcpy(on->t + start, packet.ray.tfar, sizeof packet.ray.tfar);                                              \
+        memcpy(on->u + start, packet.hit.u, sizeof packet.hit.u);                                                    \
+        memcpy(on->v + start, packet.hit.v, sizeof packet.hit.v);                                                    \
+        memcpy(on->triangle + start, packet.hit.primID, sizeof packet.hit.primID);                                   \
+        for (int i = 0; i < WIDTH; i++) {                                                                            \
+            const uint32_t instance = packet.hit.instID[0][i], geometry = packet.hit.geomID[i];                      \
+            /* RTC_INVALID_GEOMETRY_ID is -1 */                                                                      \
+            on->primitive[start + i] = (int32_t)(instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance);         \
+            if (geometry != RTC_INVALID_GEOMETRY_ID) {                                                               \
+                fetch_triangle(&e->parts[on->primitive[start + i]], packet.hit.primID[i]);                           \
+                landed++;                                                                                            \
+            }                                                                                                        \
+        }                                                                                                            \
+        return landed;                                                                                               \
+    }                                                                                                                \
+                                                                                                                     \
+    static void shade_##WIDTH(const embree *e, const starts *s, const koksma__hits *hits, int start,                 \
+                              koksma__shadows *shadows)                                                              \
+    {                                                                                                                \
+        _Alignas(64) int valid[WIDTH];                                                                               \
+        struct RTCRay##WIDTH packet;                                                                                 \
+        int any = 0;                                                                                                 \
+        for (int i = 0; i < WIDTH; i++) {                                                                            \
+            valid[i] = shadows->light[start + i] > 0 ? -1 : 0;                                                       \
+            any |= valid[i];                                                                                         \
+            packet.tnear[i] = 0;                                                                                     \
+            packet.tfar[i] = SHADOW_END;                                                                             \
+            packet.mask[i] = ~0u;                                                                                    \
+            packet.id[i] = packet.flags[i] = 0;                                                                      \
+            packet.time[i] = e->moves ? hits->time[start + i] : 0;                                                   \
+            /* from where it starts, off the triangle, to where it would have ended */                               \
+            packet.dir_x[i] = shadows->dx[start + i] + (hits->px[start + i] - s->x[start + i]);                      \
+            packet.dir_y[i] = shadows->dy[start + i] + (hits->py[start + i] - s->y[start + i]);                      \
+            packet.dir_z[i] = shadows->dz[start + i] + (hits->pz[start + i] - s->z[start + i]);                      \
+            packet.org_x[i] = s->x[start + i];                                                                       \
+            packet.org_y[i] = s->y[start + i];                                                                       \
+            packet.org_z[i] = s->z[start + i];                                                                       \
+        }                                                                                                            \
+        if (any) {                                                                                                   \
+            CONTEXT(false);                                                                                          \
+            OCCLUDED(WIDTH, valid, e, &packet);                                                                      \
+            for (int i = 0; i < WIDTH; i++) {                                                                        \
+                shadows->light[start + i] = valid[i] && packet.tfar[i] < 0 ? 0 : shadows->light[start + i];          \
+            }                                                                                                        \
+        }                                                                                                            \
+    }
+
+PACKETS(8)
+PACKETS(16)
 
 static int closest(const koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,
                    koksma__hits *hits)

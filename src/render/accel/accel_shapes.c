@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Analytic shapes: no tree, every shape against every block of rays. A flat shape shades nothing when all other
- * shapes and all luminaires lie on one side of it, because that side is convex; a floor is left out of the shadows
+ * shapes and all lights lie on one side of it, because that side is convex; a floor is left out of the shadows
  * so.
  */
 #include <math.h>

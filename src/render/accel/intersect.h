@@ -7,8 +7,8 @@
 #ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
 #define KOKSMA_RENDER_ACCEL_INTERSECT_H
 
+#include "render/description.h"
 #include "render/pipelines/batch.h"
-#include "render/scene.h"
 
 typedef struct koksma__geometry {
     void *made;
@@ -20,7 +20,7 @@ typedef struct koksma__geometry {
     /* Takes away the light of the shadow rays that meet something; hits->time says when. */
     void (*occlude)(const struct koksma__geometry *geometry, const koksma__hits *hits, int n,
                     koksma__shadows *shadows);
-    /* The luminaire whose surface a primitive is, or -1. */
+    /* The light whose surface a primitive is, or -1. */
     int (*light)(const struct koksma__geometry *geometry, int32_t primitive);
     void (*release)(struct koksma__geometry *geometry);
 } koksma__geometry;

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of filters, and how samples are drawn from one. */
+/*
+ * The table of filters, and how samples are drawn from one: |f| in 1024 cells of equal width, as cumulative sums that
+ * are inverted by binary search. A cell has one weight, the sign and size of f in it, so that drawn samples integrate
+ * f exactly cell by cell.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,9 +5,9 @@
  * its formula: E is emission, f the material, cos and cos' are at the surface and at the light, V is 1 where the
  * light is seen.
  */
-#include "render/integrators/integrators.h"
-
 #include <string.h>
+
+#include "render/integrators/irradiance_cache.h"
 
 /*
  * utah: the local model. A surface reflects the scene's ambient light and what comes from the centre of each
@@ -48,7 +48,7 @@ static const koksma__integrator_flags distribution = {
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
 
 /*
- * path: all light paths (Kajiya 1986), one direction on from each vertex. Luminaires are sampled at each vertex and
+ * path: all light paths (Kajiya 1986), one direction on from each vertex. Lights are sampled at each vertex and
  * met by reflected rays, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a
  * path whose weight is below 1 goes on with that probability, which keeps the mean. Without bias but for the end of
  * paths at the depth limit, and for light that a mirror or glass throws on another surface from lights that rays

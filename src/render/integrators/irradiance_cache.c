@@ -13,6 +13,8 @@
  * light on a diffuse surface is left out: the few rays of a record that find it would make one place far too
  * bright and others dark. A depth of 0 has no records, for there is no light between surfaces.
  */
+#include "render/integrators/irradiance_cache.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

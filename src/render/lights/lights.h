@@ -11,9 +11,9 @@
 #ifndef KOKSMA_RENDER_LIGHTS_LIGHTS_H
 #define KOKSMA_RENDER_LIGHTS_LIGHTS_H
 
+#include "render/description.h"
 #include "render/fields.h"
 #include "render/pipelines/batch.h"
-#include "render/scene.h"
 
 /* A light in floats, as the renderer reads it. */
 typedef struct koksma__shading_light {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * checker: Lambert surfaces of two albedos, in squares of a flat shape's own coordinates or of a mesh's texture
- * coordinates (render/scene.h has the formula). Which square a point is in is decided before the material is asked.
+ * coordinates (render/description.h has the formula). Which square a point is in is decided before the material is
+ * asked.
  */
 #include "render/materials/lobes.h"
 

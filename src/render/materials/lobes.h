@@ -19,10 +19,28 @@ static inline float koksma__lambert_value(const koksma__surface *s, const float 
     return cosine / KOKSMA__PI_F;
 }
 
-/* value and sample of a surface that is Lambert and nothing else; bsdf_lambert.c. */
-float koksma__lambert_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
-bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice,
-                                 koksma__scatter *out);
+/* value and sample of a surface that is Lambert and nothing else. */
+static inline float koksma__lambert_bsdf_value(const koksma__surface *s, const float w[3], unsigned lobes,
+                                               float value_out[3])
+{
+    return lobes & KOKSMA__LOBE_DIFFUSE ? koksma__lambert_value(s, w, value_out) : 0;
+}
+
+static inline bool koksma__lambert_bsdf_sample(const koksma__surface *s, unsigned lobes, const float u[2],
+                                               float choice, koksma__scatter *out)
+{
+    (void)choice;
+    if (!(lobes & KOKSMA__LOBE_DIFFUSE)) {
+        return false;
+    }
+    koksma__cosine_direction(s->n, u, out->w);
+    out->pdf = koksma__dot3(s->n, out->w) / KOKSMA__PI_F;
+    out->lobe = KOKSMA__LOBE_DIFFUSE;
+    for (int k = 0; k < 3; k++) {
+        out->weight[k] = s->albedo[k];
+    }
+    return out->pdf > 0;
+}
 
 /* The cosine lobe of Shirley (1991, section 5.5.6): directions about the mirror's with density (e + 1) / (2 pi)
    cos^e, each weighing `reflectance`; those under the surface are lost. Times the cosine the material is reflectance

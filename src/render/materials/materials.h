@@ -11,8 +11,8 @@
 #ifndef KOKSMA_RENDER_MATERIALS_MATERIALS_H
 #define KOKSMA_RENDER_MATERIALS_MATERIALS_H
 
+#include "render/description.h"
 #include "render/fields.h"
-#include "render/scene.h"
 
 /* Lobes. */
 enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR = 4 };

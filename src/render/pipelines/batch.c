@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which compilation of the lane loops runs: that of the instruction set that koksma__kernels() has chosen
+ * (KOKSMA_KERNELS overrides it). All give the same bits.
+ */
 #include "render/pipelines/batch.h"
 
 #include <string.h>

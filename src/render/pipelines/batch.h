@@ -32,7 +32,7 @@ typedef struct koksma__rays {
 /* The closest hits: place, unit normal towards the ray's origin, whether that is the back (the inside of a sphere,
    the side that a flat shape's normal leads away from), the surface's own coordinates (flat shapes), and which
    primitive of the maker's it is, by its number; primitive is -1 where nothing was hit, material there and on
-   luminaires. time is for shadow rays, where something moves. */
+   lights. time is for shadow rays, where something moves. */
 typedef struct koksma__hits {
     KOKSMA__LANES(float, t);
     KOKSMA__LANES(float, px);
@@ -49,8 +49,8 @@ typedef struct koksma__hits {
     KOKSMA__LANES(int32_t, material);
 } koksma__hits;
 
-/* Light that would come to the hits along d (from the hit at t = 0 to the luminaire at t = 1) were nothing between.
-   aimed[i]: the shape that is the luminaire's own surface, which never shades it, or -1; NULL: no ray has one. */
+/* Light that would come to the hits along d (from the hit at t = 0 to the light at t = 1) were nothing between.
+   aimed[i]: the shape that is the light's own surface, which never shades it, or -1; NULL: no ray has one. */
 typedef struct koksma__shadows {
     KOKSMA__LANES(float, dx);
     KOKSMA__LANES(float, dy);
@@ -105,8 +105,8 @@ typedef struct koksma__batch_light {
 
 enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
 
-/* Luminaires for choosing one, in lanes: the estimate is
-     fixed + power max(least, n.d / r) max(least, cosine at the luminaire) / r^2,  0 when all of it is out of sight,
+/* Lights for choosing one, in lanes: the estimate is
+     fixed + power max(least, n.d / r) max(least, cosine at the light) / r^2,  0 when all of it is out of sight,
    with d from p to the centre and r = max(|d|, reach). Those far away have their way in (nx, ny, nz) and power 0. */
 typedef struct koksma__batch_lights {
     int n, whole; /* of them; up to whole lanes, the rest being dark */

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How much each luminaire may give to one place, all of them in lanes. */
+/*
+ * How much each light may give to one point, all lights in lanes: the estimate of batch.h, which never is 0 where
+ * anything can come. Cosines are at least LEAST, because a light whose centre is at the horizon is half above it.
+ */
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
 
-#define LEAST 0.05f /* of a cosine where any place of a luminaire is above the horizon */
+#define LEAST 0.05f /* of a cosine where any place of a light is above the horizon */
 
 float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], const float normal[3], float *out)
 {

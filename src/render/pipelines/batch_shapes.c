@@ -11,12 +11,12 @@
  */
 #include <math.h>
 
+#include "render/description.h"
 #include "render/pipelines/batch_kernel.h"
-#include "render/scene.h"
 
 typedef enum bounds { ENDLESS, IN_RECTANGLE, IN_DISK } bounds;
 
-/* A shadow ray ends this much short of the luminaire. */
+/* A shadow ray ends this much short of the light. */
 #define SHADOW_END (1 - 0x1p-16f)
 
 INLINE int within(const koksma__batch_shape *s, float u, float v, bounds b)
@@ -272,7 +272,7 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     return hit;
 }
 
-/* aimed: NULL, or the luminaire that each ray goes to and that can't stand in its way, as the shape that it starts on
+/* aimed: NULL, or the light that each ray goes to and that can't stand in its way, as the shape that it starts on
    can't. */
 INLINE void shade_flat_in(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
                           int n, koksma__shadows *restrict r, bounds b)
@@ -348,7 +348,7 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
 {
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
-        if (shadows->aimed && s->material < 0) { /* a luminaire's surface */
+        if (shadows->aimed && s->material < 0) { /* a light's surface */
             shade_shape(s, hits, shadows->aimed, n, shadows);
         } else {
             shade_shape(s, hits, NULL, n, shadows);

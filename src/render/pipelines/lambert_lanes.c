@@ -2,14 +2,14 @@
 /*
  * Direct light on grey Lambert surfaces under rectangles that no one sees, through a pinhole, all in lanes (Cook,
  * Porter & Carpenter 1984). A sample is background                                                      where the ray
- * hits nothing, min(clamp, albedo (ambient + sum over luminaires of their light))  elsewhere, one shadow ray a
- * luminaire. It is what wavefront.c gives for such scenes, several times faster; the two differ by rounding.
+ * hits nothing, min(clamp, albedo (ambient + sum over lights of their light))  elsewhere, one shadow ray a
+ * light. It is what wavefront.c gives for such scenes, several times faster; the two differ by rounding.
  */
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "render/frame.h"
+#include "render/pipelines/pipelines.h"
 
 typedef struct scratch {
     koksma__sample_scratch draw;
@@ -129,7 +129,7 @@ static bool idle(const koksma__frame *f, void *opened, const koksma__group *grou
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
 
-/* The samples of the luminaires are drawn when the first ray of the group hits something. */
+/* The samples of the lights are drawn when the first ray of the group hits something. */
 static koksma_status draw_lights(const koksma__frame *f, const koksma__group *group, scratch *r)
 {
     koksma_status status = KOKSMA_OK;
@@ -166,7 +166,7 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     for (int i = 0; i < n; i++) {
         sum[i] = (float)f->scene->ambient[0];
     }
-    shadows.aimed = NULL; /* no one sees the luminaires */
+    shadows.aimed = NULL; /* no one sees the lights */
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
         const float *places = r->places + 2 * (l * r->capacity + start);

@@ -1,12 +1,36 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Any scene by any integrator. The samples of a group go bounce by bounce: all paths that are left are intersected in
- * blocks of lanes, their luminaires are asked in blocks of shadow rays, and what goes on is queued for the next
- * bounce. Only the shading of a place is done ray by ray. A sample's light is summed in the order of its vertices.
+ * The wavefront path tracer: any scene by any integrator (Laine, Karras & Aila 2013 have the idea for GPUs). It
+ * estimates, for each sample of the film, the rendering equation (Kajiya 1986)
+ *
+ *     L(x, out) = E(x, out) + integral of f(w, out) L(y, -w) cos dw,        y: what the ray from x along w meets
+ *
+ * by paths. A path is a ray with the weight beta that its light has for the sample: the product of f cos / pdf of all
+ * directions so far. Instead of following one path to its end, all paths of a group take one step together, so that
+ * rays are intersected in blocks of 64 lanes (batch.h) and shadow rays too:
+ *
+ *     queue of paths, bounce b
+ *       | closest          64 rays at once: which primitive, where, which normal
+ *       | emission         a ray that meets a light, or misses all, adds its light:    sum += beta L m
+ *       | lights           at each vertex one sample of each light, or of a chosen one; 64 shadow rays at once
+ *       | scatter          each vertex draws a direction (or both of glass) from its material
+ *     queue of paths, bounce b + 1
+ *
+ * Two queues take turns until one is empty. Paths only end or branch, and their order never depends on threads, so a
+ * sample's light is summed in the order of its vertices and bits are equal for any number of threads.
+ *
+ * Light that both steps could find, by sampling the light and by a reflected ray that meets it, is shared by the
+ * power heuristic (Veach 1997, section 9.2): each is weighed by m = p^2 / (p^2 + q^2), with p the density by which it
+ * was found and q that of the other way; the two m of one direction add to 1. A path carries the density of its last
+ * direction for this (0 after a mirror, whose light no sampling finds: m = 1).
+ *
+ * What is random comes from uses (samples/uses.def): lobe, lobe choice, lights and roulette of vertex b have keys of
+ * their own, so that the patterns under study, not the tracer, decide how vertices are stratified.
  */
 #include <string.h>
 
 #include "core/status.h"
+#include "render/pipelines/pipelines.h"
 #include "render/pipelines/wavefront.h"
 #include "render/texture.h"
 #include "render/vector3.h"
@@ -168,7 +192,7 @@ static void note_first(koksma__values *values, size_t sample, const koksma__path
 
 /* ---- Going on --------------------------------------------------------------------------------------------- */
 
-/* Paths that start on a diffuse surface (of a record of the irradiance cache) see no luminaires in mirrors. */
+/* Paths that start on a diffuse surface (of a record of the irradiance cache) see no lights in mirrors. */
 static koksma_status go_on(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
                            const koksma__scatter *chosen, float scale)
 {

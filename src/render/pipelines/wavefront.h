@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What wavefront.c (paths) and wavefront_lights.c (luminaires at their vertices) share with wavefront_scratch.c. */
+/* What wavefront.c (paths) and wavefront_lights.c (lights at their vertices) share with wavefront_scratch.c. */
 #ifndef KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 #define KOKSMA_RENDER_PIPELINES_WAVEFRONT_H
 
@@ -68,7 +68,7 @@ koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, c
    their samples. */
 koksma_status koksma__wavefront_follow(koksma__trace *trace, koksma__values *values);
 
-/* Adds the light of the luminaires at the vertices to the sums of their samples. */
+/* Adds what the lights give at the vertices to the sums of their samples. */
 koksma_status koksma__wavefront_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
 
 /* The probability that light `light` is among those that a vertex at p with normal n samples. */

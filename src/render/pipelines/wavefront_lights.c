@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Light from luminaires at a block of vertices: a place on each, or on one that is chosen, and a shadow ray there.
- * The choice (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996) is in proportion to what each luminaire
+ * What lights give at a block of vertices: a position on each, or on one that is chosen, and a shadow ray there.
+ * The choice (Shirley 1991, section 5.4; Shirley, Wang & Zimmerman 1996) is in proportion to what each light
  * would give without shadows, so one shadow ray a vertex is enough for many of them; the estimate is divided by the
  * chance. Light that a followed lobe would meet by itself too is weighed by the power heuristic.
  */
@@ -89,7 +89,7 @@ static void reflect(const koksma__trace *trace, const koksma__surface *s, const 
     }
 }
 
-/* One luminaire a vertex, chosen[i], with the places us[2 i], …; its light, shaded, is added. */
+/* One light a vertex, chosen[i], with the positions us[2 i], …; what it gives, shaded, is added. */
 static void add_samples(const koksma__trace *trace, const koksma__vertices *v, const choice *chosen, const float *us,
                         koksma__values *values)
 {

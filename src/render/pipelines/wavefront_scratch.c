@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a task of the tracer keeps: queues of paths, and the samples that it has drawn. */
+/*
+ * What a task of the wavefront tracer owns: two queues of paths, sums of light, and the samples that it has drawn.
+ * The samples of a use are drawn for a whole group when the first path needs them, and then kept for the group: which
+ * uses a picture needs depends on what its rays meet.
+ */
 #include <stdlib.h>
 
 #include "core/capacity.h"

@@ -11,7 +11,7 @@
 
 #include "render/pipelines/batch.h"
 
-/* Uses. Their numbers are part of the random numbers' keys, so they never change; luminaires count up from LIGHT, and
+/* Uses. Their numbers are part of the random numbers' keys, so they never change; lights count up from LIGHT, and
    the uses of bounce b have b KOKSMA__USES_A_BOUNCE added. Their names are in uses.def. */
 enum {
 #define USE(id, number, name, dim, help) KOKSMA__USE_##id = (number),
@@ -54,7 +54,7 @@ typedef struct koksma__sampler {
 /* The uses that a scene and an integrator have: what `native` lays out as dimensions and `image` draws beforehand. */
 typedef struct koksma__use_list {
     bool lens, time;
-    int lights;        /* uses of luminaires at a bounce */
+    int lights;        /* uses of lights at a bounce */
     bool light_choice; /* one of them is chosen */
     int vertices;      /* of a path; with more than one, each has lobe, lobe choice and roulette too */
 } koksma__use_list;

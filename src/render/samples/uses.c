@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What samples are spent on, and which dimensions of one pattern the uses would take. */
+/*
+ * Uses: what samples are spent on. Their table by number, the group and the dimensions of a pattern that each one
+ * takes, and the scratch memory of drawing.
+ */
 #include <stdlib.h>
 
 #include "core/status.h"
@@ -74,7 +77,7 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
     return (koksma__place_of_use){.group = -1, .dim = uses_table[u].dim};
 }
 
-/* Only the uses of luminaires are several at a vertex, and only the first of them shares its set. */
+/* Only the uses of lights are several at a vertex, and only the first of them shares its set. */
 uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use)
 {
     return place->group < 0 || use % KOKSMA__USES_A_BOUNCE > KOKSMA__USE_LIGHT
@@ -100,7 +103,7 @@ bool koksma__use_is_there(const koksma__use_list *uses, int u)
     }
 }
 
-/* A vertex has: the luminaires, which of them, lobe, lobe choice, roulette. */
+/* A vertex has: the lights, which of them, lobe, lobe choice, roulette. */
 int koksma__use_dimension(const koksma__use_list *uses, uint32_t use)
 {
     const int vertex = (int)(use / KOKSMA__USES_A_BOUNCE), number = (int)(use % KOKSMA__USES_A_BOUNCE);

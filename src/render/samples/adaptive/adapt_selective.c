@@ -11,7 +11,7 @@
  * pixel's base use is that with the smallest c, if c is below `below`; else nothing is split. Then as hierarchical,
  * with neighbours and quarters in the base use; in the others a part of a stratum has the cell of the whole, so the
  * parts cover the stratum, which the four parts of aligned subdivision in several uses don't. Candidates: pixel,
- * lens, time, and of the first two vertices the first luminaires and the lobe.
+ * lens, time, and of the first two vertices the first lights and the lobe.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 #include "render/vector3.h"

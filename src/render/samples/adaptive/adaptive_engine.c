@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "render/film.h"
+#include "render/pipelines/pipelines.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
 enum { PIXELS_A_TASK = 128 };
@@ -322,8 +323,8 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
                                             .kept_slots = run.base.kept_slots,
                                             .count = count,
                                             .draw = draw};
-        j.pipeline = koksma__pipeline_for(&j.frame);
         status = open_run(&run);
+        status = status ? status : koksma__pipeline_for(&j.frame, &j.pipeline);
         status = status ? status : open_layers(&j.frame, out);
         status = status ? status : render_rounds(&j, how);
         if (!status || status == KOKSMA_INTERRUPTED) {

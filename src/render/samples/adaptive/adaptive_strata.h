@@ -11,7 +11,7 @@
  * A use of one number has m^2 strata on a line when it is shuffled, and the columns of the square when aligned.
  *
  * Aligned squares leave most of the product of the spaces unsampled: E.g. the left of the pixel never sees the right
- * of a luminaire. `phase` can mend it: fixed       it is so shifted     the other uses are shifted on the torus, x ->
+ * of a light. `phase` can mend it: fixed       it is so shifted     the other uses are shifted on the torus, x ->
  * frac(x + s): with s uniform each pixel's estimate is right in the mean, but neighbours across the seam differ
  *     folded      x -> |2 frac(x + s) - 1|, which has no seam
  *

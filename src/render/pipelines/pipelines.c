@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The table of pipelines, and which of them renders a picture: of those that take it, the one of highest preference.
  */
-#include "render/frame.h"
+#include "render/pipelines/pipelines.h"
 
 const koksma__pipeline *const koksma__pipelines[] = {
 #define PIPELINE(name) &koksma__pipeline_##name,
@@ -9,7 +9,7 @@ const koksma__pipeline *const koksma__pipelines[] = {
 #undef PIPELINE
     NULL};
 
-const koksma__pipeline *koksma__pipeline_for(const koksma__frame *frame)
+koksma_status koksma__pipeline_for(koksma__frame *frame, const koksma__pipeline **out)
 {
     const koksma__pipeline *best = NULL;
     for (size_t i = 0; koksma__pipelines[i]; i++) {
@@ -18,5 +18,9 @@ const koksma__pipeline *koksma__pipeline_for(const koksma__frame *frame)
             best = p;
         }
     }
-    return best;
+    *out = best;
+    return best->culls && frame->geometry.shapes && !frame->frustum_cull
+               ? koksma__frustum_cull_open(&frame->camera, frame->geometry.shapes, frame->options->width,
+                                           frame->options->height, &frame->frustum_cull)
+               : KOKSMA_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What integrators tell the pipelines to do at a vertex. The table of them is integrators.c. */
-#ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
-#define KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
+#ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
+#define KOKSMA_RENDER_INTEGRATORS_INTEGRATOR_FLAGS_H
 
 #include "render/materials/materials.h"
 
@@ -21,11 +21,5 @@ typedef struct koksma__integrator_flags {
     void (*close)(struct koksma__frame *frame);
     koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
 } koksma__integrator_flags;
-
-/* irradiance_cache.c: the records that are made before the picture; NULL frame->cache: there are none. */
-koksma_status koksma__irradiance_cache_open(struct koksma__frame *frame, const koksma_run *run);
-void koksma__irradiance_cache_close(struct koksma__frame *frame);
-koksma_status koksma__irradiance_cache_indirect(const struct koksma__frame *frame, const koksma__surface *s,
-                                                float time, float out[3]);
 
 #endif

@@ -4,8 +4,8 @@
  * Lengths are in the scene's unit; y is up. Kinds of materials, lights and shapes are pointers to their entries in
  * the tables of src/render, so that a new kind needs no line here.
  */
-#ifndef KOKSMA_RENDER_SCENE_H
-#define KOKSMA_RENDER_SCENE_H
+#ifndef KOKSMA_RENDER_DESCRIPTION_H
+#define KOKSMA_RENDER_DESCRIPTION_H
 
 #include <koksma/render.h>
 #include <koksma/warp.h>
@@ -105,7 +105,7 @@ struct koksma_scene {
     koksma__scene_cache *cache;
 };
 
-/* ---- Building one: scene_build.c ------------------------------------------------------------------------------ */
+/* ---- Building one: description.c ------------------------------------------------------------------------------ */
 
 /* The number of a material; -1 if there is none of that name. */
 int koksma__find_material(const koksma_scene *scene, const char *name);
@@ -119,8 +119,5 @@ koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);
 
 /* What follows from the rest: grey, moves and the pixels' part of the hash. */
 void koksma__scene_finish(koksma_scene *scene);
-
-/* What koksma_scene_warning says; without by_paths less what only matters to integrators that follow all paths. */
-bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size);
 
 #endif
