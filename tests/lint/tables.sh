@@ -32,9 +32,9 @@ for table in $(git ls-files 'src/*.def' 'cli/*.def' 'include/*.def'); do
   case $table in
     */materials.def | */uses.def | */status.def) ;;
     */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */adaptive.def | */formats.def | \
-      */commands.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
+      */commands.def | */sections.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
     */kernels.def | */batch.def) ;;
-    */properties.def) ;;
+    */properties.def | */questions.def) ;;
     *) complain "$table: a table that tests/lint/tables.sh doesn't know" ;;
   esac
 done

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the tables of papers have in common in a report: a row begins with its label and the printed numbers, each
+ * with the number of its note, and has ours with the verdict on the printed mean. Behind the table come its notes,
+ * and what its values of z say together: under chance alone their sum over the root of k is normal, and the sum of
+ * their squares is chi-squared with k degrees of freedom.
+ */
+#include "study/report/published_columns.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "stats/quantiles.h"
+
+void koksma__published_begin(koksma__document *d, const koksma__table *t)
+{
+    char id[96];
+    snprintf(id, sizeof id, "table-%.80s", t->id);
+    koksma__doc_section_begin(d, id);
+    koksma__doc_say(d, "Table %s: %s", t->id, t->title);
+    koksma__doc_section_body(d);
+    koksma__doc_table_begin(d, id);
+}
+
+void koksma__published_end(koksma__document *d, const koksma__table *t)
+{
+    koksma__doc_table_end(d);
+    if (t->n_notes) {
+        koksma__doc_list_begin(d, NULL, true);
+        for (size_t i = 0; i < t->n_notes; i++) {
+            koksma__doc_item(d);
+            koksma__doc_say(d, "%s", t->notes[i].reason);
+        }
+        koksma__doc_list_end(d);
+    }
+}
+
+void koksma__published_columns(koksma__document *d, const char *group)
+{
+    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
+    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "published mean", .title = "ave", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "published SD", .title = "SD", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+    koksma__doc_column(
+        d, &(koksma__column){
+               .name = "published max", .title = "max", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+}
+
+void koksma__published_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row)
+{
+    koksma__doc_row(d);
+    koksma__doc_text(d, row->label);
+    koksma__doc_text(d, row->pattern);
+    for (int s = 0; s < 3; s++) {
+        koksma__published_cell(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
+    }
+}
+
+void koksma__published_cell(koksma__document *d, const koksma__printed *printed, size_t note)
+{
+    if (isnan(printed->value)) {
+        koksma__doc_number(d, NAN);
+        return;
+    }
+    koksma__doc_cell(d, &(koksma__cell_data){.value = printed->value,
+                                             .low = NAN,
+                                             .high = NAN,
+                                             .sd = NAN,
+                                             .text = printed->text,
+                                             .note = note,
+                                             .z = NAN,
+                                             .change = NAN});
+}
+
+void koksma__published_mean(koksma__document *d, const koksma__summary *mean, size_t sets, const koksma__verdict *v)
+{
+    koksma__doc_cell(d, &(koksma__cell_data){.value = mean->mean,
+                                             .low = mean->low,
+                                             .high = mean->high,
+                                             .sd = NAN,
+                                             .sets = sets,
+                                             .note = v && v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0,
+                                             .verdict = v ? koksma_study_verdict_name(v->kind) : NULL,
+                                             .z = v ? v->z : (double)NAN,
+                                             .change = v ? v->ratio : (double)NAN});
+}
+
+void koksma__published_verdict(koksma__document *d, const koksma__verdict *v)
+{
+    koksma__published_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
+}
+
+void koksma__published_add_z(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
+{
+    /* sets that are all the same differ by rounding alone */
+    if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
+        sums->count++;
+        sums->sum += v->z;
+        sums->squares += v->z * v->z;
+    }
+}
+
+void koksma__published_say_z(koksma__document *d, const koksma__z_sums *z)
+{
+    if (z->count > 1) {
+        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
+        koksma__doc_paragraph(d,
+                              "The %zu values of z together: their sum over √%zu is %+.1f (by chance between -2 and "
+                              "+2 in 95 %% of tables; beyond, all means are off to one side), and the sum of their "
+                              "squares is %.1f (by chance below %.1f in 95 %%).",
+                              z->count, z->count, z->sum / sqrt(k), z->squares, limit);
+    }
+}
