@@ -235,7 +235,7 @@ koksma_status koksma__combinations_report(koksma__document *d, const char *id, c
             koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
             say_findings(d, c->cases, &f);
             add_table(d, id, c->cases, &f);
-            koksma__doc_section_end(d);
+            koksma__doc_end(d);
         }
     }
     findings_fini(&f);

@@ -48,11 +48,26 @@ static void put_number(koksma__document *d, const char *key, double value)
     koksma__json_write_rounded(&d->json, key, value, digits);
 }
 
+/* Members that are there. */
+static void put_text(koksma__document *d, const char *key, const char *text)
+{
+    if (text) {
+        koksma__json_write_text(&d->json, key, text);
+    }
+}
+
+static void put_flag(koksma__document *d, const char *key, bool flag)
+{
+    if (flag) {
+        koksma__json_write_flag(&d->json, key, flag);
+    }
+}
+
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
 static const char *name_of_style(char style)
 {
-    return style == '`' ? "code" : style == '*' ? "strong" : style == '_' ? "em" : "sup";
+    return style == '`' ? "code" : style == '*' ? "strong" : style == '_' ? "em" : style == '^' ? "sup" : NULL;
 }
 
 static void end_run(koksma__document *d)
@@ -71,7 +86,7 @@ static void add_words(koksma__document *d, const char *text)
     if (*text && !d->in_text) {
         if (d->style) {
             koksma__json_begin_object(&d->json, NULL);
-            koksma__json_write_text(&d->json, "style", name_of_style(d->style));
+            put_text(d, "style", name_of_style(d->style));
         }
         koksma__json_begin_text(&d->json, d->style ? "text" : NULL);
         d->in_text = true;
@@ -83,9 +98,7 @@ static void add_value(koksma__document *d, double value, const char *text)
 {
     end_run(d);
     koksma__json_begin_object(&d->json, NULL);
-    if (d->style) {
-        koksma__json_write_text(&d->json, "style", name_of_style(d->style));
-    }
+    put_text(d, "style", name_of_style(d->style));
     koksma__json_write_text(&d->json, "text", text);
     put_number(d, "value", value);
     koksma__json_end(&d->json);
@@ -103,14 +116,12 @@ typedef struct conversion {
 static const char *read_conversion(const char *at, conversion *c)
 {
     *c = (conversion){.precision = 6};
-    for (; *at == '+'; at++) {
-        c->sign = true;
-    }
+    c->sign = *at == '+';
+    at += c->sign;
     if (*at == '.') {
-        c->precision = 0;
-        for (at++; *at >= '0' && *at <= '9'; at++) {
-            c->precision = 10 * c->precision + (*at - '0');
-        }
+        char *end;
+        c->precision = (int)strtol(at + 1, &end, 10);
+        at = end;
     }
     for (; *at == 'l' || *at == 'z'; at++) {
         c->longs += *at == 'l';
@@ -201,9 +212,7 @@ static void begin_block(koksma__document *d, const char *kind, const char *id)
     koksma__json_break(&d->json);
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "kind", kind);
-    if (id) {
-        koksma__json_write_text(&d->json, "id", id);
-    }
+    put_text(d, "id", id);
 }
 
 static void end_words(koksma__document *d)
@@ -213,16 +222,10 @@ static void end_words(koksma__document *d)
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_section_begin(koksma__document *d, const char *id)
+void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed)
 {
     begin_block(d, "section", id);
-    koksma__json_begin_array(&d->json, "heading");
-}
-
-void koksma__doc_collapsed_begin(koksma__document *d)
-{
-    begin_block(d, "section", NULL);
-    koksma__json_write_flag(&d->json, "collapsed", true);
+    put_flag(d, "collapsed", collapsed);
     koksma__json_begin_array(&d->json, "heading");
 }
 
@@ -232,7 +235,7 @@ void koksma__doc_section_body(koksma__document *d)
     koksma__json_begin_array(&d->json, "content");
 }
 
-void koksma__doc_section_end(koksma__document *d)
+void koksma__doc_end(koksma__document *d)
 {
     koksma__json_end(&d->json);
     koksma__json_end(&d->json);
@@ -240,7 +243,7 @@ void koksma__doc_section_end(koksma__document *d)
 
 void koksma__doc_section(koksma__document *d, const char *id, const char *heading)
 {
-    koksma__doc_section_begin(d, id);
+    koksma__doc_section_begin(d, id, false);
     koksma__doc_say(d, "%s", heading);
     koksma__doc_section_body(d);
 }
@@ -313,21 +316,13 @@ void koksma__doc_column(koksma__document *d, const koksma__column *c)
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "name", c->name);
     koksma__json_write_text(&d->json, "type", types[c->type]);
-    if (c->title) {
-        koksma__json_write_text(&d->json, "title", c->title);
-    }
-    if (c->group) {
-        koksma__json_write_text(&d->json, "group", c->group);
-    }
+    put_text(d, "title", c->title);
+    put_text(d, "group", c->group);
     if (c->digits) {
         put_number(d, c->fixed ? "decimals" : "digits", c->digits);
     }
-    if (c->hidden) {
-        koksma__json_write_flag(&d->json, "hidden", true);
-    }
-    if (c->merged) {
-        koksma__json_write_flag(&d->json, "merged", true);
-    }
+    put_flag(d, "hidden", c->hidden);
+    put_flag(d, "merged", c->merged);
     koksma__json_end(&d->json);
 }
 
@@ -375,31 +370,32 @@ void koksma__doc_interval(koksma__document *d, koksma__estimate e)
     koksma__json_end(&d->json);
 }
 
+koksma__cell_data koksma__cell_of(double value)
+{
+    return (koksma__cell_data){.value = value, .low = NAN, .high = NAN, .sd = NAN, .z = NAN, .change = NAN};
+}
+
+/* A member that is known. */
+static void put_known(koksma__document *d, const char *key, double value)
+{
+    if (!isnan(value)) {
+        put_number(d, key, value);
+    }
+}
+
 void koksma__doc_cell(koksma__document *d, const koksma__cell_data *c)
 {
-    const struct {
-        const char *key;
-        double value;
-    } numbers[] = {{"value", c->value},
-                   {"low", c->low},
-                   {"high", c->high},
-                   {"sd", c->sd},
-                   {"z", c->z},
-                   {"change", c->change},
-                   {"sets", c->sets ? (double)c->sets : (double)NAN},
-                   {"note", c->note ? (double)c->note : (double)NAN}};
     koksma__json_begin_object(&d->json, NULL);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        if (!isnan(numbers[i].value)) {
-            put_number(d, numbers[i].key, numbers[i].value);
-        }
-    }
-    if (c->text) {
-        koksma__json_write_text(&d->json, "text", c->text);
-    }
-    if (c->verdict) {
-        koksma__json_write_text(&d->json, "verdict", c->verdict);
-    }
+    put_known(d, "value", c->value);
+    put_known(d, "low", c->low);
+    put_known(d, "high", c->high);
+    put_known(d, "sd", c->sd);
+    put_known(d, "z", c->z);
+    put_known(d, "change", c->change);
+    put_known(d, "sets", c->sets ? (double)c->sets : (double)NAN);
+    put_known(d, "note", c->note ? (double)c->note : (double)NAN);
+    put_text(d, "text", c->text);
+    put_text(d, "verdict", c->verdict);
     koksma__json_end(&d->json);
 }
 
@@ -458,18 +454,6 @@ void koksma__doc_point(koksma__document *d, double x, double y, double low, doub
     koksma__json_end(&d->json);
 }
 
-void koksma__doc_series_end(koksma__document *d)
-{
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
-}
-
-void koksma__doc_chart_end(koksma__document *d)
-{
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
-}
-
 /* ---- Figures and pictures ---------------------------------------------------------------------------------- */
 
 void koksma__doc_figure_begin(koksma__document *d, const char *id)
@@ -478,21 +462,26 @@ void koksma__doc_figure_begin(koksma__document *d, const char *id)
     koksma__json_begin_array(&d->json, "images");
 }
 
-static void put_image(koksma__document *d, const char *type, const unsigned char *bytes, size_t size, int width,
-                      int height, const char *alt)
+/* The members that images and drawings have in common. */
+static void begin_image(koksma__document *d, const char *type, int width, int height, const char *alt)
 {
     koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "type", type);
+    put_text(d, "type", type);
     put_number(d, "width", width);
     put_number(d, "height", height);
-    koksma__json_write_text(&d->json, "alt", alt);
+    put_text(d, "alt", alt);
+}
+
+static void put_image(koksma__document *d, const unsigned char *bytes, size_t size)
+{
     koksma__json_write_bytes(&d->json, "data", bytes, size);
     koksma__json_end(&d->json);
 }
 
 void koksma__doc_svg(koksma__document *d, const unsigned char *svg, size_t size, int width, const char *alt)
 {
-    put_image(d, "image/svg+xml", svg, size, width, width, alt);
+    begin_image(d, "image/svg+xml", width, width, alt);
+    put_image(d, svg, size);
 }
 
 koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, int scale, const char *alt)
@@ -501,7 +490,8 @@ koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, 
     size_t size;
     const koksma_status status = koksma_image_png_bytes(image, &bytes, &size);
     if (!status) {
-        put_image(d, "image/png", bytes, size, image->width * scale, image->height * scale, alt);
+        begin_image(d, "image/png", image->width * scale, image->height * scale, alt);
+        put_image(d, bytes, size);
         free(bytes);
     }
     return status;
@@ -518,11 +508,7 @@ static void put_numbers(koksma__document *d, const char *key, const double *valu
 
 void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt)
 {
-    koksma__json_begin_object(&d->json, NULL);
-    koksma__json_write_text(&d->json, "type", "drawing");
-    put_number(d, "width", width);
-    put_number(d, "height", width);
-    koksma__json_write_text(&d->json, "alt", alt);
+    begin_image(d, "drawing", width, width, alt);
     put_numbers(d, "view", view, 4);
     koksma__json_begin_array(&d->json, "shapes");
 }
@@ -535,12 +521,6 @@ void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, doub
 void koksma__doc_dot(koksma__document *d, double x, double y)
 {
     put_numbers(d, NULL, (const double[]){x, y}, 2);
-}
-
-void koksma__doc_drawing_end(koksma__document *d)
-{
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
 }
 
 void koksma__doc_caption(koksma__document *d)
@@ -584,10 +564,4 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
     koksma__json_write_bytes(&d->json, "pixels", bytes, bytes ? 4 * n : 0);
     koksma__json_end(&d->json);
     free(bytes);
-}
-
-void koksma__doc_pictures_end(koksma__document *d)
-{
-    koksma__json_end(&d->json);
-    koksma__json_end(&d->json);
 }

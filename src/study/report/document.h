@@ -33,13 +33,13 @@ bool koksma__doc_is_empty(const koksma__document *d);
    precision and '+'; each number comes out as a value beside its text. */
 void koksma__doc_say(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* A section with a heading; sections nest. id NULL: none; ids may repeat, the page tells them apart. Words of the
-   heading: koksma__doc_say until koksma__doc_section_body. */
-void koksma__doc_section_begin(koksma__document *d, const char *id);
-/* The same, which the page shows when it is opened by its heading. */
-void koksma__doc_collapsed_begin(koksma__document *d);
+/* Ends the innermost section, series, chart, drawing or pictures. */
+void koksma__doc_end(koksma__document *d);
+
+/* A section with a heading; sections nest. id NULL: none; ids may repeat, the page tells them apart. collapsed: shown
+   when its heading is clicked. Words of the heading: koksma__doc_say until koksma__doc_section_body. */
+void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed);
 void koksma__doc_section_body(koksma__document *d);
-void koksma__doc_section_end(koksma__document *d);
 
 /* A section with this heading, up to its body. */
 void koksma__doc_section(koksma__document *d, const char *id, const char *heading);
@@ -75,7 +75,7 @@ typedef struct koksma__column {
     bool merged; /* cells of neighbouring rows with equal texts are one on the page */
 } koksma__column;
 
-/* A cell with more than a value: what applies is set, the rest NAN, 0 or NULL. */
+/* A cell with more than a value: what applies is set, the rest NAN, 0 or NULL as koksma__cell_of leaves it. */
 typedef struct koksma__cell_data {
     double value, low, high, sd;
     size_t sets;         /* behind the value, where rows differ in it */
@@ -84,6 +84,8 @@ typedef struct koksma__cell_data {
     const char *verdict; /* koksma_study_verdict_name */
     double z, change;    /* of the verdict */
 } koksma__cell_data;
+
+koksma__cell_data koksma__cell_of(double value);
 
 /* Columns come first, then rows; name is the CSV file's without its ending. Rows may end early. */
 void koksma__doc_table_begin(koksma__document *d, const char *name);
@@ -119,8 +121,6 @@ void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *chart);
 void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style);
 /* low, high: the bar of y; NAN: none. */
 void koksma__doc_point(koksma__document *d, double x, double y, double low, double high);
-void koksma__doc_series_end(koksma__document *d);
-void koksma__doc_chart_end(koksma__document *d);
 
 /* ---- Figures and pictures ---------------------------------------------------------------------------------- */
 
@@ -135,7 +135,6 @@ koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, 
 void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt);
 void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, double y1);
 void koksma__doc_dot(koksma__document *d, double x, double y);
-void koksma__doc_drawing_end(koksma__document *d);
 void koksma__doc_caption(koksma__document *d);
 void koksma__doc_figure_end(koksma__document *d);
 
@@ -143,6 +142,5 @@ void koksma__doc_figure_end(koksma__document *d);
    page shows them with their errors and compares any two. */
 void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height);
 void koksma__doc_picture(koksma__document *d, const koksma_image *image, const char *name);
-void koksma__doc_pictures_end(koksma__document *d);
 
 #endif

@@ -16,7 +16,7 @@ void koksma__published_begin(koksma__document *d, const koksma__table *t)
 {
     char id[96];
     snprintf(id, sizeof id, "table-%.80s", t->id);
-    koksma__doc_section_begin(d, id);
+    koksma__doc_section_begin(d, id, false);
     koksma__doc_say(d, "Table %s: %s", t->id, t->title);
     koksma__doc_section_body(d);
     koksma__doc_table_begin(d, id);
@@ -37,17 +37,13 @@ void koksma__published_end(koksma__document *d, const koksma__table *t)
 
 void koksma__published_columns(koksma__document *d, const char *group)
 {
+    static const char *const names[3][2] = {
+        {"published mean", "ave"}, {"published SD", "SD"}, {"published max", "max"}};
     koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
     koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = "published mean", .title = "ave", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = "published SD", .title = "SD", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = "published max", .title = "max", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4});
+    for (int i = 0; i < 3; i++) {
+        koksma__doc_column(d, &(koksma__column){names[i][0], names[i][1], group, KOKSMA__COLUMN_NUMBER, .digits = 4});
+    }
 }
 
 void koksma__published_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row)
@@ -66,27 +62,25 @@ void koksma__published_cell(koksma__document *d, const koksma__printed *printed,
         koksma__doc_number(d, NAN);
         return;
     }
-    koksma__doc_cell(d, &(koksma__cell_data){.value = printed->value,
-                                             .low = NAN,
-                                             .high = NAN,
-                                             .sd = NAN,
-                                             .text = printed->text,
-                                             .note = note,
-                                             .z = NAN,
-                                             .change = NAN});
+    koksma__cell_data cell = koksma__cell_of(printed->value);
+    cell.text = printed->text;
+    cell.note = note;
+    koksma__doc_cell(d, &cell);
 }
 
 void koksma__published_mean(koksma__document *d, const koksma__summary *mean, size_t sets, const koksma__verdict *v)
 {
-    koksma__doc_cell(d, &(koksma__cell_data){.value = mean->mean,
-                                             .low = mean->low,
-                                             .high = mean->high,
-                                             .sd = NAN,
-                                             .sets = sets,
-                                             .note = v && v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0,
-                                             .verdict = v ? koksma_study_verdict_name(v->kind) : NULL,
-                                             .z = v ? v->z : (double)NAN,
-                                             .change = v ? v->ratio : (double)NAN});
+    koksma__cell_data cell = koksma__cell_of(mean->mean);
+    cell.low = mean->low;
+    cell.high = mean->high;
+    cell.sets = sets;
+    if (v) {
+        cell.note = v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0;
+        cell.verdict = koksma_study_verdict_name(v->kind);
+        cell.z = v->z;
+        cell.change = v->ratio;
+    }
+    koksma__doc_cell(d, &cell);
 }
 
 void koksma__published_verdict(koksma__document *d, const koksma__verdict *v)

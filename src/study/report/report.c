@@ -40,7 +40,7 @@ static koksma_status add_sections(const koksma__report_scope *scope, bool of_eac
         if (!koksma__doc_is_empty(&content)) {
             koksma__doc_section(d, sections[i].name, s->heading);
             koksma__doc_append(d, &content);
-            koksma__doc_section_end(d);
+            koksma__doc_end(d);
         }
     }
     return status;
@@ -58,7 +58,7 @@ static koksma_status add_plan(const koksma__report_scope *scope, koksma__documen
         koksma__doc_paragraph(d, "%s", plan->about);
     }
     const koksma_status status = add_sections(scope, true, d);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     return status;
 }
 

@@ -80,7 +80,7 @@ static koksma_status add_table(koksma__document *d, const koksma__rho_means *s, 
         status = add_row(d, s, &parts[i]);
     }
     koksma__doc_table_end(d);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     return status;
 }
 

@@ -128,9 +128,9 @@ static koksma_status add_scatter(const koksma__cases *cases, void *context, cons
     for (size_t i = 0; i < found.n; i++) {
         koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
         koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
-        koksma__doc_series_end(d);
+        koksma__doc_end(d);
     }
-    koksma__doc_chart_end(d);
+    koksma__doc_end(d);
     to->left--;
     return KOKSMA_OK;
 }
@@ -151,11 +151,11 @@ static koksma_status report(koksma__document *d, const koksma__cases *cases, con
     koksma__rho_jackknife_fini(&jackknife);
     status = koksma__rho_breakdowns(d, topic, l->means);
     status = status ? status : koksma__combinations_report(d, topic->id, l->combinations);
-    koksma__doc_collapsed_begin(d);
+    koksma__doc_section_begin(d, NULL, true);
     koksma__doc_say(d, "Every case, with intervals");
     koksma__doc_section_body(d);
     koksma__doc_append(d, l->list);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     plots to = {d, l->means->of[0].measure, 6};
     return status ? status : koksma__cases_visit(cases, add_scatter, &to);
 }

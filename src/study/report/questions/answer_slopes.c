@@ -122,7 +122,7 @@ static void draw_curve(koksma__document *chart, const curve *c, const char *labe
     for (size_t i = 0; i < c->n; i++) {
         koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
     }
-    koksma__doc_series_end(chart);
+    koksma__doc_end(chart);
 }
 
 static koksma__slope_sense sense_of(const subject *s)
@@ -181,7 +181,7 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     for (size_t i = 0; i < bound->n; i++) {
         koksma__doc_point(chart, bound->x[i], bound->y[i].mean * scale, NAN, NAN);
     }
-    koksma__doc_series_end(chart);
+    koksma__doc_end(chart);
     snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
     koksma__doc_row(d);
     koksma__doc_text(d, text);
@@ -241,7 +241,7 @@ static koksma_status add_subject(koksma_study *study, koksma__document *d, const
         add_heads(&rows, s);
         status = add_rows(study, &rows, s, &chart, trends, zeros);
         koksma__doc_table_end(&rows);
-        koksma__doc_chart_end(&chart);
+        koksma__doc_end(&chart);
         const koksma__slopes slopes = {
             name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s)};
         if (!status) {

@@ -106,7 +106,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
         add_heads(d, c);
         status = status ? status : add_rows(study, d, c, patterns, by);
         koksma__doc_table_end(d);
-        koksma__doc_section_end(d);
+        koksma__doc_end(d);
     }
     free(means);
     free(by);

@@ -233,7 +233,7 @@ static void add_lines(koksma__document *d, const koksma__figure *f)
             koksma__doc_dot(d, -a / b, c / b);
         }
     }
-    koksma__doc_drawing_end(d);
+    koksma__doc_end(d);
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */

@@ -37,24 +37,18 @@ static bool is_shown(const koksma__report_scope *scope)
 /* Mean, SD and maximum against a reference. */
 static void add_cell_columns(koksma__document *d, const char *of, const char *group)
 {
-    char name[KOKSMA_MAX_SPEC + 64];
-    snprintf(name, sizeof name, "%s, mean", of);
-    koksma__doc_column(d, &(koksma__column){.name = name,
-                                            .title = "mean 95 %",
-                                            .group = group,
-                                            .type = KOKSMA__COLUMN_INTERVAL,
-                                            .digits = 5,
-                                            .fixed = true});
-    snprintf(name, sizeof name, "%s, SD", of);
-    koksma__doc_column(
-        d,
-        &(koksma__column){
-            .name = name, .title = "SD", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 4, .fixed = true});
-    snprintf(name, sizeof name, "%s, max", of);
-    koksma__doc_column(
-        d,
-        &(koksma__column){
-            .name = name, .title = "max", .group = group, .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .fixed = true});
+    static const koksma__column columns[] = {{"mean", "mean 95 %", .type = KOKSMA__COLUMN_INTERVAL, .digits = 5},
+                                             {"SD", "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 4},
+                                             {"max", "max", .type = KOKSMA__COLUMN_NUMBER, .digits = 3}};
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
+        char name[KOKSMA_MAX_SPEC + 64];
+        koksma__column column = columns[i];
+        snprintf(name, sizeof name, "%s, %s", of, column.name);
+        column.name = name;
+        column.group = group;
+        column.fixed = true;
+        koksma__doc_column(d, &column);
+    }
 }
 
 static void add_columns(koksma__document *d, const koksma__image_block *block)
@@ -192,7 +186,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
         }
         koksma__published_end(d, t);
         status = status ? status : add_reference_remark(study, d, t, &means);
-        koksma__doc_section_end(d);
+        koksma__doc_end(d);
     }
     free(numbers);
     free(positions);

@@ -63,7 +63,7 @@ static koksma_status add_spectrum(koksma__document *d, const koksma__task *t, co
     for (size_t r = 0; r < spectrum.n; r++) {
         koksma__doc_point(d, ((double)r + 0.5) / (2 * (double)spectrum.n), spectrum.power[r], NAN, NAN);
     }
-    koksma__doc_series_end(d);
+    koksma__doc_end(d);
     return status;
 }
 
@@ -118,7 +118,7 @@ static koksma_status add_spectra(koksma__document *d, const koksma__task *first,
         task.pattern = patterns->at[p];
         status = add_spectrum(d, &task, reference, run, &values[p]);
     }
-    koksma__doc_chart_end(d);
+    koksma__doc_end(d);
     if (!status) {
         add_coherence(d, first, values, n);
     }
@@ -164,7 +164,7 @@ static koksma_status add_pictures(koksma__document *d, const koksma__task *first
             koksma_image_fini(&image);
         }
     }
-    koksma__doc_pictures_end(d);
+    koksma__doc_end(d);
     return status;
 }
 
@@ -191,7 +191,7 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     }
     char name[512];
     koksma__case_name(first->scene->name, first->variant, name, sizeof name);
-    koksma__doc_section_begin(d, NULL);
+    koksma__doc_section_begin(d, NULL, false);
     koksma__doc_say(d, "%s, %lld samples a pixel, %d x %d pixels", name, first->n, first->width, first->height);
     koksma__doc_section_body(d);
     status = add_pictures(d, first, shown, &reference->image, scope->run, used);
@@ -200,7 +200,7 @@ static koksma_status add_scene(const koksma__report_scope *scope, koksma__docume
     }
     status = status ? status : are_done(study, first, shown, trials, &done);
     status = status || !done ? status : add_spectra(d, first, &reference->image, scope->run);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     return status;
 }
 

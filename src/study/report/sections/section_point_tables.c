@@ -31,34 +31,19 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables of one number of points ------------------------------------------------------------------------ */
 
-static void add_mean_column(koksma__document *d, const char *measure, const char *title, const char *group)
-{
-    char name[KOKSMA_MAX_SPEC + 64];
-    snprintf(name, sizeof name, "%s, mean", measure);
-    koksma__doc_column(
-        d, &(koksma__column){
-               .name = name, .title = title, .group = group, .type = KOKSMA__COLUMN_INTERVAL, .digits = 4});
-}
-
-/* SD and largest of 100; hidden: of the measure beside it. */
-static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool hidden)
+/* Mean, SD and largest of 100; beside: of the second measure, whose mean alone is on the page. */
+static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
     char name[KOKSMA_MAX_SPEC + 64], largest[64];
+    snprintf(name, sizeof name, "%s, mean", measure);
+    koksma__doc_column(
+        d, &(koksma__column){name, beside ? measure : "mean 95 %", group, KOKSMA__COLUMN_INTERVAL, .digits = 4});
     snprintf(name, sizeof name, "%s, SD", measure);
-    koksma__doc_column(d, &(koksma__column){.name = name,
-                                            .title = "SD",
-                                            .group = group,
-                                            .type = KOKSMA__COLUMN_NUMBER,
-                                            .digits = 3,
-                                            .hidden = hidden});
+    koksma__doc_column(d, &(koksma__column){name, "SD", group, KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = beside});
     snprintf(name, sizeof name, "%s, max", measure);
     snprintf(largest, sizeof largest, "largest of %zu", sets < 100 ? sets : (size_t)100);
-    koksma__doc_column(d, &(koksma__column){.name = name,
-                                            .title = largest,
-                                            .group = group,
-                                            .type = KOKSMA__COLUMN_SPREAD,
-                                            .digits = 3,
-                                            .hidden = hidden});
+    koksma__doc_column(d,
+                       &(koksma__column){name, largest, group, KOKSMA__COLUMN_SPREAD, .digits = 3, .hidden = beside});
 }
 
 static void add_columns(koksma__document *d, const koksma__table *t, size_t sets, bool differ)
@@ -66,13 +51,11 @@ static void add_columns(koksma__document *d, const koksma__table *t, size_t sets
     char group[KOKSMA_MAX_SPEC + 64];
     snprintf(group, sizeof group, "%s, %s%zu sets", t->measure, differ ? "up to " : "", sets);
     koksma__published_columns(d, "published (100 sets)");
-    add_mean_column(d, t->measure, "mean 95 %", group);
     add_cell_columns(d, t->measure, group, sets, false);
     koksma__doc_column(d,
                        &(koksma__column){.name = "verdict", .title = "mean agrees", .type = KOKSMA__COLUMN_VERDICT});
     if (t->also) {
-        add_mean_column(d, t->also, t->also, "beside it");
-        add_cell_columns(d, t->also, NULL, sets, true);
+        add_cell_columns(d, t->also, "beside it", sets, true);
     }
 }
 
@@ -123,7 +106,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const k
     }
     koksma__published_end(d, t);
     koksma__published_say_z(d, &together);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     return status;
 }
 
@@ -204,7 +187,7 @@ static koksma_status add_our_line(sizes_table *s, const koksma__table_row *row, 
         }
     }
     if (own) {
-        koksma__doc_series_end(&s->chart);
+        koksma__doc_end(&s->chart);
     }
     koksma__doc_interval(s->document, koksma__trend_of(x, means, known).slope);
     return KOKSMA_OK;
@@ -218,7 +201,7 @@ static void add_printed_marks(sizes_table *s, const koksma__table_row *row)
         for (size_t i = 0; i < s->table->n.n; i++) {
             koksma__doc_point(&s->chart, (double)s->table->n.at[i], row->published[i].value, NAN, NAN);
         }
-        koksma__doc_series_end(&s->chart);
+        koksma__doc_end(&s->chart);
     }
 }
 
@@ -261,9 +244,9 @@ static koksma_status add_sizes_table(koksma_study *study, koksma__document *d, c
             "of our means by least squares; theory is the exponent that is known for the pattern.",
             differ ? "up to " : "", sets);
     }
-    koksma__doc_chart_end(&s.chart);
+    koksma__doc_end(&s.chart);
     koksma__doc_append(d, &s.chart);
-    koksma__doc_section_end(d);
+    koksma__doc_end(d);
     return status;
 }
 

@@ -80,7 +80,7 @@ static koksma_status answer_question(koksma_study *study, koksma__document *d, c
         topic.groups = q->groups;
         topic.n_groups = q->n_groups;
         snprintf(id, sizeof id, "question-%.110s", q->id);
-        koksma__doc_section_begin(d, id);
+        koksma__doc_section_begin(d, id, false);
         koksma__doc_say(d, "(%s) %s", q->id, q->title);
         koksma__doc_section_body(d);
         status = answers[q->kind - koksma__question_kinds](study, &content, &topic);
@@ -88,7 +88,7 @@ static koksma_status answer_question(koksma_study *study, koksma__document *d, c
             koksma__doc_paragraph(d, "No answer: it takes %s.", q->kind->rows);
         }
         koksma__doc_append(d, &content);
-        koksma__doc_section_end(d);
+        koksma__doc_end(d);
     }
     topic_fini(&topic);
     return status;
@@ -117,7 +117,7 @@ static koksma_status answer_all(koksma_study *study, koksma__document *d, size_t
         if (!koksma__doc_is_empty(&content)) {
             koksma__doc_section(d, NULL, kind->heading);
             koksma__doc_append(d, &content);
-            koksma__doc_section_end(d);
+            koksma__doc_end(d);
         }
     }
     topic_fini(&topic);
@@ -136,13 +136,13 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
             continue;
         }
         if (plan->n_parts > 1) {
-            koksma__doc_section_begin(d, NULL);
+            koksma__doc_section_begin(d, NULL, false);
             koksma__doc_say(d, "Results: %s", plan->parts[i].title);
             koksma__doc_section_body(d);
         }
         status = answer_all(scope->study, d, i);
         if (plan->n_parts > 1) {
-            koksma__doc_section_end(d);
+            koksma__doc_end(d);
         }
     }
     return status;
