@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/report/rho_words.h"
+#include "study/report/rho_breakdowns.h"
 
 /* A part of the cases: one table has many. */
 typedef struct part {

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "study/plan/variants.h"
+
 static double mean_of(const koksma__rho_sums *of)
 {
     return of->total / (double)of->all;

@@ -143,7 +143,11 @@ def run_study(name, plan):
     held = re.search(r'<script type="application/json" id="data">\n(.*?)</script>', page, re.S)
     if not held or held[1].strip() != text.strip():
         complain(f"{name}: the page does not hold report.json")
-    report = json.loads(text)
+    try:
+        report = json.loads(text)
+    except ValueError as error:
+        complain(f"{name}: report.json is no JSON: {error}")
+        return None
     check_schema(name, report)
     check_tables(name, report)
     check_numbers(name, report)

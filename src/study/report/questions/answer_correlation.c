@@ -16,6 +16,7 @@
 #include "study/report/cases.h"
 #include "study/report/combinations.h"
 #include "study/report/means.h"
+#include "study/report/rho_breakdowns.h"
 #include "study/report/rho_words.h"
 
 typedef struct listing {
