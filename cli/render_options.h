@@ -22,8 +22,9 @@
          "lights that get a shadow ray: all, or one by estimate (one), by power or uniformly (default: all)"},       \
         CLI_INTEGRATOR_OPTION, {0, "depth", "D", "the most bounces (default: the integrator's)"}, CLI_FILTER_OPTION, \
     {                                                                                                                \
-        0, "splat", NULL, "add samples to all pixels that the filter reaches, instead of drawing from it: less error"
-}
+        0, "splat", NULL,                                                                                            \
+            "add samples to all pixels that the filter reaches, instead of drawing from it: less error"              \
+    }
 
 /* Values of --integrator and --filter; *integrator and *filter are the defaults. False after an error that names one.
  */

@@ -1,64 +1,150 @@
 // SPDX-License-Identifier: Apache-2.0
-// A chart of lines, axes linear or logarithmic.
+// The charts of the explorer and of a study's report (src/study/report/page): series of lines and marks with bars on axes
+// that are linear or logarithmic each. An axis spans its values with a margin; ticks are at 1, 2 or 5 times powers of ten,
+// at least three of them. Colours are the page's: a series is <g class="series CLASS"> with .line, .bar and .dots.
 import { svg, short } from "./dom.mjs";
 
-const height = 300, left = 64, right = 14, top = 14, bottom = 42;
+const left = 64, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560, shapes = 3;
 
 // As wide as the place that it is for, so that its letters have their size.
 const widthOf = place => Math.min(Math.max(place.clientWidth, 280), 736);
 
-// Round places in [low, high] for marks: 1, 2, 5 times a power of ten, or those powers alone.
-function marks(low, high, log) {
-  const found = [];
-  if (log) {
-    const decades = Math.log10(high / low), factors = decades < 1.5 ? [1, 2, 5] : decades < 4 ? [1, 3] : [1];
-    for (let e = Math.floor(Math.log10(low)); e <= Math.ceil(Math.log10(high)); e++) {
-      for (const f of factors) if (f * 10 ** e >= low * 0.999 && f * 10 ** e <= high * 1.001) found.push(+(f * 10 ** e).toPrecision(1));
-    }
-    return found;
+// low and high are of the values, or of their logarithms to base 10; from and to in the picture.
+function axisOf(values, { log, zero }, from, to) {
+  const usable = values.filter(v => Number.isFinite(v) && (!log || v > 0)).map(v => log ? Math.log10(v) : v);
+  let low = Math.min(...usable, zero ? 0 : Infinity), high = Math.max(...usable);
+  if (!(high > low)) [low, high] = Number.isFinite(low) ? [low - 0.5, low + 0.5] : [-0.5, 0.5];
+  return { log, zero, low, high, from, to };
+}
+
+const fits = (axis, v) => Number.isFinite(v) && (!axis.log || v > 0);
+const position = (axis, v) =>
+  axis.from + (axis.to - axis.from) * ((axis.log ? Math.log10(v) : v) - axis.low) / (axis.high - axis.low);
+
+// What bars take beyond the values: no more than these span themselves, at least a third of a decade or of the value.
+function widenForBars(axis, bars) {
+  const room = Math.max(axis.high - axis.low, axis.log ? 0.33 : 0.33 * Math.abs(axis.high));
+  for (const v of bars) {
+    if (!fits(axis, v)) continue;
+    const at = axis.log ? Math.log10(v) : v;
+    axis.barLow = Math.min(axis.barLow ?? axis.low, at);
+    axis.barHigh = Math.max(axis.barHigh ?? axis.high, at);
   }
-  const rough = (high - low) / 5, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map(f => f * power).find(s => s >= rough);
-  for (let i = Math.ceil(low / step); i * step <= high * (1 + 1e-9); i++) found.push(+(i * step).toPrecision(12));
+  axis.low = Math.max(axis.barLow ?? axis.low, axis.low - room);
+  axis.high = Math.min(axis.barHigh ?? axis.high, axis.high + room);
+}
+
+function addMargin(axis) {
+  const margin = 0.05 * (axis.high - axis.low);
+  if (!axis.zero || axis.low < 0) axis.low -= margin;
+  axis.high += margin;
+}
+
+// 1, 2 or 5 times a power of ten apart.
+function evenTicks(low, high) {
+  const raw = (high - low) / 5, power = 10 ** Math.floor(Math.log10(raw));
+  const step = (raw / power < 1.5 ? 1 : raw / power < 3.5 ? 2 : 5) * power, found = [];
+  for (let i = Math.ceil(low / step); i * step <= high; i++) found.push(+(i * step).toPrecision(12));
   return found;
 }
 
-// Draws into a place of the page. curves: [{ className, points: [[x, y], ..], dots, guide }]; guides do not count for the range.
-export function chart(place, { title, xLabel, yLabel, log, curves, level }) {
-  const width = widthOf(place);
-  const usable = ([x, y]) => Number.isFinite(x) && Number.isFinite(y) && (!log || (x > 0 && y > 0));
-  const counted = curves.filter(c => !c.guide).flatMap(c => c.points.filter(usable));
-  const node = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title });
-  place.replaceChildren(node);
-  if (counted.length < 2) return;
-  const range = k => [Math.min(...counted.map(p => p[k])), Math.max(...counted.map(p => p[k]))];
-  let [x0, x1] = range(0), [y0, y1] = range(1);
-  if (log) [y0, y1] = [y0 / 1.3, y1 * 1.3];
-  else [y0, y1] = [Math.min(0, y0), Math.max(y1 * 1.05, level || 0)];
-  if (x1 <= x0) x1 = x0 + 1;
-  const scale = (v, a, b) => log ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a);
-  const toX = x => +(left + scale(x, x0, x1) * (width - left - right)).toFixed(2);
-  const toY = y => +(height - bottom - scale(y, y0, y1) * (height - top - bottom)).toFixed(2);
-  for (const x of marks(x0, x1, log)) {
-    node.append(svg("path", { class: "tick", d: `M${toX(x)},${top}V${height - bottom}` }),
-      svg("text", { x: toX(x), y: height - bottom + 17, "text-anchor": "middle" }, short(x)));
-  }
-  for (const y of marks(y0, y1, log)) {
-    node.append(svg("path", { class: "tick", d: `M${left},${toY(y)}H${width - right}` }),
-      svg("text", { x: left - 7, y: toY(y) + 4, "text-anchor": "end" }, short(y)));
-  }
-  if (level !== undefined) node.append(svg("path", { class: "guide", d: `M${left},${toY(level)}H${width - right}` }));
-  node.append(svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle" }, xLabel),
-    svg("text", { x: 14, y: (top + height - bottom) / 2, "text-anchor": "middle",
-      transform: `rotate(-90 14 ${(top + height - bottom) / 2})` }, yLabel));
-  const area = { x: left - 5, y: top - 5, width: width - left - right + 10, height: height - top - bottom + 10 };
-  const inside = svg("svg", { ...area, viewBox: `${area.x} ${area.y} ${area.width} ${area.height}` }); // cuts guides off
-  for (const curve of curves) {
-    const places = curve.points.filter(usable).map(([x, y]) => [toX(x), toY(y)]);
-    inside.append(svg("path", { class: curve.className, d: places.map(([x, y], i) => `${i ? "L" : "M"}${x},${y}`).join("") }));
-    if (curve.dots) {
-      inside.append(svg("path", { class: `${curve.className} dots`, d: places.map(([x, y]) => `M${x},${y}h0`).join("") }));
+// Decades with 2 and 5 where they fit. Of less than a decade those would be too few.
+function ticks(axis) {
+  const decades = axis.high - axis.low, found = [];
+  if (!axis.log) return evenTicks(axis.low, axis.high);
+  if (decades < 0.9) return evenTicks(10 ** axis.low, 10 ** axis.high);
+  for (let e = Math.floor(axis.low); e <= Math.ceil(axis.high); e++) {
+    for (const f of decades < 2.5 ? [1, 2, 5] : [1]) {
+      const value = +(f * 10 ** e).toPrecision(1), at = Math.log10(value);
+      if (at >= axis.low && at <= axis.high && (decades < 8 || e % 2 === 0)) found.push(value);
     }
   }
+  return found;
+}
+
+const round = v => +v.toFixed(2);
+
+// A dot, a square or a triangle in turn: with as many colours no two of 24 series look alike, and without colours
+// neighbours don't.
+function shape(index, x, y, large) {
+  const r = large ? 5 : 3, wide = r * 4 / 3;
+  if (index % shapes === 0) return svg("circle", { cx: round(x), cy: round(y), r });
+  if (index % shapes === 1) return svg("rect", { x: round(x - r), y: round(y - r), width: 2 * r, height: 2 * r });
+  return svg("polygon", { points: [[x - wide, y + r], [x + wide, y + r], [x, y - wide]].map(p => p.map(round).join()).join(" ") });
+}
+
+// A bar from the value to its end. One that goes on beyond the axis, as to 0 on a logarithmic one, ends in an arrowhead.
+function barEnd(axis, x, value, up) {
+  const at = fits(axis, value) ? position(axis, value) : up ? -Infinity : Infinity;
+  if (at <= axis.from && at >= axis.to) return `V${round(at)}`;
+  const end = at > axis.from ? axis.from : axis.to, back = at > axis.from ? -4 : 4;
+  return `V${end}M${x} ${end}l3 ${back}M${x} ${end}l-3 ${back}M${x} ${end}`;
+}
+
+function drawSeries(series, xs, ys) {
+  const group = svg("g", { class: `series ${series.className}` });
+  const shown = series.points.filter(([x, y]) => fits(xs, x) && fits(ys, y));
+  const at = shown.map(([x, y]) => [round(position(xs, x)), round(position(ys, y))]);
+  if (series.line && at.length) group.append(svg("path", { class: "line", d: at.map(([x, y], i) => `${i ? "L" : "M"}${x},${y}`).join("") }));
+  shown.forEach(([, , low, high], i) => {
+    const [x, y] = at[i];
+    if (low < high) group.append(svg("path", { class: "bar", d: `M${x} ${y}${barEnd(ys, x, low, false)}M${x} ${y}${barEnd(ys, x, high, true)}` }));
+  });
+  if (series.marks === undefined) return group;
+  const dots = svg("g", { class: "dots" });
+  shown.forEach(([x, y], i) => {
+    const mark = shape(series.marks, ...at[i], series.hollow);
+    if (series.label) mark.append(svg("title", {}, `${series.label}: ${short(x, 6)}, ${short(y, 6)}`));
+    dots.append(mark);
+  });
+  group.append(dots);
+  return group;
+}
+
+function drawLegend(node, named, x, y) {
+  named.forEach((series, i) => {
+    const line = y + legendLine * i, group = svg("g", { class: `series ${series.className}` });
+    if (series.line) group.append(svg("path", { class: "line", d: `M${x} ${line - 4}h18` }));
+    if (series.marks !== undefined) group.append(svg("g", { class: "dots" }, shape(series.marks, x + 9, line - 4, false)));
+    node.append(group, svg("text", { x: x + 24, y: line }, series.label));
+  });
+}
+
+// Draws into a place of the page. x, y: { title, log, zero }; zero: a linear axis that begins there. series: [{ label,
+// className, points: [[x, y] or [x, y, low, high], ..], line, marks, hollow, guide }]; marks: the number of their shape;
+// guides do not count for the axes. level: a horizontal guide. legend: series with labels, hollow ones left out, are named.
+export function chart(place, { title, x, y, series, level, legend, height = 300 }) {
+  const width = widthOf(place), named = legend ? series.filter(s => s.label && !s.hollow) : [];
+  const beside = named.length > 0 && width >= legendFits, below = named.length > 0 && !beside;
+  const rightEnd = width - (beside ? legendWidth : right), bottomEnd = height - bottom;
+  const tall = Math.max(height, beside ? top + 12 + legendLine * named.length : 0) + (below ? legendLine * named.length + 8 : 0);
+  const node = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${tall}`, role: "img", "aria-label": title });
+  place.replaceChildren(node);
+  const counted = series.filter(s => !s.guide).flatMap(s => s.points).filter(([px, py]) =>
+    Number.isFinite(px) && Number.isFinite(py) && (!x.log || px > 0) && (!y.log || py > 0));
+  if (!counted.length) return;
+  const xs = axisOf(counted.map(p => p[0]), x, left, rightEnd);
+  const ys = axisOf([...counted.map(p => p[1]), ...(level === undefined ? [] : [level])], y, bottomEnd, top);
+  widenForBars(ys, counted.flatMap(p => p[2] < p[3] ? [p[2], p[3]] : []));
+  addMargin(xs);
+  addMargin(ys);
+  for (const v of ticks(xs)) {
+    const at = round(position(xs, v));
+    node.append(svg("path", { class: "tick", d: `M${at},${top}V${bottomEnd}` }),
+      svg("text", { x: at, y: bottomEnd + 17, "text-anchor": "middle" }, short(v)));
+  }
+  for (const v of ticks(ys)) {
+    const at = round(position(ys, v));
+    node.append(svg("path", { class: "tick", d: `M${left},${at}H${rightEnd}` }),
+      svg("text", { x: left - 7, y: at + 4, "text-anchor": "end" }, short(v)));
+  }
+  if (level !== undefined) node.append(svg("path", { class: "guide", d: `M${left},${round(position(ys, level))}H${rightEnd}` }));
+  node.append(svg("text", { x: (left + rightEnd) / 2, y: height - 6, "text-anchor": "middle" }, x.title),
+    svg("text", { x: 14, y: (top + bottomEnd) / 2, "text-anchor": "middle",
+      transform: `rotate(-90 14 ${(top + bottomEnd) / 2})` }, y.title));
+  const area = { x: left - 6, y: top - 6, width: rightEnd - left + 12, height: bottomEnd - top + 12 };
+  const inside = svg("svg", { ...area, viewBox: `${area.x} ${area.y} ${area.width} ${area.height}` }); // cuts guides off
+  inside.append(...series.map(s => drawSeries(s, xs, ys)));
   node.append(inside);
+  drawLegend(node, named, beside ? rightEnd + 8 : left, beside ? top + 12 : height + 14);
 }

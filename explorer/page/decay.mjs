@@ -19,19 +19,19 @@ function prefixSizes(n) {
 
 // sets: [{ name, label, samples: [[n, value], ..], line }]
 function decayChart(place, measure, sets) {
-  const curves = [];
+  const series = [];
   for (const set of sets) {
     const sorted = [...set.samples].sort((p, q) => p[0] - q[0]);
-    curves.push({ className: `line set-${set.name}`, points: sorted, dots: true });
+    series.push({ className: `set-${set.name}`, points: sorted, line: true, marks: 0 });
     const slope = set.line?.theory ?? set.line?.best, first = sorted.find(p => p[1] > 0);
     if (slope !== null && slope !== undefined && first && sorted.length > 1) {
       const end = sorted[sorted.length - 1][0];
-      curves.push({ className: `guide set-${set.name}`, guide: true, points: [first, [end, first[1] * (end / first[0]) ** slope]] });
+      series.push({ className: `guide set-${set.name}`, guide: true, line: true, points: [first, [end, first[1] * (end / first[0]) ** slope]] });
     }
   }
   chart(place, {
     title: `${measure} against the number of points, logarithmic axes: ${sets.map(s => s.label).join("; ")}`,
-    xLabel: "number of points", yLabel: measure, log: true, curves,
+    x: { title: "number of points", log: true }, y: { title: measure, log: true }, series,
   });
 }
 

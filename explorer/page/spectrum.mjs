@@ -67,7 +67,7 @@ export function radialChart(place, spectra) {
   const shown = spectra.filter(s => s.rings);
   chart(place, {
     title: `Radial mean of the power: ${shown.map(s => s.canvas.getAttribute("aria-label")).join("; ")}`,
-    xLabel: "frequency", yLabel: "mean power", level: 1,
-    curves: shown.map(s => ({ className: `line set-${s.name}`, points: s.rings.map(r => [r.frequency, r.power]) })),
+    x: { title: "frequency", zero: true }, y: { title: "mean power", zero: true }, level: 1,
+    series: shown.map(s => ({ className: `set-${s.name}`, line: true, points: s.rings.map(r => [r.frequency, r.power]) })),
   });
 }

@@ -52,9 +52,8 @@ static size_t utf8_length(const unsigned char *text)
     return overlong || no_character ? 0 : length;
 }
 
-static void append_quoted(koksma__json_writer *w, const char *text)
+void koksma__json_add_text(koksma__json_writer *w, const char *text)
 {
-    append(w, "\"", 1);
     while (*text) {
         const size_t length = utf8_length((const unsigned char *)text);
         const unsigned char c = (unsigned char)*text;
@@ -70,6 +69,12 @@ static void append_quoted(koksma__json_writer *w, const char *text)
         }
         text += length ? length : 1;
     }
+}
+
+static void append_quoted(koksma__json_writer *w, const char *text)
+{
+    append(w, "\"", 1);
+    koksma__json_add_text(w, text);
     append(w, "\"", 1);
 }
 
@@ -133,6 +138,33 @@ void koksma__json_write_text(koksma__json_writer *w, const char *key, const char
     }
 }
 
+void koksma__json_begin_text(koksma__json_writer *w, const char *key)
+{
+    begin_value(w, key);
+    append(w, "\"", 1);
+}
+
+void koksma__json_end_text(koksma__json_writer *w)
+{
+    append(w, "\"", 1);
+}
+
+void koksma__json_write_bytes(koksma__json_writer *w, const char *key, const void *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *at = bytes;
+    koksma__json_begin_text(w, key);
+    for (size_t i = 0; i < size; i += 3) {
+        const size_t left = size - i;
+        const unsigned long word =
+            (unsigned long)at[i] << 16 | (left > 1 ? (unsigned long)at[i + 1] << 8 : 0) | (left > 2 ? at[i + 2] : 0);
+        const char four[4] = {digits[word >> 18], digits[word >> 12 & 63], left > 1 ? digits[word >> 6 & 63] : '=',
+                              left > 2 ? digits[word & 63] : '='};
+        append(w, four, 4);
+    }
+    koksma__json_end_text(w);
+}
+
 void koksma__json_write_rounded(koksma__json_writer *w, const char *key, double value, int digits)
 {
     char text[40];
@@ -155,6 +187,12 @@ void koksma__json_write_whole(koksma__json_writer *w, const char *key, int64_t v
 void koksma__json_write_flag(koksma__json_writer *w, const char *key, bool value)
 {
     koksma__json_write_json(w, key, value ? "true" : "false");
+}
+
+void koksma__json_break(koksma__json_writer *w)
+{
+    append(w, w->comma ? ",\n" : "\n", w->comma ? 2 : 1);
+    w->comma = false;
 }
 
 koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream)

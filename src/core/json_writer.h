@@ -45,6 +45,14 @@ KOKSMA__LAB void koksma__json_end(koksma__json_writer *w);
  * null. */
 KOKSMA__LAB void koksma__json_write_text(koksma__json_writer *w, const char *key, const char *text);
 
+/* A text in pieces: any number of them between begin and end; of each, as above, bytes that are not UTF-8 go. */
+KOKSMA__LAB void koksma__json_begin_text(koksma__json_writer *w, const char *key);
+KOKSMA__LAB void koksma__json_add_text(koksma__json_writer *w, const char *piece);
+KOKSMA__LAB void koksma__json_end_text(koksma__json_writer *w);
+
+/* Bytes as a text in base 64 (RFC 4648). */
+KOKSMA__LAB void koksma__json_write_bytes(koksma__json_writer *w, const char *key, const void *bytes, size_t size);
+
 /* A number with 17 digits, which reads back as the same double; JSON has no NaN and no infinity: null. */
 KOKSMA__LAB void koksma__json_write_number(koksma__json_writer *w, const char *key, double value);
 
@@ -59,6 +67,9 @@ KOKSMA__LAB void koksma__json_write_flag(koksma__json_writer *w, const char *key
 
 /* A value that is JSON text already. */
 KOKSMA__LAB void koksma__json_write_json(koksma__json_writer *w, const char *key, const char *json);
+
+/* Begins a new line before the next value. */
+KOKSMA__LAB void koksma__json_break(koksma__json_writer *w);
 
 /* Writes what there is and a newline to the stream and empties the buffer, for one value a line; gives the status. */
 KOKSMA__LAB koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream);

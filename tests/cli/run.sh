@@ -14,6 +14,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin" "$work/run"
 ln -s "$program" "$work/bin/koksma"
+ln -s "$(dirname "$test")/../study/report/text.py" "$work/bin/report-text" # the report of a study as lines of text
 PATH="$work/bin:$PATH"
 KOKSMA_TESTS=$(dirname "$(dirname "$test")")
 export PATH KOKSMA_TESTS

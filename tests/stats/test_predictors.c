@@ -9,6 +9,7 @@
 #include "stats/correlation.h"
 #include "stats/holm.h"
 #include "study/report/rho_words.h"
+#include "study/report/said.h"
 #include "test.h"
 
 static double uniform(uint64_t seed, uint64_t i)
@@ -152,7 +153,8 @@ static void headline_without_one_scene(void **state)
         {.92, .92, .92, .92}, {.5, .5, .5, .5}, {.9, .9, .9, -.4}, {.05, -.05, .05, -.05}};
     koksma__rho_means s;
     koksma__rho_jackknife j;
-    koksma__html h = {0};
+    koksma__document words = {0};
+    char text[4096];
     add_means(&s, rho, 4, 0.03, SCENES);
     assert_ok(koksma__rho_leave_out(&s, &j));
     assert_int_equal(j.n, 1 + SCENES);
@@ -164,15 +166,16 @@ static void headline_without_one_scene(void **state)
     assert_true(koksma__rho_always_predicts(&j, b) && !koksma__rho_always_predicts(&j, d));
     assert_near(koksma__rho_range(&j, c).low, (0.9 + 0.9 - 0.4) / 3, 1e-15);
     assert_near(koksma__rho_range(&j, c).high, 0.9, 1e-15);
-    koksma__rho_sentence(&h, &s, &j);
-    assert_non_null(strstr(h.text, "<code>A</code> orders the patterns most"));
-    assert_non_null(strstr(h.text, "comes first without any one of the 4 scenes, too (+0.92 to +0.92)"));
-    assert_non_null(strstr(h.text, "<code>A</code> than <code>B</code> and <code>D</code>;"));
-    assert_null(strstr(h.text, "<code>A</code> than <code>C"));
-    assert_non_null(strstr(h.text, "2 more differences that are sure over all scenes are not without one of them."));
+    koksma__rho_sentence(&words, &s, &j);
+    said(&words, text, sizeof text);
+    assert_non_null(strstr(text, "Best predictor: A (mean Spearman +0.92 over 4 cases"));
+    assert_non_null(strstr(text, "It comes first whichever one of the 4 scenes is left out (+0.92 to +0.92)"));
+    assert_non_null(strstr(text, "A than B and D;"));
+    assert_null(strstr(text, "A than C"));
+    assert_non_null(strstr(text, "2 more differences are sure over all scenes, but not without one of them."));
     koksma__rho_jackknife_fini(&j);
     koksma__rho_fini(&s);
-    free(h.text);
+    koksma__json_writer_fini(&words.json);
 }
 
 /* Y comes first over all scenes, and X without s3. */
@@ -182,18 +185,20 @@ static void headline_that_depends_on_a_scene(void **state)
     const double rho[MEASURES][SCENES] = {{.95, .95, .95, -.5}, {.6, .6, .6, .6}};
     koksma__rho_means s;
     koksma__rho_jackknife j;
-    koksma__html h = {0};
+    koksma__document words = {0};
+    char text[4096];
     add_means(&s, rho, 2, 0.03, SCENES);
     assert_ok(koksma__rho_leave_out(&s, &j));
-    koksma__rho_sentence(&h, &s, &j);
-    assert_non_null(strstr(h.text, "depends on the scenes. Over all of them it is <code>B</code>: mean rank "
-                                   "correlation (Spearman) +0.60 over 4 cases"));
-    assert_non_null(strstr(h.text, "; without s3 it is <code>A</code>."));
-    assert_non_null(strstr(h.text, "No measure is surely better than another, whichever one scene is left out."));
-    assert_null(strstr(h.text, "The last is"));
+    koksma__rho_sentence(&words, &s, &j);
+    said(&words, text, sizeof text);
+    assert_non_null(strstr(text, "The best predictor depends on the scenes. Over all of them it is B (mean Spearman "
+                                 "+0.60 over 4 cases"));
+    assert_non_null(strstr(text, "; without s3 it is A."));
+    assert_non_null(strstr(text, "No measure is surely better than another, whichever one scene is left out."));
+    assert_null(strstr(text, "The last is"));
     koksma__rho_jackknife_fini(&j);
     koksma__rho_fini(&s);
-    free(h.text);
+    koksma__json_writer_fini(&words.json);
 }
 
 /* Each statement over all scenes is one again of means that never had a scene, whichever it is. */

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """predictors.py KOKSMA: the answer to which measure predicts the error reproduces from the exported rows. numpy
 computes again, by the definitions, Spearman's correlations by scene, group and number of samples, and the rank
-regression with one scene left out; both are compared with the CSV files in the report."""
-import base64, csv, io, itertools, json, os, re, subprocess, sys, tempfile
+regression with one scene left out; both are compared with the tables of the report."""
+import csv, io, itertools, json, os, subprocess, sys, tempfile
 
 import numpy as np
 
@@ -88,6 +88,16 @@ def close(what, value, expected):
         sys.exit(f"{what}: the report has {value}, the rows give {expected}")
 
 
+def tables_of(blocks):
+    """The tables of a report by their names: rows of values by the names of their columns."""
+    for block in blocks:
+        if block["kind"] == "section":
+            yield from tables_of(block["content"])
+        elif block["kind"] == "table":
+            names = [column["name"] for column in block["columns"]]
+            yield block["name"], [dict(zip(names, [c[0] if isinstance(c, list) else c for c in row])) for row in block["rows"]]
+
+
 def main(koksma):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "p.json")
@@ -96,9 +106,8 @@ def main(koksma):
         subprocess.run([koksma, "study", "run", path, "-o", folder + "/out", "-q"], check=True)
         rows = list(csv.DictReader(io.StringIO(subprocess.run([koksma, "study", "export", folder + "/out"], check=True,
                                                               capture_output=True, text=True).stdout)))
-        report = open(folder + "/out/report.html").read()
-    files = {name: list(csv.DictReader(io.StringIO(base64.b64decode(data).decode()))) for name, data in
-             re.findall(r'download="([^"]*).csv" href="data:text/csv;base64,([^"]*)"', report)}
+        report = json.load(open(folder + "/out/report.json"))
+    files = dict(tables_of(report["content"]))
     cases = cases_of(rows)
 
     def rho(measure, keep):

@@ -10,6 +10,7 @@
 #include "stats/statistics.h"
 #include "study/plan/plan.h"
 #include "study/report/rho_words.h"
+#include "study/report/said.h"
 #include "study/run/study.h"
 #include "study/store/store.h"
 #include "test.h"
@@ -120,7 +121,7 @@ static void wrong_groups(void **state)
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
                    "plan 'p': line 4: questions[0].groups[0].scene: unknown field");
     wrong_question("\"kind\": \"equal\",\n\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]}]",
-                   "plan 'p': line 3: questions[0].groups: only a question of kind correlation takes it");
+                   "plan 'p': line 3: questions[0].groups: a question of kind equal takes no groups");
 }
 
 static const koksma__figure *figure_of(const koksma__plan *plan, const char *id)
@@ -308,7 +309,8 @@ static void correlations_as_shown(void **state)
     const double draws[KOKSMA__RHO_SAMPLES] = {0};
     koksma__rho_means means = {0};
     koksma__rho_jackknife jackknife;
-    koksma__html html = {0};
+    koksma__document words = {0};
+    char text[4096];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const koksma__estimate shown = koksma__rho_shown(&cases[i].rho, cases[i].n_patterns);
         assert_near(shown.value, cases[i].rho.value, 0);
@@ -318,13 +320,14 @@ static void correlations_as_shown(void **state)
     }
     assert_int_equal(means.of[0].sure, 1);
     assert_ok(koksma__rho_leave_out(&means, &jackknife));
-    koksma__rho_sentence(&html, &means, &jackknife);
+    koksma__rho_sentence(&words, &means, &jackknife);
     koksma__rho_jackknife_fini(&jackknife);
-    assert_non_null(strstr(
-        html.text, "over 5 cases, in 1 of which its interval excludes 0 (2 have fewer than 7 patterns, too few "
-                   "for an interval; 1 are in perfect order, which has none)."));
+    assert_non_null(
+        strstr(said(&words, text, sizeof text),
+               "over 5 cases; the interval excludes 0 in 1 of them; 2 have fewer than 7 patterns, too few "
+               "for an interval; 1 are in perfect order, which has no interval)"));
     koksma__rho_fini(&means);
-    free(html.text);
+    koksma__json_writer_fini(&words.json);
 }
 
 static void study_without_folder(void **state)

@@ -102,16 +102,24 @@ typedef struct koksma__figure {
     bool lines, dual;     /* random lines; as points (slope, intercept) */
 } koksma__figure;
 
-/* Something that the report answers from blocks of the plan. */
-typedef enum koksma__question_kind {
-    KOKSMA__ASK_CORRELATION, /* which measure orders patterns as image error does */
-    KOKSMA__ASK_SLOPES,      /* how measures, or errors, fall with n */
-    KOKSMA__ASK_EQUAL,       /* how many samples of each pattern equal 16 of the first */
-    KOKSMA__ASK_OPTIONS,     /* what options, or warps, change */
-    KOKSMA__ASK_TABLE,       /* means, sorted */
-    KOKSMA__ASK_INEQUALITY,  /* errors of functions of known variation beside Koksma's bound */
-    KOKSMA__ASK_KINDS
+/* Members of a question that its kind needs or takes; and whether it is asked by its name alone, not of a plan that
+   asks nothing. A kind with none of the first two needs one of `discrepancies` and `images`. */
+enum {
+    KOKSMA__NEEDS_POINTS = 1, /* discrepancies */
+    KOKSMA__NEEDS_IMAGES = 2, /* images */
+    KOKSMA__TAKES_GROUPS = 4, /* groups */
+    KOKSMA__ASKED_BY_NAME = 8
+};
+
+/* A kind of question that the report answers from blocks of the plan: a line of questions.def. */
+typedef struct koksma__question_kind {
+    const char *name;
+    unsigned fields;
+    const char *heading, *rows;
 } koksma__question_kind;
+
+/* All kinds; the name of the last is NULL (plan_questions.c). */
+extern const koksma__question_kind koksma__question_kinds[];
 
 /* Scenes of a question that share what dominates their error. */
 typedef struct koksma__scene_group {
@@ -122,9 +130,9 @@ typedef struct koksma__scene_group {
 typedef struct koksma__question {
     char *id, *title;
     size_t part; /* whose question it is */
-    koksma__question_kind kind;
+    const koksma__question_kind *kind;
     char *discrepancies, *images; /* ids of blocks; NULL: none */
-    size_t n_groups;              /* of a correlation */
+    size_t n_groups;
     koksma__scene_group *groups;
 } koksma__question;
 

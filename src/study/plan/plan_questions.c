@@ -1,11 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The questions of a plan. */
+/*
+ * The questions of a plan: an id, a title, a kind (questions.def), the ids of the blocks that it is about, and, of
+ * some kinds, groups of scenes. Which members a kind needs or takes, and the list of kinds in messages, come from the
+ * table. What questions name is checked when the whole plan is read, because blocks may follow them.
+ */
+#include <stdio.h>
 #include <string.h>
 
 #include "study/plan/plan_section.h"
 
-static const char *const kinds[KOKSMA__ASK_KINDS] = {"correlation", "slopes", "equal",
-                                                     "options",     "table",  "inequality"};
+const koksma__question_kind koksma__question_kinds[] = {
+#define QUESTION(name, fields, heading, rows) {#name, fields, heading, rows},
+#include "study/plan/questions.def"
+#undef QUESTION
+    {0}};
 
 static koksma_status parse_group(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
@@ -17,42 +25,60 @@ static koksma_status parse_group(const koksma__json_node *node, const koksma__pl
     return status ? status : koksma__plan_texts(node, "scenes", &g->scenes);
 }
 
+/* "table, correlation, ... or inequality" */
+static void list_kinds(char *text, size_t size)
+{
+    size_t used = 0;
+    for (const koksma__question_kind *k = koksma__question_kinds; k->name && used < size; k++) {
+        const char *before = k == koksma__question_kinds ? "" : k[1].name ? ", " : " or ";
+        used += (size_t)snprintf(text + used, size - used, "%s%s", before, k->name);
+    }
+}
+
+static koksma_status parse_kind(const koksma__json_node *node, koksma__question *q)
+{
+    const char *name;
+    char names[256];
+    const koksma_status status = koksma__json_get_text(node, "kind", true, &name);
+    for (q->kind = koksma__question_kinds; !status && q->kind->name; q->kind++) {
+        if (!strcmp(q->kind->name, name)) {
+            return KOKSMA_OK;
+        }
+    }
+    list_kinds(names, sizeof names);
+    return status ? status : koksma__json_fail(node, "kind '%s': it takes %s", name, names);
+}
+
+/* Whether the question has the members that its kind needs, and no others. */
+static koksma_status check_fields(const koksma__json_node *node, const koksma__question *q)
+{
+    const bool points = q->kind->fields & KOKSMA__NEEDS_POINTS, images = q->kind->fields & KOKSMA__NEEDS_IMAGES;
+    if ((images && !q->images) || (points && !q->discrepancies) || (!q->images && !q->discrepancies)) {
+        return koksma__json_fail(node, "a question of kind %s needs %s", q->kind->name,
+                                 points && images ? "discrepancies and images"
+                                 : images         ? "images"
+                                 : points         ? "discrepancies"
+                                                  : "discrepancies or images");
+    }
+    if (!(q->kind->fields & KOKSMA__TAKES_GROUPS) && koksma__json_has(node, "groups")) {
+        koksma__json_node groups;
+        koksma__json_member(node, "groups", &groups);
+        return koksma__json_fail(&groups, "a question of kind %s takes no groups", q->kind->name);
+    }
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "id", "title", "kind", "discrepancies", "images", "groups", NULL};
     koksma__question *q = item;
-    const char *kind;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, true, &q->id);
     status = status ? status : koksma__plan_text(node, "title", true, &q->title);
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &q->discrepancies);
     status = status ? status : koksma__plan_text(node, "images", false, &q->images);
-    status = status ? status : koksma__json_get_text(node, "kind", true, &kind);
-    for (int k = 0; !status; k++) {
-        if (k == KOKSMA__ASK_KINDS) {
-            return koksma__json_fail(
-                node, "kind '%s': it takes correlation, slopes, equal, options, table or inequality", kind);
-        }
-        if (!strcmp(kinds[k], kind)) {
-            q->kind = (koksma__question_kind)k;
-            break;
-        }
-    }
-    const bool needs_images = q->kind == KOKSMA__ASK_CORRELATION || q->kind == KOKSMA__ASK_EQUAL;
-    const bool needs_sets = q->kind == KOKSMA__ASK_CORRELATION || q->kind == KOKSMA__ASK_INEQUALITY;
-    if (!status &&
-        ((needs_images && !q->images) || (needs_sets && !q->discrepancies) || (!q->images && !q->discrepancies))) {
-        status = koksma__json_fail(node, "a question of kind %s needs %s", kind,
-                                   q->kind == KOKSMA__ASK_CORRELATION ? "discrepancies and images"
-                                   : needs_images                     ? "images"
-                                   : needs_sets                       ? "discrepancies"
-                                                                      : "discrepancies or images");
-    }
-    if (!status && q->kind != KOKSMA__ASK_CORRELATION && koksma__json_has(node, "groups")) {
-        koksma__json_node groups;
-        koksma__json_member(node, "groups", &groups);
-        status = koksma__json_fail(&groups, "only a question of kind correlation takes it");
-    }
+    status = status ? status : parse_kind(node, q);
+    status = status ? status : check_fields(node, q);
     return status ? status
                   : koksma__plan_list(node, "groups", false, sizeof *q->groups, parse_group, trials,
                                       (void **)&q->groups, &q->n_groups);

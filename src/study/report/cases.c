@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * A case is a measure with a scene, its options and a number of samples. Blocks of one question may overlap: the
+ * first block that renders a case stands for it (is_before), and of the blocks that have a pattern's rows the one
+ * with the most trials or sets is taken.
+ */
 #include "study/report/cases.h"
 
 #include <math.h>
@@ -8,6 +13,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "study/report/means.h"
 
 /* Plans have their sizes sorted. */
 static bool has_size(const koksma__wholes *sizes, long long n)
@@ -29,7 +35,7 @@ static koksma_status add_measured(koksma__cases *c, const char *measure, int dim
             return KOKSMA_OK;
         }
     }
-    koksma__measured *measured = koksma__room_for_one(c->measured, c->n, &c->room, 16, sizeof *measured);
+    koksma__measured *measured = koksma__room_for_one(c->measured, c->n, &c->capacity, 16, sizeof *measured);
     if (!measured) {
         return KOKSMA_MEMORY;
     }
@@ -172,7 +178,8 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds a pattern that block b is the first to render; one without rows of both, or beyond the room, only counts. */
+/* Adds a pattern that block b is the first to render; one without rows of both, or beyond KOKSMA__CASE_PATTERNS, only
+ * counts. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

@@ -7,7 +7,7 @@
 #ifndef KOKSMA_STUDY_REPORT_CASES_H
 #define KOKSMA_STUDY_REPORT_CASES_H
 
-#include "study/report/answers.h"
+#include "study/report/questions/topic.h"
 
 /* The bootstrap's time goes with the square of the patterns. */
 enum { KOKSMA__CASE_PATTERNS = 256 };
@@ -23,8 +23,8 @@ typedef struct koksma__measured {
 typedef struct koksma__cases {
     koksma_study *study;
     const koksma__topic *topic;
-    size_t n, room;
-    koksma__measured *measured; /* by their first places in the topic's blocks */
+    size_t n, capacity;
+    koksma__measured *measured; /* in the order of the topic's blocks */
 } koksma__cases;
 
 typedef struct koksma__case {
@@ -36,7 +36,7 @@ typedef struct koksma__case {
 
 /* A measure's mean and an error's, with its interval, by pattern. */
 typedef struct koksma__pairs {
-    size_t n, patterns_in_all; /* that the blocks have, also those beyond the room */
+    size_t n, patterns_in_all; /* that the blocks have, also those beyond KOKSMA__CASE_PATTERNS */
     double x[KOKSMA__CASE_PATTERNS], y[KOKSMA__CASE_PATTERNS], low[KOKSMA__CASE_PATTERNS],
         high[KOKSMA__CASE_PATTERNS];
     double x_error[KOKSMA__CASE_PATTERNS], y_error[KOKSMA__CASE_PATTERNS]; /* standard errors of the means */

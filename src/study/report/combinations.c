@@ -15,7 +15,7 @@
 
 static koksma_status open_case(koksma__combinations *c, const koksma__case *at, const koksma__pairs *found)
 {
-    koksma__combined *all = koksma__room_for_one(c->of, c->n, &c->room, 16, sizeof *all);
+    koksma__combined *all = koksma__room_for_one(c->of, c->n, &c->capacity, 16, sizeof *all);
     if (!all) {
         return KOKSMA_MEMORY;
     }
@@ -117,15 +117,15 @@ static koksma_status findings_init(const koksma__combinations *c, findings *f)
     return KOKSMA_OK;
 }
 
-static void add_difference(koksma__html *h, const koksma__summary *s)
+static void say_difference(koksma__document *d, const koksma__summary *s)
 {
-    koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
+    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, s->low, s->high);
 }
 
 /* Of correlations, which end at 1. */
-static void add_mean(koksma__html *h, const koksma__summary *s)
+static void say_mean(koksma__document *d, const koksma__summary *s)
 {
-    koksma__html_add(h, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
+    koksma__doc_say(d, "%+.2f (%+.2f to %+.2f)", s->mean, fmax(s->low, -1), fmin(s->high, 1));
 }
 
 /* In how many scenes the choice of scene i was made. */
@@ -139,23 +139,21 @@ static size_t times_chosen(const findings *f, size_t i, bool pair)
     return n;
 }
 
-static void add_chosen(koksma__html *h, const koksma__cases *cases, const findings *f, bool pair)
+static void say_chosen(koksma__document *d, const koksma__cases *cases, const findings *f, bool pair)
 {
     size_t most = 0;
     for (size_t i = 1; i < f->n_scenes; i++) {
         most = times_chosen(f, i, pair) > times_chosen(f, most, pair) ? i : most;
     }
     const koksma__held_out *of = &f->held_out[most];
-    koksma__html_add(h, " (<code>");
-    koksma__html_text(h, cases->measured[pair ? of->pair[0] : of->single].label);
+    koksma__doc_say(d, " (`%s`", cases->measured[pair ? of->pair[0] : of->single].label);
     if (pair) {
-        koksma__html_add(h, "</code> with <code>");
-        koksma__html_text(h, cases->measured[of->pair[1]].label);
+        koksma__doc_say(d, " with `%s`", cases->measured[of->pair[1]].label);
     }
-    koksma__html_add(h, "</code> in %zu of %zu)", times_chosen(f, most, pair), f->n_scenes);
+    koksma__doc_say(d, " in %zu of %zu) ", times_chosen(f, most, pair), f->n_scenes);
 }
 
-static void add_sentence(koksma__html *h, const koksma__cases *cases, const findings *f)
+static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
 {
     enum { STRIDE = sizeof *f->held_out / sizeof(double) };
     _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "values a whole number of doubles apart");
@@ -167,72 +165,78 @@ static void add_sentence(koksma__html *h, const koksma__cases *cases, const find
     const koksma__summary gain = koksma__paired(&of->rho_pair, &of->rho_single, n, STRIDE);
     const koksma__summary gain_of_all = koksma__paired(&of->rho_all, &of->rho_single, n, STRIDE);
     const koksma__summary best = koksma__summarize(&of->rho_hindsight, n, STRIDE);
-    koksma__html_add(h,
-                     "<p>Each scene's errors are predicted from the ranks of the measures, with what the other %zu "
-                     "scenes choose and fit (%zu cases). Mean Spearman correlation of the prediction with the "
-                     "error in the scene left out: the best single measure",
-                     n - 1, f->n_cases);
-    add_chosen(h, cases, f, false);
-    koksma__html_add(h, " ");
-    add_mean(h, &single);
-    koksma__html_add(h, ", the best pair");
-    add_chosen(h, cases, f, true);
-    koksma__html_add(h, " ");
-    add_mean(h, &pair);
-    koksma__html_add(h, ", ridge regression on all %zu measures ", cases->n);
-    add_mean(h, &all);
-    koksma__html_add(h, ". Beside the single measure the pair changes it by ");
-    add_difference(h, &gain);
-    koksma__html_add(h, ", all by ");
-    add_difference(h, &gain_of_all);
-    koksma__html_add(h,
-                     ". With the single measure that is best in each scene itself, which no one knows before, it "
-                     "would be %+.2f. Intervals are by Student's t over the scenes; their fits share scenes, and "
-                     "all share the patterns, so that they are approximate.</p>\n",
-                     best.mean);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(
+        d,
+        "The errors of each scene are predicted from the ranks of the measures, with what the other %zu "
+        "scenes choose and fit (%zu cases). Mean Spearman correlation of the prediction with the error in "
+        "the scene left out: the best single measure",
+        n - 1, f->n_cases);
+    say_chosen(d, cases, f, false);
+    say_mean(d, &single);
+    koksma__doc_say(d, ", the best pair");
+    say_chosen(d, cases, f, true);
+    say_mean(d, &pair);
+    koksma__doc_say(d, ", ridge regression on all %zu measures ", cases->n);
+    say_mean(d, &all);
+    koksma__doc_say(d, ". Compared with the single measure the pair changes it by ");
+    say_difference(d, &gain);
+    koksma__doc_say(d, ", all measures by ");
+    say_difference(d, &gain_of_all);
+    koksma__doc_say(
+        d,
+        ". The measure that is best in each scene itself, which is known only afterwards, has %+.2f. "
+        "Intervals are by Student's t over the scenes; they are approximate, because the fits share scenes "
+        "and all share the patterns.",
+        best.mean);
+    koksma__doc_paragraph_end(d);
 }
 
-static void add_table(koksma__html *h, const char *id, const koksma__cases *cases, const findings *f)
+static void add_table(koksma__document *d, const char *id, const koksma__cases *cases, const findings *f)
 {
-    static const char *const heads[] = {
-        "scene left out",  "cases",          "single measure", "its Spearman",      "pair",
-        "pair's Spearman", "penalty of all", "all's Spearman", "best in hindsight", "hindsight's Spearman"};
-    koksma__grid grid;
     char text[2 * KOKSMA_MAX_SPEC + 64];
     snprintf(text, sizeof text, "combinations-%.40s", id);
-    koksma__grid_open(&grid, h, text);
-    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
-        koksma__grid_head(&grid, heads[i]);
-    }
+    koksma__doc_table_begin(d, text);
+    koksma__doc_head(d, "scene left out");
+    koksma__doc_head_number(d, "cases", 7);
+    koksma__doc_head(d, "single measure");
+    koksma__doc_head_number(d, "its Spearman", 3);
+    koksma__doc_head(d, "pair");
+    koksma__doc_head_number(d, "pair's Spearman", 3);
+    koksma__doc_head_number(d, "penalty of all", 2);
+    koksma__doc_head_number(d, "all's Spearman", 3);
+    koksma__doc_head(d, "best in hindsight");
+    koksma__doc_head_number(d, "hindsight's Spearman", 3);
     for (size_t s = 0; s < f->n_scenes; s++) {
         const koksma__held_out *of = &f->held_out[s];
-        koksma__grid_row(&grid);
-        koksma__grid_text(&grid, f->scenes[s]);
-        koksma__grid_number(&grid, (double)of->cases, 7);
-        koksma__grid_text(&grid, cases->measured[of->single].label);
-        koksma__grid_number(&grid, of->rho_single, 3);
+        koksma__doc_row(d);
+        koksma__doc_text(d, f->scenes[s]);
+        koksma__doc_number(d, (double)of->cases);
+        koksma__doc_text(d, cases->measured[of->single].label);
+        koksma__doc_number(d, of->rho_single);
         snprintf(text, sizeof text, "%s + %s", cases->measured[of->pair[0]].label,
                  cases->measured[of->pair[1]].label);
-        koksma__grid_text(&grid, text);
-        koksma__grid_number(&grid, of->rho_pair, 3);
-        koksma__grid_number(&grid, of->penalty, 2);
-        koksma__grid_number(&grid, of->rho_all, 3);
-        koksma__grid_text(&grid, cases->measured[of->hindsight].label);
-        koksma__grid_number(&grid, of->rho_hindsight, 3);
+        koksma__doc_text(d, text);
+        koksma__doc_number(d, of->rho_pair);
+        koksma__doc_number(d, of->penalty);
+        koksma__doc_number(d, of->rho_all);
+        koksma__doc_text(d, cases->measured[of->hindsight].label);
+        koksma__doc_number(d, of->rho_hindsight);
     }
-    koksma__grid_close(&grid);
+    koksma__doc_table_end(d);
 }
 
-koksma_status koksma__combinations_report(koksma__html *h, const char *id, const koksma__combinations *c)
+koksma_status koksma__combinations_report(koksma__document *d, const char *id, const koksma__combinations *c)
 {
     findings f;
     koksma_status status = findings_init(c, &f);
     if (!status && f.n_scenes >= 3 && c->cases->n >= 2) {
         status = koksma__rank_regression(f.cases, f.n_cases, c->cases->n, f.n_scenes, f.held_out);
         if (!status) {
-            koksma__html_add(h, "<h4>Combinations of measures, tried on the scene left out</h4>\n");
-            add_sentence(h, c->cases, &f);
-            add_table(h, id, c->cases, &f);
+            koksma__doc_section(d, NULL, "Combinations of measures, tried on the scene left out");
+            say_findings(d, c->cases, &f);
+            add_table(d, id, c->cases, &f);
+            koksma__doc_end(d);
         }
     }
     findings_fini(&f);

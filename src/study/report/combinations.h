@@ -18,7 +18,7 @@ typedef struct koksma__combined {
 
 typedef struct koksma__combinations {
     const koksma__cases *cases;
-    size_t n, room;
+    size_t n, capacity;
     koksma__combined *of;
 } koksma__combinations;
 
@@ -27,7 +27,7 @@ koksma_status koksma__combinations_add(koksma__combinations *c, const koksma__ca
 
 /* Appends sentence and table; nothing unless three scenes have cases whose patterns have all measures, of which there
    are two or more. Errors: MEMORY. */
-koksma_status koksma__combinations_report(koksma__html *h, const char *id, const koksma__combinations *c);
+koksma_status koksma__combinations_report(koksma__document *d, const char *id, const koksma__combinations *c);
 
 void koksma__combinations_fini(koksma__combinations *c);
 

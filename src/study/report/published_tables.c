@@ -1,35 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The published tables beside what the store has. */
+/*
+ * The published tables beside what the store has: the cell of a row (mean, SD and maximum over trials), the verdict
+ * on the printed mean, and the rows that koksma_study_table_row hands out. A printed mean of a discrepancy agrees
+ * where its z, of the errors of both means and the rounding, is below KOKSMA__AGREEMENT_Z; one of an image where it
+ * is within KOKSMA__IMAGE_TOLERANCE.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
 #include "stats/statistics.h"
+#include "study/report/means.h"
 #include "study/report/published_tables.h"
 #include "study/run/tasks.h"
-
-enum { RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };
-
-/* Never NULL, so that no results are an array of length 0. */
-koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
-                                     koksma__result **results, size_t *n)
-{
-    long long id;
-    koksma_status status = koksma__store_series(study->store, series, false, &id);
-    status = status ? status : koksma__store_results(study->store, id, trials, results, n);
-    if (!status && !*results) {
-        *results = calloc(1, sizeof **results);
-        status = *results ? KOKSMA_OK : koksma__fail_memory(sizeof **results);
-    }
-    return status;
-}
-
-koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
-{
-    return n == 1 && koksma__has_one_set(pattern) ? koksma__exactly(results->values[0])
-                                                  : koksma__summarize(results->values, n, RESULT_STRIDE);
-}
 
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)
 {
@@ -77,7 +61,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
     }
     cell->mean = koksma__summarize_sets(pattern, results, sets);
     cell->sd = cell->mean.sd;
-    koksma__largest_of(results->values, sets, RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
+    koksma__largest_of(results->values, sets, KOKSMA__RESULT_STRIDE, 100, &cell->max, &cell->max_sd);
     if (isnan(cell->max)) {
         cell->max = cell->mean.max;
     }
@@ -110,9 +94,9 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
     if (status) {
         return status;
     }
-    cell->mean = koksma__summarize(results->values, n, RESULT_STRIDE);
-    cell->sd = koksma__summarize(results->values + 1, n, RESULT_STRIDE).mean;
-    const koksma__summary max = koksma__summarize(results->values + 2, n, RESULT_STRIDE);
+    cell->mean = koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
+    cell->sd = koksma__summarize(results->values + 1, n, KOKSMA__RESULT_STRIDE).mean;
+    const koksma__summary max = koksma__summarize(results->values + 2, n, KOKSMA__RESULT_STRIDE);
     cell->max = max.mean;
     cell->max_sd = max.sd;
     free(results);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The published tables of a plan: cells of the store, verdicts on printed means. */
 #ifndef KOKSMA_STUDY_REPORT_PUBLISHED_TABLES_H
 #define KOKSMA_STUDY_REPORT_PUBLISHED_TABLES_H
 
@@ -11,13 +12,6 @@ typedef struct koksma__cell {
     double sd;            /* mean of the trials' SDs (images), SD of the values (discrepancies) */
     double max, max_sd;   /* of the trials' maxima (images), of the largest of 100 values (discrepancies) */
 } koksma__cell;
-
-/* The results of a series that the store has, of trials below `trials`; *results is the caller's. */
-koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
-                                     koksma__result **results, size_t *n);
-
-/* The summary of the values of a pattern's point sets: of one that has no other set, exact. */
-koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n);
 
 /* The block that makes an image table. */
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table);

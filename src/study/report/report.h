@@ -1,27 +1,29 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The sections of a report: one line of sections.def and one file of sections/ each. */
 #ifndef KOKSMA_STUDY_REPORT_REPORT_H
 #define KOKSMA_STUDY_REPORT_REPORT_H
 
-#include "study/report/html.h"
+#include "study/report/document.h"
 #include "study/run/study.h"
 
-/* How many published means have each verdict. */
-typedef struct koksma__agreement {
-    size_t of[KOKSMA_VERDICT_UNEXPLAINED + 1];
-} koksma__agreement;
+/* What a section is written from. */
+typedef struct koksma__report_scope {
+    koksma_study *study;
+    const koksma_run *run; /* deadline and cancellation of what has to be rendered again; may be NULL */
+    size_t plan;           /* the number of the plan that a section of one plan is about */
+} koksma__report_scope;
 
-/* Appends the figures of one of the study's plans: point sets as SVG, scenes as pixels. */
-koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
-                                     const koksma_run *run);
+typedef struct koksma__section {
+    const char *heading;
+    bool of_each_plan; /* written for every plan of the study, under the plan's title where there are several */
+    bool (*is_shown)(const koksma__report_scope *scope);
+    koksma_status (*write)(const koksma__report_scope *scope, koksma__document *d); /* what is below the heading */
+} koksma__section;
 
-/* Appends one trial of every pattern of the image blocks beside its reference: pictures, error maps, and a comparer.
- */
-koksma_status koksma__report_pictures(koksma_study *study, koksma__html *html, const koksma_run *run);
-
-/* When, where and how long. One element, so that reports of the same rows differ in it alone. */
-koksma_status koksma__report_runs(koksma_study *study, koksma__html *h);
-
-/* A figure of random lines. */
-void koksma__report_lines(koksma__html *h, const koksma__figure *figure, uint64_t seed);
+/* The plan that a section of one plan is about. */
+static inline const koksma__plan_part *koksma__plan_of(const koksma__report_scope *scope)
+{
+    return &scope->study->plan.parts[scope->plan];
+}
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "study/report/rho_words.h"
+#include "study/report/rho_breakdowns.h"
 
 /* A part of the cases: one table has many. */
 typedef struct part {
@@ -26,18 +26,18 @@ static void append(char *text, size_t size, const char *between, const char *mor
     }
 }
 
-static void add_heads(koksma__grid *g, const koksma__rho_means *s, const char *what)
+static void add_heads(koksma__document *d, const koksma__rho_means *s, const char *what)
 {
-    koksma__grid_head(g, what);
-    koksma__grid_head(g, "cases");
-    koksma__grid_head(g, "best");
-    koksma__grid_head(g, "surely worse than the best");
+    koksma__doc_head(d, what);
+    koksma__doc_head_number(d, "cases", 7);
+    koksma__doc_head(d, "best");
+    koksma__doc_head(d, "surely worse than the best");
     for (size_t m = 0; m < s->n; m++) {
-        koksma__grid_head_interval(g, s->of[m].measure);
+        koksma__doc_head_interval(d, s->of[m].measure, 2);
     }
 }
 
-static koksma_status add_row(koksma__grid *g, const koksma__rho_means *s, const part *of)
+static koksma_status add_row(koksma__document *d, const koksma__rho_means *s, const part *of)
 {
     koksma__rho_ranking r;
     const koksma_status status = koksma__rho_rank(s, &(koksma__rho_subset){of->scenes, of->spp}, &r);
@@ -51,36 +51,36 @@ static koksma_status add_row(koksma__grid *g, const koksma__rho_means *s, const 
             append(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
         }
     }
-    koksma__grid_row(g);
-    koksma__grid_text(g, of->name);
-    koksma__grid_number(g, (double)r.at[0].cases, 7);
-    koksma__grid_text(g, s->of[r.at[0].measure].measure);
-    koksma__grid_text(g, worse[0] ? worse : "none");
+    koksma__doc_row(d);
+    koksma__doc_text(d, of->name);
+    koksma__doc_number(d, (double)r.at[0].cases);
+    koksma__doc_text(d, s->of[r.at[0].measure].measure);
+    koksma__doc_text(d, worse[0] ? worse : "none");
     for (size_t m = 0; m < s->n; m++) {
         koksma__estimate mean = {NAN, NAN, NAN};
         for (size_t i = 0; i < r.n; i++) {
             mean = r.at[i].measure == m ? r.at[i].mean : mean;
         }
-        koksma__grid_interval(g, mean, 2);
+        koksma__doc_interval(d, mean);
     }
     koksma__rho_ranking_fini(&r);
     return KOKSMA_OK;
 }
 
-static koksma_status add_table(koksma__html *h, const koksma__rho_means *s, const char *name, const char *id,
+static koksma_status add_table(koksma__document *d, const koksma__rho_means *s, const char *name, const char *id,
                                const char *title, const part *parts, size_t n)
 {
-    koksma__grid grid;
     char file[64];
     koksma_status status = KOKSMA_OK;
     snprintf(file, sizeof file, "correlation-%.10s-%.40s", name, id);
-    koksma__html_add(h, "<h4>%s</h4>\n", title);
-    koksma__grid_open(&grid, h, file);
-    add_heads(&grid, s, name);
+    koksma__doc_section(d, NULL, title);
+    koksma__doc_table_begin(d, file);
+    add_heads(d, s, name);
     for (size_t i = 0; !status && i < n; i++) {
-        status = add_row(&grid, s, &parts[i]);
+        status = add_row(d, s, &parts[i]);
     }
-    koksma__grid_close(&grid);
+    koksma__doc_table_end(d);
+    koksma__doc_end(d);
     return status;
 }
 
@@ -110,7 +110,7 @@ static void set_parts(const koksma__topic *topic, const koksma__rho_means *s, pa
     }
 }
 
-koksma_status koksma__rho_breakdowns(koksma__html *h, const koksma__topic *topic, const koksma__rho_means *s)
+koksma_status koksma__rho_breakdowns(koksma__document *d, const koksma__topic *topic, const koksma__rho_means *s)
 {
     const size_t n = s->n_scenes + topic->n_groups + s->n_sizes;
     part *parts = calloc(n + 1, sizeof *parts);
@@ -120,14 +120,14 @@ koksma_status koksma__rho_breakdowns(koksma__html *h, const koksma__topic *topic
         set_parts(topic, s, parts, masks);
     }
     if (!status && topic->n_groups) {
-        status = add_table(h, s, "group", topic->id, "By what dominates the scenes' error", parts + s->n_scenes,
+        status = add_table(d, s, "group", topic->id, "By what dominates the scenes' error", parts + s->n_scenes,
                            topic->n_groups);
     }
     if (!status && s->n_scenes > 1) {
-        status = add_table(h, s, "scene", topic->id, "By scene", parts, s->n_scenes);
+        status = add_table(d, s, "scene", topic->id, "By scene", parts, s->n_scenes);
     }
     if (!status && s->n_sizes > 1) {
-        status = add_table(h, s, "samples", topic->id, "By number of samples", parts + s->n_scenes + topic->n_groups,
+        status = add_table(d, s, "samples", topic->id, "By number of samples", parts + s->n_scenes + topic->n_groups,
                            s->n_sizes);
     }
     free(masks);

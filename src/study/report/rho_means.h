@@ -4,7 +4,7 @@
 #ifndef KOKSMA_STUDY_REPORT_RHO_MEANS_H
 #define KOKSMA_STUDY_REPORT_RHO_MEANS_H
 
-#include "study/report/answers.h"
+#include "stats/statistics.h"
 
 /* Combinations of options beyond these have no column of their own. The smallest p of 4,000 resamples is 0.0005:
    Holm's correction over the pairs of up to 14 measures can then still find a difference. */

@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static void add_name(koksma__html *h, const koksma__rho_means *s, size_t measure)
+#include "study/plan/variants.h"
+
+static double mean_of(const koksma__rho_sums *of)
 {
-    koksma__html_add(h, "<code>");
-    koksma__html_text(h, s->of[measure].measure);
-    koksma__html_add(h, "</code>");
+    return of->total / (double)of->all;
 }
 
 /* "a", "a and b", "a, b and c": what stands before item i of n. */
@@ -22,189 +22,196 @@ static const char *between(size_t i, size_t n)
     return i == 0 ? "" : i + 1 < n ? ", " : " and ";
 }
 
-/* The cases without an interval. */
-static void add_without(koksma__html *h, const koksma__rho_sums *of)
+static const char *whichever(const koksma__rho_jackknife *j)
 {
-    if (of->few) {
-        koksma__html_add(h, " (%zu have fewer than %d patterns, too few for an interval", of->few,
-                         KOKSMA__LEAST_PAIRS);
-    }
-    if (of->perfect) {
-        koksma__html_add(h, "%s%zu are in perfect order, which has none", of->few ? "; " : " (", of->perfect);
-    }
-    koksma__html_add(h, of->few || of->perfect ? ")" : "");
+    return j->n > 1 ? ", whichever one scene is left out" : "";
 }
 
-static void add_cases(koksma__html *h, const koksma__rho_sums *of)
+/* The mean correlation and how many cases it is of, with and without an interval. */
+static void say_cases(koksma__document *d, const koksma__rho_sums *of)
 {
-    koksma__html_add(h,
-                     "mean rank correlation (Spearman) %+.2f over %zu cases, in %zu of which its interval excludes 0",
-                     of->total / (double)of->all, of->all, of->sure);
-    add_without(h, of);
+    if (of->all == 1) {
+        koksma__doc_say(d, "Spearman %+.2f, one case; %s", mean_of(of),
+                        of->few       ? "too few patterns for an interval"
+                        : of->perfect ? "in perfect order, which has no interval"
+                        : of->sure    ? "its interval excludes 0"
+                                      : "its interval includes 0");
+        return;
+    }
+    koksma__doc_say(d, "mean Spearman %+.2f over %zu cases; the interval excludes 0 in %zu of them", mean_of(of),
+                    of->all, of->sure);
+    if (of->few) {
+        koksma__doc_say(d, "; %zu have fewer than %d patterns, too few for an interval", of->few,
+                        KOKSMA__LEAST_PAIRS);
+    }
+    if (of->perfect) {
+        koksma__doc_say(d, "; %zu are in perfect order, which has no interval", of->perfect);
+    }
 }
 
 /* Which measure comes first without each scene, where that is another one than over all. */
-static void add_other_firsts(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+static void say_other_firsts(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     for (size_t i = 1; i < j->n; i++) {
         if (j->of[i].n && j->of[i].at[0].measure != j->of[0].at[0].measure) {
-            koksma__html_add(h, "; without ");
-            koksma__html_text(h, s->scenes[i - 1]);
-            koksma__html_add(h, " it is ");
-            add_name(h, s, j->of[i].at[0].measure);
+            koksma__doc_say(d, "; without %s it is `%s`", s->scenes[i - 1], s->of[j->of[i].at[0].measure].measure);
         }
     }
 }
 
-/* Who comes first, and whether that depends on one scene. */
-static void add_first(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+/* Which measure comes first, and whether that depends on one scene. */
+static void say_first(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     const size_t first = j->of[0].at[0].measure;
-    if (j->n == 1) {
-        add_name(h, s, first);
-        koksma__html_add(h, " orders the patterns most as the error of the images does: ");
-        add_cases(h, &s->of[first]);
-        koksma__html_add(h, ". These cases are of one scene, and say nothing of others.");
-    } else if (koksma__rho_always_first(j, first)) {
-        const koksma__estimate range = koksma__rho_range(j, first);
-        add_name(h, s, first);
-        koksma__html_add(h, " orders the patterns most as the error of the images does: ");
-        add_cases(h, &s->of[first]);
-        koksma__html_add(h, ". It comes first without any one of the %zu scenes, too (%+.2f to %+.2f).", s->n_scenes,
-                         range.low, range.high);
+    const bool always = j->n > 1 && koksma__rho_always_first(j, first);
+    if (j->n == 1 || always) {
+        koksma__doc_say(d, "*Best predictor:* `%s` (", s->of[first].measure);
     } else {
-        koksma__html_add(h, "Which measure orders the patterns most as the error of the images does depends on the "
-                            "scenes. Over all of them it is ");
-        add_name(h, s, first);
-        koksma__html_add(h, ": ");
-        add_cases(h, &s->of[first]);
-        add_other_firsts(h, s, j);
-        koksma__html_add(h, ".");
+        koksma__doc_say(d, "*The best predictor depends on the scenes.* Over all of them it is `%s` (",
+                        s->of[first].measure);
+    }
+    say_cases(d, &s->of[first]);
+    koksma__doc_say(d, ")");
+    if (always) {
+        const koksma__estimate range = koksma__rho_range(j, first);
+        koksma__doc_say(d, ". It comes first whichever one of the %zu scenes is left out (%+.2f to %+.2f).",
+                        s->n_scenes, range.low, range.high);
+    } else if (j->n == 1) {
+        koksma__doc_say(d, ". All cases are of one scene; other scenes may differ.");
+    } else {
+        say_other_firsts(d, s, j);
+        koksma__doc_say(d, ".");
     }
 }
 
 /* The measures whose mean is surely above 0. */
-static void add_predictors(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+static void say_predictors(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     size_t always = 0, sure = 0, named = 0;
     for (size_t m = 0; m < s->n; m++) {
         always += koksma__rho_always_predicts(j, m);
         sure += koksma__rho_predicts(&j->of[0], m);
     }
-    koksma__html_add(h, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.",
-                     j->n > 1 ? ", whichever one scene is left out" : "");
+    koksma__doc_say(d, always ? " Surely above 0%s: " : " No measure's mean is surely above 0%s.", whichever(j));
     for (size_t m = 0; m < s->n; m++) {
         if (koksma__rho_always_predicts(j, m)) {
-            koksma__html_add(h, "%s", between(named++, always));
-            add_name(h, s, m);
-            koksma__html_add(h, " %+.2f", s->of[m].total / (double)s->of[m].all);
+            koksma__doc_say(d, "%s`%s` %+.2f", between(named++, always), s->of[m].measure, mean_of(&s->of[m]));
         }
     }
-    koksma__html_add(h, always ? "." : "");
+    koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
-        koksma__html_add(h, " For %zu more that depends on one scene.", sure - always);
+        koksma__doc_say(d, " For %zu more that depends on one scene.", sure - always);
+    }
+}
+
+/* The measures that measure a is surely better than. */
+static void say_worse(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j, size_t a,
+                      const char **before)
+{
+    size_t n = 0, named = 0;
+    for (size_t b = 0; b < s->n; b++) {
+        n += koksma__rho_always_better(j, a, b);
+    }
+    if (n) {
+        koksma__doc_say(d, "%s`%s` than ", *before, s->of[a].measure);
+        *before = "; ";
+    }
+    for (size_t b = 0; b < s->n; b++) {
+        if (koksma__rho_always_better(j, a, b)) {
+            koksma__doc_say(d, "%s`%s`", between(named++, n), s->of[b].measure);
+        }
     }
 }
 
 /* Which measures are surely better than which. */
-static void add_pairs(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+static void say_pairs(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     size_t always = 0, sure = 0;
+    const char *before = "";
     for (size_t i = 0; i < s->n * s->n; i++) {
         always += koksma__rho_always_better(j, i / s->n, i % s->n);
         sure += koksma__rho_is_better(&j->of[0], i / s->n, i % s->n);
     }
-    koksma__html_add(h, always ? " Surely better%s: " : " No measure is surely better than another%s.",
-                     j->n > 1 ? ", whichever one scene is left out" : "");
-    const char *next = "";
+    koksma__doc_say(d, always ? " Surely better%s: " : " No measure is surely better than another%s.", whichever(j));
     for (size_t a = 0; a < s->n; a++) {
-        size_t n = 0, named = 0;
-        for (size_t b = 0; b < s->n; b++) {
-            n += koksma__rho_always_better(j, a, b);
-        }
-        if (n) {
-            koksma__html_add(h, "%s", next);
-            add_name(h, s, a);
-            koksma__html_add(h, " than ");
-            next = "; ";
-        }
-        for (size_t b = 0; b < s->n; b++) {
-            if (koksma__rho_always_better(j, a, b)) {
-                koksma__html_add(h, "%s", between(named++, n));
-                add_name(h, s, b);
-            }
-        }
+        say_worse(d, s, j, a, &before);
     }
-    koksma__html_add(h, always ? "." : "");
+    koksma__doc_say(d, "%s", always ? "." : "");
     if (sure > always) {
-        koksma__html_add(h, " %zu more differences that are sure over all scenes are not without one of them.",
-                         sure - always);
+        koksma__doc_say(d, " %zu more differences are sure over all scenes, but not without one of them.",
+                        sure - always);
     }
 }
 
-void koksma__rho_sentence(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     const size_t last = j->of[0].at[j->of[0].n - 1].measure;
-    koksma__html_add(h, "<p><strong>Answer.</strong> ");
-    add_first(h, s, j);
-    add_predictors(h, s, j);
-    add_pairs(h, s, j);
+    koksma__doc_paragraph_begin(d);
+    say_first(d, s, j);
+    say_predictors(d, s, j);
+    say_pairs(d, s, j);
     if (s->n > 1 && koksma__rho_always_last(j, last)) {
-        koksma__html_add(h, " The last is ");
-        add_name(h, s, last);
-        koksma__html_add(h, " with %+.2f.", s->of[last].total / (double)s->of[last].all);
+        koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
     }
-    koksma__html_add(
-        h,
-        "</p>\n<p>Intervals are of 95 %% by %d bootstrap resamples of the patterns and their means. "
-        "<em>Surely</em> is at 5 %% for all tests of a kind together, by Holm: %zu pairs of measures "
-        "here, and %zu measures against 0. The correlations of a measure that is better when larger have "
-        "the other sign, so that +1 is always the order of the errors.</p>\n",
+    koksma__doc_paragraph_end(d);
+    koksma__doc_paragraph(
+        d,
+        "A case is the rank correlation, over patterns, of a measure of n points with the error of "
+        "images of n samples a pixel. Intervals are of 95 %% by %d bootstrap resamples of the "
+        "patterns and their means. _Surely_ is at 5 %% for all tests of a kind together, by Holm: %zu "
+        "pairs of measures here, and %zu measures against 0. The correlations of a measure that is "
+        "better when larger have the other sign, so that +1 is always the order of the errors.",
         KOKSMA__RHO_SAMPLES, j->of[0].n_pairs, s->n);
     if (0.05 * (KOKSMA__RHO_SAMPLES + 1) < 2 * (double)j->of[0].n_pairs) {
-        koksma__html_add(h, "<p>These are more pairs than %d resamples can tell apart: no difference is sure.</p>\n",
-                         KOKSMA__RHO_SAMPLES);
+        koksma__doc_paragraph(d, "%d resamples cannot tell so many pairs apart: no difference is sure.",
+                              KOKSMA__RHO_SAMPLES);
     }
 }
 
-void koksma__rho_table(koksma__html *h, const char *id, const koksma__rho_means *s, const koksma__rho_jackknife *j)
+static void add_heads(koksma__document *d, const koksma__rho_means *s, size_t n_variants)
+{
+    char text[KOKSMA__VARIANT_TEXT + 64];
+    koksma__doc_head(d, "measure");
+    koksma__doc_head_interval(d, "mean Spearman", 3);
+    koksma__doc_head_number(d, "p of 0 (Holm)", 2);
+    koksma__doc_head_number(d, "lowest without a scene", 3);
+    koksma__doc_head_number(d, "highest without a scene", 3);
+    koksma__doc_head_interval(d, "less the first", 2);
+    koksma__doc_head_number(d, "p of that (Holm)", 2);
+    koksma__doc_head_number(d, "cases", 7);
+    koksma__doc_head_number(d, "cases that exclude 0", 7);
+    for (size_t v = 0; v < n_variants; v++) {
+        snprintf(text, sizeof text, "mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
+        koksma__doc_head_number(d, text, 3);
+    }
+}
+
+void koksma__rho_table(koksma__document *d, const char *id, const koksma__rho_means *s,
+                       const koksma__rho_jackknife *j)
 {
     const size_t n_variants = s->n_variants < KOKSMA__RHO_VARIANTS ? s->n_variants : KOKSMA__RHO_VARIANTS;
     const koksma__rho_ranking *r = &j->of[0];
-    koksma__grid grid;
-    char text[KOKSMA__VARIANT_TEXT + 64];
-    snprintf(text, sizeof text, "correlation-%.40s", id);
-    koksma__grid_open(&grid, h, text);
-    koksma__grid_head(&grid, "measure");
-    koksma__grid_head_interval(&grid, "mean Spearman");
-    koksma__grid_head(&grid, "p of 0 (Holm)");
-    koksma__grid_head(&grid, "lowest without a scene");
-    koksma__grid_head(&grid, "highest without a scene");
-    koksma__grid_head_interval(&grid, "less the first");
-    koksma__grid_head(&grid, "p of that (Holm)");
-    koksma__grid_head(&grid, "cases");
-    koksma__grid_head(&grid, "cases that exclude 0");
-    for (size_t v = 0; v < n_variants; v++) {
-        snprintf(text, sizeof text, "mean, %s", s->variants[v][0] ? s->variants[v] : "defaults");
-        koksma__grid_head(&grid, text);
-    }
+    char name[64];
+    snprintf(name, sizeof name, "correlation-%.40s", id);
+    koksma__doc_table_begin(d, name);
+    add_heads(d, s, n_variants);
     for (size_t i = 0; i < r->n; i++) {
         const koksma__rho_sums *m = &s->of[r->at[i].measure];
         const koksma__estimate none = {NAN, NAN, NAN};
         const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, r->at[i].measure) : none;
-        koksma__grid_row(&grid);
-        koksma__grid_text(&grid, m->measure);
-        koksma__grid_interval(&grid, r->at[i].mean, 3);
-        koksma__grid_number(&grid, r->at[i].p, 2);
-        koksma__grid_number(&grid, range.low, 3);
-        koksma__grid_number(&grid, range.high, 3);
-        koksma__grid_interval(&grid, i ? r->at[i].less : none, 2);
-        koksma__grid_number(&grid, i ? r->p[i] : (double)NAN, 2);
-        koksma__grid_number(&grid, (double)m->all, 7);
-        koksma__grid_number(&grid, (double)m->sure, 7);
+        koksma__doc_row(d);
+        koksma__doc_text(d, m->measure);
+        koksma__doc_interval(d, r->at[i].mean);
+        koksma__doc_number(d, r->at[i].p);
+        koksma__doc_number(d, range.low);
+        koksma__doc_number(d, range.high);
+        koksma__doc_interval(d, i ? r->at[i].less : none);
+        koksma__doc_number(d, i ? r->p[i] : (double)NAN);
+        koksma__doc_number(d, (double)m->all);
+        koksma__doc_number(d, (double)m->sure);
         for (size_t v = 0; v < n_variants; v++) {
-            koksma__grid_number(&grid, m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN, 3);
+            koksma__doc_number(d, m->cases[v] ? m->rho[v] / (double)m->cases[v] : (double)NAN);
         }
     }
-    koksma__grid_close(&grid);
+    koksma__doc_table_end(d);
 }

@@ -3,18 +3,15 @@
 #ifndef KOKSMA_STUDY_REPORT_RHO_WORDS_H
 #define KOKSMA_STUDY_REPORT_RHO_WORDS_H
 
+#include "study/report/document.h"
 #include "study/report/rho_ranking.h"
 
 /* The headline, which states only what holds over all scenes and whichever one is left out, and says what does not.
  */
-void koksma__rho_sentence(koksma__html *h, const koksma__rho_means *s, const koksma__rho_jackknife *jackknife);
+void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *jackknife);
 
 /* The table of all measures over all cases. */
-void koksma__rho_table(koksma__html *h, const char *id, const koksma__rho_means *s,
+void koksma__rho_table(koksma__document *d, const char *id, const koksma__rho_means *s,
                        const koksma__rho_jackknife *jackknife);
-
-/* A table of the means by scene, by the plan's groups of scenes and by number of samples, each where there are two or
-   more, with the best of each and those that are surely worse. Errors: MEMORY. */
-koksma_status koksma__rho_breakdowns(koksma__html *h, const koksma__topic *topic, const koksma__rho_means *s);
 
 #endif

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The sentence on the slopes of one measure or scene: the pattern that falls fastest and those that are not told
+ * apart from it (the interval of the difference of two slopes has 0), how many fall faster than random points (or
+ * N^-1/2), how many follow no power law, and which have means of 0. Of a quality or a distance no slope is the best.
+ */
 #include "study/report/slope_words.h"
 
 #include <math.h>
@@ -55,73 +60,70 @@ static standing stand(const koksma__slopes *of)
     return s;
 }
 
-static void add_power(koksma__html *h, const koksma__estimate *e)
+static void say_power(koksma__document *d, const koksma__estimate *e)
 {
-    koksma__html_add(h, "N<sup>%.3f</sup>", e->value);
+    koksma__doc_say(d, "N^%.3f^", e->value);
     if (!isnan(e->low) && e->low < e->high) {
-        koksma__html_add(h, " (%.3f to %.3f)", e->low, e->high);
+        koksma__doc_say(d, " (%.3f to %.3f)", e->low, e->high);
     }
 }
 
 /* The best and the others of its rank in their order, no more than NAMED by name. */
-static void add_tied(koksma__html *h, const koksma__slopes *of, const standing *s)
+static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
 {
-    koksma__html_text(h, of->patterns[s->best]);
-    koksma__html_add(h, " falls as ");
-    add_power(h, &of->trends[s->best].slope);
-    koksma__html_add(h, "; not told apart from it: ");
+    koksma__doc_say(d, "%s falls as ", of->patterns[s->best]);
+    say_power(d, &of->trends[s->best].slope);
+    koksma__doc_say(d, "; not told apart from it: ");
     size_t named = 0;
     for (size_t i = 0; i < of->n && named < NAMED; i++) {
         const koksma__estimate *e = &of->trends[i].slope;
         if (i != s->best && !isnan(e->value) && are_tied(e, &of->trends[s->best].slope)) {
-            koksma__html_add(h, named++ ? ", " : "");
-            koksma__html_text(h, of->patterns[i]);
-            koksma__html_add(h, " as ");
-            add_power(h, e);
+            koksma__doc_say(d, "%s%s as ", named++ ? ", " : "", of->patterns[i]);
+            say_power(d, e);
         }
     }
     if (s->tied - 1 > named) {
-        koksma__html_add(h, ", and %zu more", s->tied - 1 - named);
+        koksma__doc_say(d, ", and %zu more", s->tied - 1 - named);
     }
 }
 
-static void add_fastest(koksma__html *h, const koksma__slopes *of, const standing *s)
+static void say_fastest(koksma__document *d, const koksma__slopes *of, const standing *s)
 {
     if (s->tied > 1) {
-        add_tied(h, of, s);
+        say_tied(d, of, s);
     } else {
-        koksma__html_text(h, of->patterns[s->best]);
-        koksma__html_add(h, s->counted > 1 ? " falls fastest, as " : " falls as ");
-        add_power(h, &of->trends[s->best].slope);
+        koksma__doc_say(d, "%s falls %sas ", of->patterns[s->best], s->counted > 1 ? "fastest, " : "");
+        say_power(d, &of->trends[s->best].slope);
     }
     if (s->random == of->n) {
-        koksma__html_add(h, "; %zu of %zu patterns surely fall faster than N<sup>&#8722;1/2</sup>", s->faster,
-                         s->counted);
+        koksma__doc_say(d, "; %zu of %zu patterns surely fall faster than N^%.1f^", s->faster, s->counted, -0.5);
     } else if (s->counted > 1) {
-        koksma__html_add(h, "; %zu of %zu other patterns surely fall faster than ", s->faster, s->counted - 1);
-        koksma__html_text(h, of->patterns[s->random]);
-        koksma__html_add(h, ", which falls as ");
-        add_power(h, &of->trends[s->random].slope);
+        koksma__doc_say(d, "; %zu of %zu other patterns surely fall faster than %s, which falls as ", s->faster,
+                        s->counted - 1, of->patterns[s->random]);
+        say_power(d, &of->trends[s->random].slope);
     }
 }
 
 /* Those with a mean of 0, no more than NAMED_ZEROS by name. */
-static void add_zeros(koksma__html *h, const koksma__slopes *of)
+static void say_zeros(koksma__document *d, const koksma__slopes *of)
 {
     size_t with = 0;
     for (size_t i = 0; i < of->n; i++) {
         if (of->zeros[i] && with++ < NAMED_ZEROS) {
-            koksma__html_add(h, with == 1 ? "; a mean of 0 has no logarithm, and is left out: of " : ", of ");
-            koksma__html_text(h, of->patterns[i]);
-            koksma__html_add(h, of->zeros[i] == of->sizes ? " all %zu" : " %zu", of->zeros[i]);
+            koksma__doc_say(d, with == 1 ? "; means of 0 have no logarithm and are left out: " : ", ");
+            if (of->zeros[i] == of->sizes) {
+                koksma__doc_say(d, "all %zu of %s", of->zeros[i], of->patterns[i]);
+            } else {
+                koksma__doc_say(d, "%zu of %s", of->zeros[i], of->patterns[i]);
+            }
         }
     }
     if (with > NAMED_ZEROS) {
-        koksma__html_add(h, ", and of %zu more patterns", with - NAMED_ZEROS);
+        koksma__doc_say(d, ", and those of %zu more patterns", with - NAMED_ZEROS);
     }
 }
 
-void koksma__slopes_sentence(koksma__html *h, const koksma__slopes *of)
+void koksma__slopes_sentence(koksma__document *d, const koksma__slopes *of)
 {
     const standing s = stand(of);
     bool zeros = false;
@@ -131,21 +133,22 @@ void koksma__slopes_sentence(koksma__html *h, const koksma__slopes *of)
     if (!s.counted && !zeros) {
         return;
     }
-    koksma__html_add(h, "<p><strong>");
-    koksma__html_text(h, of->name);
-    koksma__html_add(h, ":</strong> ");
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d, "*%s:* ", of->name);
     if (of->sense != KOKSMA__FALLS) {
-        koksma__html_add(h, of->sense == KOKSMA__LARGER ? "larger is better, and no slope is the best"
-                                                        : "no power of N, and no slope is the best");
+        koksma__doc_say(d, of->sense == KOKSMA__LARGER ? "larger is better; no slope is the best"
+                                                       : "no power of N; no slope is the best");
     } else if (s.counted) {
-        add_fastest(h, of, &s);
+        say_fastest(d, of, &s);
     } else {
-        koksma__html_add(h, "no pattern has a slope");
+        koksma__doc_say(d, "no pattern has a slope");
     }
     if (s.off_line) {
-        koksma__html_add(h, "; in %zu of %zu the means lie on no line, and the slope is an average one", s.off_line,
-                         s.counted);
+        koksma__doc_say(d, "; %zu of %zu patterns %s", s.off_line, s.counted,
+                        s.off_line == 1 ? "does not follow a power law; its slope is an average"
+                                        : "do not follow a power law; their slope is an average");
     }
-    add_zeros(h, of);
-    koksma__html_add(h, ".</p>\n");
+    say_zeros(d, of);
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
 }

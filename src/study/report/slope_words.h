@@ -4,7 +4,7 @@
 #define KOKSMA_STUDY_REPORT_SLOPE_WORDS_H
 
 #include "stats/slopes.h"
-#include "study/report/html.h"
+#include "study/report/document.h"
 
 /* Whether a slope says who is better. */
 typedef enum koksma__slope_sense {
@@ -25,6 +25,6 @@ typedef struct koksma__slopes {
 
 /* Who falls fastest, who falls faster than random samples, and what is left out; nothing where nothing has a slope
    and nothing is left out. */
-void koksma__slopes_sentence(koksma__html *html, const koksma__slopes *slopes);
+void koksma__slopes_sentence(koksma__document *d, const koksma__slopes *slopes);
 
 #endif

@@ -11,4 +11,4 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 "$program" study new plan.json && sed -i 's/1024/64/' plan.json && "$program" study run ./plan.json -o study --trials 4 -q &&
   "$program" reproduce "$here/../../cli/plans/small.json" -o paper -q --table none || exit 1
-node "$here/chromium.js" study/report/report.html && node "$here/chromium.js" paper/report.html
+node "$here/chromium.js" study/report.html && node "$here/chromium.js" paper/report.html

@@ -17,10 +17,12 @@
 #include "stats/correlation.h"
 #include "study/report/cases.h"
 #include "study/report/combinations.h"
+#include "study/report/means.h"
+#include "study/report/rho_breakdowns.h"
 #include "study/report/rho_words.h"
 
 typedef struct listing {
-    koksma__grid *grid;
+    koksma__document *list; /* the table of every case */
     koksma__rho_means *means;
     koksma__combinations *combinations;
     size_t most_patterns; /* of a case */
@@ -59,6 +61,7 @@ static koksma_status correlate(const koksma__case *p, const koksma__pairs *found
 static koksma_status list_row(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     listing *l = context;
+    koksma__document *d = l->list;
     koksma__pairs found;
     double draws[KOKSMA__RHO_SAMPLES];
     koksma__estimate rho, tau;
@@ -72,38 +75,37 @@ static koksma_status list_row(const koksma__cases *cases, void *context, const k
     if (status || isnan(rho.value)) {
         return status;
     }
-    koksma__grid_row(l->grid);
-    koksma__grid_text(l->grid, p->scene);
-    koksma__grid_text(l->grid, p->variant[0] ? p->variant : "defaults");
-    koksma__grid_number(l->grid, (double)p->spp, 7);
-    koksma__grid_text(l->grid, p->of->label);
-    koksma__grid_number(l->grid, (double)found.n, 7);
+    koksma__doc_row(d);
+    koksma__doc_text(d, p->scene);
+    koksma__doc_text(d, p->variant[0] ? p->variant : "defaults");
+    koksma__doc_number(d, (double)p->spp);
+    koksma__doc_text(d, p->of->label);
+    koksma__doc_number(d, (double)found.n);
     rho = koksma__rho_shown(&rho, found.n);
-    koksma__grid_interval(l->grid, rho, 3);
-    koksma__grid_interval(l->grid, koksma__rho_shown(&tau, found.n), 3);
+    koksma__doc_interval(d, rho);
+    koksma__doc_interval(d, koksma__rho_shown(&tau, found.n));
     const koksma__rho_source source = {p->of->label, p->scene, p->variant, p->spp, found.n};
     return koksma__rho_add(l->means, &source, &rho, draws);
 }
 
 /* What the answer leaves out. */
-static void add_limits(koksma__html *h, const listing *l)
+static void say_limits(koksma__document *d, const listing *l)
 {
     const koksma__rho_means *s = l->means;
     if (l->most_patterns > KOKSMA__CASE_PATTERNS) {
-        koksma__html_add(h,
-                         "<p>Of up to %zu patterns the first %d are correlated; the others are in the export.</p>\n",
-                         l->most_patterns, KOKSMA__CASE_PATTERNS);
+        koksma__doc_paragraph(d, "Of up to %zu patterns the first %d are correlated; the others are in the export.",
+                              l->most_patterns, KOKSMA__CASE_PATTERNS);
     }
     if (s->n_variants > KOKSMA__RHO_VARIANTS) {
-        koksma__html_add(h,
-                         "<p>%zu more combinations of options have no column here; the means are over them, too, and "
-                         "all are in the list of cases.</p>\n",
-                         s->n_variants - KOKSMA__RHO_VARIANTS);
+        koksma__doc_paragraph(d,
+                              "%zu more combinations of options have no column here; the means include them, and the "
+                              "list of cases has them all.",
+                              s->n_variants - KOKSMA__RHO_VARIANTS);
     }
 }
 
 typedef struct plots {
-    koksma__html *html;
+    koksma__document *document;
     const char *measure;
     size_t left;
 } plots;
@@ -112,35 +114,32 @@ typedef struct plots {
 static koksma_status add_scatter(const koksma__cases *cases, void *context, const koksma__case *p)
 {
     plots *to = context;
+    koksma__document *d = to->document;
     koksma__pairs found;
     if (!to->left || strcmp(p->of->label, to->measure) != 0 || p->spp != p->image->spp.at[p->image->spp.n / 2]) {
         return KOKSMA_OK;
     }
     const koksma_status status = koksma__case_pairs(cases, p, &found);
-    koksma__chart_series *series = calloc(KOKSMA__CHART_SERIES, sizeof *series);
-    if (status || !series) {
-        free(series);
-        return status ? status : koksma__fail_memory(KOKSMA__CHART_SERIES * sizeof *series);
-    }
-    size_t n = 0;
-    for (; n < found.n && n < KOKSMA__CHART_SERIES; n++) {
-        series[n] = (koksma__chart_series){
-            .n = 1, .x = {found.x[n]}, .y = {found.y[n]}, .low = {found.low[n]}, .high = {found.high[n]}};
-        snprintf(series[n].label, sizeof series[n].label, "%.95s", found.patterns[n]);
+    if (status) {
+        return status;
     }
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld samples: error against %.60s, Spearman %.2f", name, p->spp,
                      p->of->label, koksma__spearman(found.x, found.y, found.n));
-    const koksma__chart chart = {title, p->of->label, "mean absolute error", true, true, n, series, found.n - n};
-    koksma__html_chart(to->html, &chart);
-    free(series);
+    koksma__doc_chart_begin(d, &(koksma__chart){title, p->of->label, "mean absolute error", true, true});
+    for (size_t i = 0; i < found.n; i++) {
+        koksma__doc_series_begin(d, found.patterns[i], KOKSMA__SERIES_MARKS);
+        koksma__doc_point(d, found.x[i], found.y[i], found.low[i], found.high[i]);
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
     to->left--;
     return KOKSMA_OK;
 }
 
-/* Sentence, tables and charts of the correlations, of which there are some; list: the table of every case. */
-static koksma_status report(koksma__html *h, const koksma__cases *cases, const listing *l, const char *list)
+/* Sentence, tables and charts of the correlations, of which there are some. Empties `list`. */
+static koksma_status report(koksma__document *d, const koksma__cases *cases, const listing *l)
 {
     const koksma__topic *topic = cases->topic;
     koksma__rho_jackknife jackknife;
@@ -149,45 +148,46 @@ static koksma_status report(koksma__html *h, const koksma__cases *cases, const l
     if (status) {
         return status;
     }
-    koksma__rho_sentence(h, l->means, &jackknife);
-    add_limits(h, l);
-    koksma__rho_table(h, topic->id, l->means, &jackknife);
+    koksma__rho_sentence(d, l->means, &jackknife);
+    say_limits(d, l);
+    koksma__rho_table(d, topic->id, l->means, &jackknife);
     koksma__rho_jackknife_fini(&jackknife);
-    status = koksma__rho_breakdowns(h, topic, l->means);
-    status = status ? status : koksma__combinations_report(h, topic->id, l->combinations);
-    koksma__html_add(h, "<details><summary>Every case, with intervals</summary>\n%s</details>\n", list);
-    koksma__html_add(h, "<div class=\"figures\">\n");
-    plots to = {h, l->means->of[0].measure, 6};
-    status = status ? status : koksma__cases_visit(cases, add_scatter, &to);
-    koksma__html_add(h, "</div>\n");
-    return status;
+    status = koksma__rho_breakdowns(d, topic, l->means);
+    status = status ? status : koksma__combinations_report(d, topic->id, l->combinations);
+    koksma__doc_section_begin(d, NULL, true);
+    koksma__doc_say(d, "Every case, with intervals");
+    koksma__doc_section_body(d);
+    koksma__doc_append(d, l->list);
+    koksma__doc_end(d);
+    plots to = {d, l->means->of[0].measure, 6};
+    return status ? status : koksma__cases_visit(cases, add_scatter, &to);
 }
 
-koksma_status koksma__answer_correlation(koksma_study *study, koksma__html *h, const koksma__topic *topic)
+koksma_status koksma__answer_correlation(koksma_study *study, koksma__document *d, const koksma__topic *topic)
 {
-    koksma__grid grid;
-    koksma__html list = {0};
+    koksma__document list = {0};
     koksma__rho_means s = {0};
     koksma__cases cases;
     char name[64];
     snprintf(name, sizeof name, "correlations-%.40s", topic->id);
-    koksma__grid_open(&grid, &list, name);
-    static const char *const heads[] = {"scene", "options", "samples", "measure", "patterns"};
-    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
-        koksma__grid_head(&grid, heads[i]);
-    }
-    koksma__grid_head_interval(&grid, "Spearman");
-    koksma__grid_head_interval(&grid, "Kendall");
+    koksma__doc_table_begin(&list, name);
+    koksma__doc_head(&list, "scene");
+    koksma__doc_head(&list, "options");
+    koksma__doc_head_number(&list, "samples", 7);
+    koksma__doc_head(&list, "measure");
+    koksma__doc_head_number(&list, "patterns", 7);
+    koksma__doc_head_interval(&list, "Spearman", 3);
+    koksma__doc_head_interval(&list, "Kendall", 3);
     koksma_status status = koksma__cases_open(study, topic, &cases);
     koksma__combinations combinations = {.cases = &cases};
-    listing l = {&grid, &s, &combinations, 0};
+    listing l = {&list, &s, &combinations, 0};
     status = status ? status : koksma__cases_visit(&cases, list_row, &l);
-    koksma__grid_close(&grid);
+    koksma__doc_table_end(&list);
     if (!status && s.n) {
-        status = report(h, &cases, &l, list.text ? list.text : "");
+        status = report(d, &cases, &l);
     }
-    h->failed |= list.failed;
-    free(list.text);
+    status = status ? status : list.json.status;
+    koksma__json_writer_fini(&list.json);
     koksma__rho_fini(&s);
     koksma__combinations_fini(&combinations);
     koksma__cases_close(&cases);

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The figures of a plan, made again from their keys: points as a scatter plot (SVG), scenes as images (PNG), the
+ * strata of adaptive sampling in a pixel (SVG), and the random lines that Mitchell 1992 (section 5) measures edges
+ * with. Lines are drawn in the square, or as points (m, b) of the lines y = m x + b, where those that meet the square
+ * fill a bow-tie: 0 < b < 1 - m for m < 0 and -m < b < 1 for m > 0.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,13 +16,14 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "measures/shared/lines.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/variants.h"
 #include "study/report/report.h"
 
 enum { POINTS_WIDTH = 280, SCENE_SCALE = 3, NOTE = 160, PROBES = 16 };
 
-static koksma_status add_points(koksma__html *h, const koksma__figure *f)
+static koksma_status add_points(koksma__document *d, const koksma__figure *f)
 {
     koksma_spec spec;
     koksma_points points;
@@ -39,14 +46,14 @@ static koksma_status add_points(koksma__html *h, const koksma__figure *f)
         status = koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &svg, &size);
     }
     if (!status) {
-        koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
+        koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
         free(svg);
     }
     koksma_points_fini(&points);
     return status;
 }
 
-static koksma_status add_space(koksma__html *h, const koksma__figure *f, const koksma_space *space)
+static koksma_status add_space(koksma__document *d, const koksma__figure *f, const koksma_space *space)
 {
     unsigned char *svg;
     size_t size;
@@ -59,7 +66,7 @@ static koksma_status add_space(koksma__html *h, const koksma__figure *f, const k
                                        .caption = text};
     const koksma_status status = koksma_plot_strata(&panel, 1, POINTS_WIDTH, KOKSMA_PLOT_SVG, &svg, &size);
     if (!status) {
-        koksma__html_svg(h, svg, size, POINTS_WIDTH, f->title);
+        koksma__doc_svg(d, svg, size, POINTS_WIDTH, f->title);
         free(svg);
     }
     return status;
@@ -76,23 +83,21 @@ static const koksma_space *find_space(const koksma_strata *strata, const char *n
 }
 
 /* One picture a space, side by side where there is room. */
-static koksma_status add_strata(koksma__html *h, const koksma__figure *f, koksma_strata *strata)
+static koksma_status add_strata(koksma__document *d, const koksma__figure *f, koksma_strata *strata)
 {
     koksma_status status = KOKSMA_OK;
-    koksma__html_add(h, "<div class=\"spaces\">\n");
     for (size_t i = 0; !status && i < (f->spaces.n ? f->spaces.n : strata->n_spaces); i++) {
         const koksma_space *space = f->spaces.n ? find_space(strata, f->spaces.at[i]) : &strata->spaces[i];
         status =
-            space ? add_space(h, f, space)
+            space ? add_space(d, f, space)
                   : koksma__fail(KOKSMA_ARGUMENT, "figure %s: no space '%s' in %s", f->id, f->spaces.at[i], f->scene);
     }
-    koksma__html_add(h, "</div>\n");
     koksma_strata_fini(strata);
     return status;
 }
 
 /* The part of an image that the figure shows, the larger the smaller it is, and the brighter by its exposure. */
-static koksma_status add_part(koksma__html *h, const koksma__figure *f, const koksma_image *image)
+static koksma_status add_part(koksma__document *d, const koksma__figure *f, const koksma_image *image)
 {
     koksma_image part;
     const bool whole = !f->detail[2];
@@ -112,7 +117,7 @@ static koksma_status add_part(koksma__html *h, const koksma__figure *f, const ko
             part.pixels[(size_t)row * row_size + k] = (float)f->exposure * from[k];
         }
     }
-    status = koksma__html_image(h, &part, SCENE_SCALE * image->width / width, f->title);
+    status = koksma__doc_image(d, &part, SCENE_SCALE * image->width / width, f->title);
     koksma_image_fini(&part);
     return status;
 }
@@ -131,7 +136,7 @@ static void describe_adaptive(const koksma__figure *f, double pixels, const koks
     }
 }
 
-static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html *h, const koksma__figure *f,
+static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__document *d, const koksma__figure *f,
                                   uint64_t seed, const koksma_run *run, char note[NOTE])
 {
     koksma__variant variant;
@@ -153,13 +158,13 @@ static koksma_status add_adaptive(const koksma__study_scene *scene, koksma__html
     if (status || (status = koksma_render_adaptive(scene->scene, options, &adaptive, run, &layers, &report))) {
         return status;
     }
-    status = adaptive.strata ? add_strata(h, f, &strata) : add_part(h, f, &layers.image);
+    status = adaptive.strata ? add_strata(d, f, &strata) : add_part(d, f, &layers.image);
     describe_adaptive(f, (double)scene->width * (double)scene->height, &report, note);
     koksma_layers_fini(&layers);
     return status;
 }
 
-static koksma_status add_scene(const koksma_study *study, koksma__html *h, const koksma__figure *f,
+static koksma_status add_scene(const koksma_study *study, koksma__document *d, const koksma__figure *f,
                                const koksma_run *run, char note[NOTE])
 {
     koksma_image image;
@@ -171,47 +176,103 @@ static koksma_status add_scene(const koksma_study *study, koksma__html *h, const
                                      .height = scene->height,
                                      .seed = koksma__job_seed("figure|%s|%s|%lld", f->scene, f->pattern, f->n)};
     if (f->adaptive) {
-        return add_adaptive(scene, h, f, picture.seed, run, note);
+        return add_adaptive(scene, d, f, picture.seed, run, note);
     }
     koksma_status status = koksma__study_render(scene, &picture, run, &image);
     if (!status) {
-        status = add_part(h, f, &image);
+        status = add_part(d, f, &image);
         koksma_image_fini(&image);
     }
     return status;
 }
 
-koksma_status koksma__report_figures(koksma_study *study, koksma__html *html, const koksma__plan_part *part,
-                                     const koksma_run *run)
+/* ---- Random lines ------------------------------------------------------------------------------------------ */
+
+static const double MOST_SLOPE = 3; /* of the points that are shown */
+
+/* The two points where a x + b y = c meets the square's border; false: fewer. */
+static bool meet_square(double a, double b, double c, double ends[2][2])
 {
+    int n = 0;
+    for (int side = 0; side < 4 && n < 2; side++) {
+        const double at = side % 2; /* x = 0, x = 1, y = 0, y = 1 */
+        const double along = side < 2 ? (c - a * at) / b : (c - b * at) / a;
+        if (along >= 0 && along < 1) {
+            ends[n][0] = side < 2 ? at : along;
+            ends[n++][1] = side < 2 ? along : at;
+        }
+    }
+    return n == 2;
+}
+
+/* The border of the square, or the bow-tie. */
+static void add_outline(koksma__document *d, bool dual)
+{
+    static const double square[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    static const double bow_tie[][2] = {{-3, 0}, {0, 0}, {3, -3}, {3, 1}, {0, 1}, {-3, 4}};
+    const double(*corners)[2] = dual ? bow_tie : square;
+    const size_t n = dual ? 6 : 4;
+    for (size_t i = 0; i < n; i++) {
+        const double *to = corners[(i + 1) % n];
+        koksma__doc_line(d, corners[i][0], corners[i][1], to[0], to[1]);
+    }
+}
+
+static void add_lines(koksma__document *d, const koksma__figure *f)
+{
+    const double square[4] = {0, 0, 1, 1}, plane[4] = {-MOST_SLOPE, -MOST_SLOPE, MOST_SLOPE, MOST_SLOPE + 1};
+    const uint64_t seed = koksma__job_seed("figure|lines|%lld", f->n);
+    koksma__doc_drawing_begin(d, POINTS_WIDTH, f->dual ? plane : square, f->title);
+    add_outline(d, f->dual);
+    for (long long i = 0; i < f->n; i++) {
+        double a, b, c, ends[2][2];
+        koksma__random_line(KOKSMA__LINES_MITCHELL, seed, (uint64_t)i, &a, &b, &c);
+        if (!f->dual && meet_square(a, b, c, ends)) {
+            koksma__doc_line(d, ends[0][0], ends[0][1], ends[1][0], ends[1][1]);
+        } else if (f->dual && fabs(a / b) <= MOST_SLOPE) {
+            koksma__doc_dot(d, -a / b, c / b);
+        }
+    }
+    koksma__doc_end(d);
+}
+
+/* ---- The section ------------------------------------------------------------------------------------------- */
+
+static bool is_shown(const koksma__report_scope *scope)
+{
+    return koksma__plan_of(scope)->figures[0] < koksma__plan_of(scope)->figures[1];
+}
+
+static koksma_status add_figure(const koksma__report_scope *scope, koksma__document *d, const koksma__figure *f)
+{
+    char id[96], note[NOTE] = "";
     koksma_status status = KOKSMA_OK;
-    if (part->figures[0] == part->figures[1]) {
-        return status;
+    snprintf(id, sizeof id, "figure-%.80s", f->id);
+    koksma__doc_figure_begin(d, id);
+    if (f->lines) {
+        add_lines(d, f);
+    } else {
+        status = f->scene ? add_scene(scope->study, d, f, scope->run, note) : add_points(d, f);
     }
-    koksma__html_add(html, "<h2>Figures</h2>\n<div class=\"figures\">\n");
-    for (size_t i = part->figures[0]; !status && i < part->figures[1]; i++) {
-        const koksma__figure *f = &study->plan.figures[i];
-        char note[NOTE] = "";
-        koksma__html_add(html, "<figure");
-        koksma__html_id(html, "figure", f->id);
-        koksma__html_add(html, ">");
-        if (f->lines) {
-            koksma__report_lines(html, f, koksma__job_seed("figure|lines|%lld", f->n));
-        } else {
-            status = f->scene ? add_scene(study, html, f, run, note) : add_points(html, f);
-        }
-        koksma__html_add(html, "<figcaption>Figure %s: ", f->id);
-        koksma__html_text(html, f->title);
-        koksma__html_text(html, note);
-        if (f->exposure != 1) {
-            koksma__html_add(html, ". Shown %g times as bright as rendered", f->exposure);
-        }
-        if (f->printed) {
-            koksma__html_add(html, ". In the text: ");
-            koksma__html_text(html, f->printed);
-        }
-        koksma__html_add(html, "</figcaption></figure>\n");
+    koksma__doc_caption(d);
+    koksma__doc_say(d, "Figure %s: %s%s", f->id, f->title, note);
+    if (f->exposure != 1) {
+        koksma__doc_say(d, ". Shown %g times as bright as rendered", f->exposure);
     }
-    koksma__html_add(html, "</div>\n");
+    if (f->printed) {
+        koksma__doc_say(d, ". In the text: %s", f->printed);
+    }
+    koksma__doc_figure_end(d);
     return status;
 }
+
+static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = koksma__plan_of(scope)->figures[0]; !status && i < koksma__plan_of(scope)->figures[1]; i++) {
+        status = add_figure(scope, d, &scope->study->plan.figures[i]);
+    }
+    return status;
+}
+
+const koksma__section koksma__section_figures = {"Figures", true, is_shown, write};

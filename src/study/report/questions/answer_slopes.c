@@ -11,7 +11,8 @@
 
 #include "core/status.h"
 #include "stats/slopes.h"
-#include "study/report/answers.h"
+#include "study/report/means.h"
+#include "study/report/questions/topic.h"
 #include "study/report/slope_words.h"
 
 /* No pattern falls faster than n^power (log n)^logs in dim dimensions. */
@@ -116,20 +117,13 @@ static const char *bound_of(const subject *s, const curve *like, curve *out)
     return NULL;
 }
 
-/* Where there are more points than a chart has, some evenly among them. */
-static void plot_curve(koksma__chart_series *to, const curve *c, const char *label, bool theory, double scale)
+static void draw_curve(koksma__document *chart, const curve *c, const char *label)
 {
-    to->line = true;
-    to->theory = theory;
-    to->n = c->n < KOKSMA__CHART_POINTS ? c->n : KOKSMA__CHART_POINTS;
-    snprintf(to->label, sizeof to->label, "%.95s", label);
-    for (size_t i = 0; i < to->n; i++) {
-        const size_t k = to->n < c->n ? i * (c->n - 1) / (to->n - 1) : i;
-        to->x[i] = c->x[k];
-        to->y[i] = c->y[k].mean * scale;
-        to->low[i] = theory ? to->y[i] : c->y[k].low;
-        to->high[i] = theory ? to->y[i] : c->y[k].high;
+    koksma__doc_series_begin(chart, label, KOKSMA__SERIES_LINE);
+    for (size_t i = 0; i < c->n; i++) {
+        koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
     }
+    koksma__doc_end(chart);
 }
 
 static koksma__slope_sense sense_of(const subject *s)
@@ -152,46 +146,51 @@ static void name_subject(const subject *s, char *text, size_t size)
     }
 }
 
-static void add_heads(koksma__grid *g, const subject *s)
+static void add_heads(koksma__document *d, const subject *s)
 {
     char text[64];
-    koksma__grid_head(g, "pattern");
-    koksma__grid_head_interval(g, "slope");
-    koksma__grid_head(g, "on a line?");
+    koksma__doc_head(d, "pattern");
+    koksma__doc_head_interval(d, "slope", 3);
+    koksma__doc_head(d, "power law?");
     for (size_t i = 0; i < sizes(s)->n; i++) {
         snprintf(text, sizeof text, "N = %lld", sizes(s)->at[i]);
-        koksma__grid_head_interval(g, text);
+        koksma__doc_head_interval(d, text, 3);
     }
 }
 
-static void add_row(koksma__grid *g, const subject *s, const char *pattern, const koksma__trend *trend,
+static void add_row(koksma__document *d, const subject *s, const char *pattern, const koksma__trend *trend,
                     const curve *c)
 {
-    koksma__grid_row(g);
-    koksma__grid_text(g, pattern);
-    koksma__grid_interval(g, trend->slope, 3);
-    koksma__grid_text(g, trend->off_line ? "no" : "");
+    koksma__doc_row(d);
+    koksma__doc_text(d, pattern);
+    koksma__doc_interval(d, trend->slope);
+    koksma__doc_text(d, trend->off_line ? "no" : "");
     for (size_t i = 0; i < sizes(s)->n; i++) {
         const koksma__estimate none = {NAN, NAN, NAN};
-        koksma__grid_interval(g, c->all[i].n ? koksma__estimate_of(&c->all[i]) : none, 3);
+        koksma__doc_interval(d, c->all[i].n ? koksma__estimate_of(&c->all[i]) : none);
     }
 }
 
-static void add_bound(koksma__grid *g, koksma__chart *chart, const char *who, const curve *bound, double scale)
+/* The bound's row, and its line, a quarter as high as the first pattern's where that begins. */
+static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const curve *bound, double scale)
 {
     char text[96];
-    snprintf(text, sizeof text, "lower bound (%s), scaled", who);
-    plot_curve(&chart->series[chart->n++], bound, text, true, scale);
     koksma__estimate slope = trend_of(bound).slope;
     slope.low = slope.high = slope.value;
+    snprintf(text, sizeof text, "lower bound (%s), scaled", who);
+    koksma__doc_series_begin(chart, text, KOKSMA__SERIES_THEORY);
+    for (size_t i = 0; i < bound->n; i++) {
+        koksma__doc_point(chart, bound->x[i], bound->y[i].mean * scale, NAN, NAN);
+    }
+    koksma__doc_end(chart);
     snprintf(text, sizeof text, "slope of the bound itself over these sizes (%s)", who);
-    koksma__grid_row(g);
-    koksma__grid_text(g, text);
-    koksma__grid_interval(g, slope, 3);
+    koksma__doc_row(d);
+    koksma__doc_text(d, text);
+    koksma__doc_interval(d, slope);
 }
 
 /* All patterns' rows, slopes and curves, and how many means are 0. */
-static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subject *s, koksma__chart *chart,
+static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *s, koksma__document *chart,
                               koksma__trend *trends, size_t *zeros)
 {
     curve c = {0}, bound = {0};
@@ -202,25 +201,26 @@ static koksma_status add_rows(koksma_study *study, koksma__grid *g, const subjec
     for (size_t p = 0; !status && p < patterns(s)->n; p++) {
         const char *pattern = patterns(s)->at[p];
         status = collect(study, s, pattern, &c);
-        trends[p] = status ? (koksma__trend){{NAN, NAN, NAN}, false} : trend_of(&c);
+        if (status) {
+            break;
+        }
+        trends[p] = trend_of(&c);
         zeros[p] = c.zeros;
-        if (!status && p == 0 && (who = bound_of(s, &c, &bound))) {
+        if (p == 0 && (who = bound_of(s, &c, &bound))) {
             scale = c.y[0].mean / bound.y[0].mean / 4;
         }
-        if (!status && p + 1 < KOKSMA__CHART_SERIES) {
-            plot_curve(&chart->series[chart->n++], &c, pattern, false, 1);
-        }
-        add_row(g, s, pattern, &trends[p], &c);
+        draw_curve(chart, &c, pattern);
+        add_row(d, s, pattern, &trends[p], &c);
     }
     if (!status && who) {
-        add_bound(g, chart, who, &bound, scale);
+        add_bound(d, chart, who, &bound, scale);
     }
     curve_fini(&c);
     curve_fini(&bound);
     return status;
 }
 
-static koksma_status add_subject(koksma_study *study, koksma__html *h, const char *id, size_t number,
+static koksma_status add_subject(koksma_study *study, koksma__document *d, const char *id, size_t number,
                                  const subject *s)
 {
     char name[KOKSMA__VARIANT_TEXT + 64], file[64], title[256];
@@ -231,53 +231,43 @@ static koksma_status add_subject(koksma_study *study, koksma__html *h, const cha
     name_subject(s, name, sizeof name);
     snprintf(file, sizeof file, "slopes-%.32s-%zu", id, number);
     snprintf(title, sizeof title, "%.200s against N", name);
-    koksma__chart chart = {.title = title,
-                           .x_title = s->image ? "samples a pixel" : "points",
-                           .y_title = s->image ? "mean absolute error" : s->measure,
-                           .log_x = true,
-                           .log_y = true,
-                           .series = calloc(KOKSMA__CHART_SERIES, sizeof *chart.series),
-                           .left_out = n < KOKSMA__CHART_SERIES ? 0 : n - (KOKSMA__CHART_SERIES - 1)};
     koksma__trend *trends = calloc(n, sizeof *trends);
     size_t *zeros = calloc(n, sizeof *zeros);
-    koksma_status status = chart.series && trends && zeros
-                               ? KOKSMA_OK
-                               : koksma__fail_memory(sizeof *chart.series * KOKSMA__CHART_SERIES);
+    koksma__document rows = {0}, chart = {0};
+    koksma_status status = trends && zeros ? KOKSMA_OK : koksma__fail_memory(n * sizeof *trends);
     if (!status) {
-        koksma__html rows = {0};
-        koksma__grid grid;
-        koksma__grid_open(&grid, &rows, file);
-        add_heads(&grid, s);
-        status = add_rows(study, &grid, s, &chart, trends, zeros);
-        koksma__grid_close(&grid);
+        koksma__doc_chart_begin(&chart, &(koksma__chart){title, s->image ? "samples a pixel" : "points",
+                                                         s->image ? "mean absolute error" : s->measure, true, true});
+        koksma__doc_table_begin(&rows, file);
+        add_heads(&rows, s);
+        status = add_rows(study, &rows, s, &chart, trends, zeros);
+        koksma__doc_table_end(&rows);
+        koksma__doc_end(&chart);
+        const koksma__slopes slopes = {
+            name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s)};
         if (!status) {
-            const koksma__slopes slopes = {
-                name, (const char *const *)patterns(s)->at, trends, zeros, n, sizes(s)->n, sense_of(s)};
-            koksma__slopes_sentence(h, &slopes);
-            koksma__html_add(h, "%s", rows.text ? rows.text : "");
-            koksma__html_chart(h, &chart);
+            koksma__slopes_sentence(d, &slopes);
         }
-        h->failed |= rows.failed;
-        free(rows.text);
+        koksma__doc_append(d, &rows);
+        koksma__doc_append(d, &chart);
     }
-    free(chart.series);
     free(trends);
     free(zeros);
     return status;
 }
 
-koksma_status koksma__answer_slopes(koksma_study *study, koksma__html *h, const koksma__topic *topic)
+koksma_status koksma__answer_slopes(koksma_study *study, koksma__document *d, const koksma__topic *topic)
 {
     koksma_status status = KOKSMA_OK;
     size_t number = 0;
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
-        const koksma__discrepancy_block *d = topic->discrepancies[b];
-        const size_t warps = d->warps.n ? d->warps.n : 1;
-        for (size_t i = 0; !status && i < d->measures.n * warps; i++) {
-            const subject s = {.discrepancy = d,
-                               .measure = d->measures.at[i / warps],
-                               .warp = d->warps.n ? d->warps.at[i % warps] : ""};
-            status = add_subject(study, h, topic->id, ++number, &s);
+        const koksma__discrepancy_block *block = topic->discrepancies[b];
+        const size_t warps = block->warps.n ? block->warps.n : 1;
+        for (size_t i = 0; !status && i < block->measures.n * warps; i++) {
+            const subject s = {.discrepancy = block,
+                               .measure = block->measures.at[i / warps],
+                               .warp = block->warps.n ? block->warps.at[i % warps] : ""};
+            status = add_subject(study, d, topic->id, ++number, &s);
         }
     }
     for (size_t b = 0; b < topic->n_images; b++) {
@@ -286,7 +276,7 @@ koksma_status koksma__answer_slopes(koksma_study *study, koksma__html *h, const 
             const subject s = {.image = image,
                                .scene = image->scenes.at[i / image->variants.n],
                                .variant = image->variants.at[i % image->variants.n]};
-            status = add_subject(study, h, topic->id, ++number, &s);
+            status = add_subject(study, d, topic->id, ++number, &s);
         }
     }
     return status;

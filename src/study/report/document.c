@@ -1,0 +1,567 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The report's document model, written as JSON while it is built: no tree is kept, because blocks come in the order
+ * in which they are shown. What must be shown before something that is known earlier, such as a sentence before the
+ * table that it sums up, is gathered in a document of its own and appended (koksma__doc_append).
+ * docs/report-format.md says what every member means, docs/report.schema.json says it to programs; a change of either
+ * needs this file, those two and the page (page/report.mjs).
+ *
+ * Words are a list of runs: a text, or an object with a style or with the value of a number. A run stays open while
+ * words of the same style follow.
+ */
+#include "study/report/document.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+
+void koksma__doc_append(koksma__document *d, koksma__document *part)
+{
+    if (part->json.status && !d->json.status) {
+        d->json.status = part->json.status;
+    }
+    if (part->json.size && !part->json.status) {
+        koksma__json_write_json(&d->json, NULL, part->json.text);
+    }
+    koksma__json_writer_fini(&part->json);
+}
+
+bool koksma__doc_is_empty(const koksma__document *d)
+{
+    return !d->json.size && !d->json.status;
+}
+
+/* The fewest of 15 to 17 digits that read back as the same number; null for one that is not finite. */
+static void put_number(koksma__document *d, const char *key, double value)
+{
+    int digits = 15;
+    for (char text[40]; digits < 17; digits++) {
+        koksma__snprintf(text, sizeof text, "%.*g", digits, value);
+        if (koksma__strtod(text, NULL) == value) {
+            break;
+        }
+    }
+    koksma__json_write_rounded(&d->json, key, value, digits);
+}
+
+/* Members that are there. */
+static void put_text(koksma__document *d, const char *key, const char *text)
+{
+    if (text) {
+        koksma__json_write_text(&d->json, key, text);
+    }
+}
+
+static void put_flag(koksma__document *d, const char *key, bool flag)
+{
+    if (flag) {
+        koksma__json_write_flag(&d->json, key, flag);
+    }
+}
+
+/* ---- Words ------------------------------------------------------------------------------------------------- */
+
+static const char *name_of_style(char style)
+{
+    return style == '`' ? "code" : style == '*' ? "strong" : style == '_' ? "em" : style == '^' ? "sup" : NULL;
+}
+
+static void end_run(koksma__document *d)
+{
+    if (d->in_text) {
+        koksma__json_end_text(&d->json);
+        if (d->style) {
+            koksma__json_end(&d->json);
+        }
+    }
+    d->in_text = false;
+}
+
+static void add_words(koksma__document *d, const char *text)
+{
+    if (*text && !d->in_text) {
+        if (d->style) {
+            koksma__json_begin_object(&d->json, NULL);
+            put_text(d, "style", name_of_style(d->style));
+        }
+        koksma__json_begin_text(&d->json, d->style ? "text" : NULL);
+        d->in_text = true;
+    }
+    koksma__json_add_text(&d->json, text);
+}
+
+static void add_value(koksma__document *d, double value, const char *text)
+{
+    end_run(d);
+    koksma__json_begin_object(&d->json, NULL);
+    put_text(d, "style", name_of_style(d->style));
+    koksma__json_write_text(&d->json, "text", text);
+    put_number(d, "value", value);
+    koksma__json_end(&d->json);
+}
+
+/* One conversion of koksma__doc_say. */
+typedef struct conversion {
+    bool sign;
+    int precision, longs;
+    bool is_size;
+    char type;
+} conversion;
+
+/* Reads what follows a '%' and returns what follows that. */
+static const char *read_conversion(const char *at, conversion *c)
+{
+    *c = (conversion){.precision = 6};
+    c->sign = *at == '+';
+    at += c->sign;
+    if (*at == '.') {
+        char *end;
+        c->precision = (int)strtol(at + 1, &end, 10);
+        at = end;
+    }
+    for (; *at == 'l' || *at == 'z'; at++) {
+        c->longs += *at == 'l';
+        c->is_size |= *at == 'z';
+    }
+    c->type = *at;
+    return at + 1;
+}
+
+static void add_whole(koksma__document *d, const conversion *c, long long value)
+{
+    char text[32];
+    snprintf(text, sizeof text, c->sign ? "%+lld" : "%lld", value);
+    add_value(d, (double)value, text);
+}
+
+static void add_real(koksma__document *d, const conversion *c, double value)
+{
+    char text[400];
+    if (c->type == 'f') {
+        koksma__snprintf(text, sizeof text, c->sign ? "%+.*f" : "%.*f", c->precision, value);
+    } else {
+        koksma__snprintf(text, sizeof text, c->sign ? "%+.*g" : "%.*g", c->precision, value);
+    }
+    add_value(d, value, text);
+}
+
+/* What a conversion asks for, of the next argument. */
+static void say_argument(koksma__document *d, const conversion *c, va_list *arguments)
+{
+    if (c->type == 's') {
+        add_words(d, va_arg(*arguments, const char *));
+    } else if (c->type == 'f' || c->type == 'g') {
+        add_real(d, c, va_arg(*arguments, double));
+    } else if (c->is_size) {
+        add_whole(d, c, (long long)va_arg(*arguments, size_t));
+    } else if (c->longs == 2) {
+        add_whole(d, c, va_arg(*arguments, long long));
+    } else {
+        add_whole(d, c, va_arg(*arguments, int));
+    }
+}
+
+static void say(koksma__document *d, const char *format, va_list *arguments)
+{
+    for (const char *at = format; *at;) {
+        char plain[128];
+        const size_t run = strcspn(at, "%`*_^");
+        size_t n = run < sizeof plain ? run : sizeof plain - 1;
+        while (n < run && (at[n] & 0xc0) == 0x80) { /* no character is cut */
+            n--;
+        }
+        memcpy(plain, at, n);
+        plain[n] = '\0';
+        add_words(d, plain);
+        at += n;
+        if (n < run) {
+            continue;
+        }
+        if (at[0] == '%' && at[1] == '%') {
+            add_words(d, "%");
+            at += 2;
+        } else if (*at == '%') {
+            conversion c;
+            at = read_conversion(at + 1, &c);
+            say_argument(d, &c, arguments);
+        } else if (*at) {
+            end_run(d);
+            d->style = d->style == *at ? 0 : *at;
+            at++;
+        }
+    }
+}
+
+void koksma__doc_say(koksma__document *d, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    say(d, format, &arguments);
+    va_end(arguments);
+}
+
+/* ---- Blocks ------------------------------------------------------------------------------------------------ */
+
+static void begin_block(koksma__document *d, const char *kind, const char *id)
+{
+    d->json.in_html = true;
+    koksma__json_break(&d->json);
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "kind", kind);
+    put_text(d, "id", id);
+}
+
+static void end_words(koksma__document *d)
+{
+    end_run(d);
+    d->style = 0;
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_section_begin(koksma__document *d, const char *id, bool collapsed)
+{
+    begin_block(d, "section", id);
+    put_flag(d, "collapsed", collapsed);
+    koksma__json_begin_array(&d->json, "heading");
+}
+
+void koksma__doc_section_body(koksma__document *d)
+{
+    end_words(d);
+    koksma__json_begin_array(&d->json, "content");
+}
+
+void koksma__doc_end(koksma__document *d)
+{
+    koksma__json_end(&d->json);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_section(koksma__document *d, const char *id, const char *heading)
+{
+    koksma__doc_section_begin(d, id, false);
+    koksma__doc_say(d, "%s", heading);
+    koksma__doc_section_body(d);
+}
+
+void koksma__doc_paragraph_begin(koksma__document *d)
+{
+    begin_block(d, "paragraph", NULL);
+    koksma__json_begin_array(&d->json, "text");
+}
+
+void koksma__doc_paragraph_end(koksma__document *d)
+{
+    end_words(d);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_paragraph(koksma__document *d, const char *format, ...)
+{
+    va_list arguments;
+    koksma__doc_paragraph_begin(d);
+    va_start(arguments, format);
+    say(d, format, &arguments);
+    va_end(arguments);
+    koksma__doc_paragraph_end(d);
+}
+
+void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered)
+{
+    begin_block(d, "list", id);
+    koksma__json_write_flag(&d->json, "numbered", numbered);
+    koksma__json_begin_array(&d->json, "items");
+    d->in_rows = false;
+}
+
+void koksma__doc_item(koksma__document *d)
+{
+    if (d->in_rows) {
+        end_words(d);
+    }
+    koksma__json_begin_array(&d->json, NULL);
+    d->in_rows = true;
+}
+
+void koksma__doc_list_end(koksma__document *d)
+{
+    if (d->in_rows) {
+        end_words(d);
+    }
+    koksma__json_end(&d->json);
+    koksma__json_end(&d->json);
+}
+
+/* ---- Tables ------------------------------------------------------------------------------------------------ */
+
+void koksma__doc_table_begin(koksma__document *d, const char *name)
+{
+    begin_block(d, "table", NULL);
+    koksma__json_write_text(&d->json, "name", name);
+    koksma__json_begin_array(&d->json, "columns");
+    d->in_rows = false;
+}
+
+void koksma__doc_column(koksma__document *d, const koksma__column *c)
+{
+    static const char *const types[] = {[KOKSMA__COLUMN_TEXT] = "text",
+                                        [KOKSMA__COLUMN_NUMBER] = "number",
+                                        [KOKSMA__COLUMN_INTERVAL] = "interval",
+                                        [KOKSMA__COLUMN_SPREAD] = "spread",
+                                        [KOKSMA__COLUMN_VERDICT] = "verdict"};
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "name", c->name);
+    koksma__json_write_text(&d->json, "type", types[c->type]);
+    put_text(d, "title", c->title);
+    put_text(d, "group", c->group);
+    if (c->digits) {
+        put_number(d, c->fixed ? "decimals" : "digits", c->digits);
+    }
+    put_flag(d, "hidden", c->hidden);
+    put_flag(d, "merged", c->merged);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_head(koksma__document *d, const char *name)
+{
+    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_TEXT});
+}
+
+void koksma__doc_head_number(koksma__document *d, const char *name, int digits)
+{
+    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_NUMBER, .digits = digits});
+}
+
+void koksma__doc_head_interval(koksma__document *d, const char *name, int digits)
+{
+    koksma__doc_column(d, &(koksma__column){.name = name, .type = KOKSMA__COLUMN_INTERVAL, .digits = digits});
+}
+
+void koksma__doc_row(koksma__document *d)
+{
+    koksma__json_end(&d->json);
+    if (!d->in_rows) {
+        koksma__json_begin_array(&d->json, "rows");
+    }
+    d->in_rows = true;
+    koksma__json_begin_array(&d->json, NULL);
+}
+
+void koksma__doc_text(koksma__document *d, const char *text)
+{
+    koksma__json_write_text(&d->json, NULL, text);
+}
+
+void koksma__doc_number(koksma__document *d, double value)
+{
+    put_number(d, NULL, value);
+}
+
+void koksma__doc_interval(koksma__document *d, koksma__estimate e)
+{
+    koksma__json_begin_array(&d->json, NULL);
+    koksma__doc_number(d, e.value);
+    koksma__doc_number(d, e.low);
+    koksma__doc_number(d, e.high);
+    koksma__json_end(&d->json);
+}
+
+koksma__cell_data koksma__cell_of(double value)
+{
+    return (koksma__cell_data){.value = value, .low = NAN, .high = NAN, .sd = NAN, .z = NAN, .change = NAN};
+}
+
+/* A member that is known. */
+static void put_known(koksma__document *d, const char *key, double value)
+{
+    if (!isnan(value)) {
+        put_number(d, key, value);
+    }
+}
+
+void koksma__doc_cell(koksma__document *d, const koksma__cell_data *c)
+{
+    koksma__json_begin_object(&d->json, NULL);
+    put_known(d, "value", c->value);
+    put_known(d, "low", c->low);
+    put_known(d, "high", c->high);
+    put_known(d, "sd", c->sd);
+    put_known(d, "z", c->z);
+    put_known(d, "change", c->change);
+    put_known(d, "sets", c->sets ? (double)c->sets : (double)NAN);
+    put_known(d, "note", c->note ? (double)c->note : (double)NAN);
+    put_text(d, "text", c->text);
+    put_text(d, "verdict", c->verdict);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_table_end(koksma__document *d)
+{
+    koksma__json_end(&d->json);
+    if (d->in_rows) {
+        koksma__json_end(&d->json);
+    } else {
+        koksma__json_begin_array(&d->json, "rows");
+        koksma__json_end(&d->json);
+    }
+    koksma__json_end(&d->json);
+}
+
+/* ---- Charts ------------------------------------------------------------------------------------------------ */
+
+static void put_axis(koksma__document *d, const char *key, const char *title, bool is_log)
+{
+    koksma__json_begin_object(&d->json, key);
+    koksma__json_write_text(&d->json, "title", title);
+    koksma__json_write_flag(&d->json, "log", is_log);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_chart_begin(koksma__document *d, const koksma__chart *c)
+{
+    begin_block(d, "chart", NULL);
+    koksma__json_write_text(&d->json, "title", c->title);
+    put_axis(d, "x", c->x_title, c->log_x);
+    put_axis(d, "y", c->y_title, c->log_y);
+    koksma__json_begin_array(&d->json, "series");
+}
+
+void koksma__doc_series_begin(koksma__document *d, const char *label, koksma__series_style style)
+{
+    static const char *const styles[] = {[KOKSMA__SERIES_LINE] = "line",
+                                         [KOKSMA__SERIES_MARKS] = "marks",
+                                         [KOKSMA__SERIES_THEORY] = "theory",
+                                         [KOKSMA__SERIES_HOLLOW] = "hollow"};
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "label", label);
+    koksma__json_write_text(&d->json, "style", styles[style]);
+    koksma__json_begin_array(&d->json, "points");
+}
+
+void koksma__doc_point(koksma__document *d, double x, double y, double low, double high)
+{
+    koksma__json_begin_array(&d->json, NULL);
+    koksma__doc_number(d, x);
+    koksma__doc_number(d, y);
+    if (low < high) {
+        koksma__doc_number(d, low);
+        koksma__doc_number(d, high);
+    }
+    koksma__json_end(&d->json);
+}
+
+/* ---- Figures and pictures ---------------------------------------------------------------------------------- */
+
+void koksma__doc_figure_begin(koksma__document *d, const char *id)
+{
+    begin_block(d, "figure", id);
+    koksma__json_begin_array(&d->json, "images");
+}
+
+/* The members that images and drawings have in common. */
+static void begin_image(koksma__document *d, const char *type, int width, int height, const char *alt)
+{
+    koksma__json_begin_object(&d->json, NULL);
+    put_text(d, "type", type);
+    put_number(d, "width", width);
+    put_number(d, "height", height);
+    put_text(d, "alt", alt);
+}
+
+static void put_image(koksma__document *d, const unsigned char *bytes, size_t size)
+{
+    koksma__json_write_bytes(&d->json, "data", bytes, size);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_svg(koksma__document *d, const unsigned char *svg, size_t size, int width, const char *alt)
+{
+    begin_image(d, "image/svg+xml", width, width, alt);
+    put_image(d, svg, size);
+}
+
+koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, int scale, const char *alt)
+{
+    unsigned char *bytes;
+    size_t size;
+    const koksma_status status = koksma_image_png_bytes(image, &bytes, &size);
+    if (!status) {
+        begin_image(d, "image/png", image->width * scale, image->height * scale, alt);
+        put_image(d, bytes, size);
+        free(bytes);
+    }
+    return status;
+}
+
+static void put_numbers(koksma__document *d, const char *key, const double *values, size_t n)
+{
+    koksma__json_begin_array(&d->json, key);
+    for (size_t i = 0; i < n; i++) {
+        koksma__doc_number(d, values[i]);
+    }
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_drawing_begin(koksma__document *d, int width, const double view[4], const char *alt)
+{
+    begin_image(d, "drawing", width, width, alt);
+    put_numbers(d, "view", view, 4);
+    koksma__json_begin_array(&d->json, "shapes");
+}
+
+void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, double y1)
+{
+    put_numbers(d, NULL, (const double[]){x0, y0, x1, y1}, 4);
+}
+
+void koksma__doc_dot(koksma__document *d, double x, double y)
+{
+    put_numbers(d, NULL, (const double[]){x, y}, 2);
+}
+
+void koksma__doc_caption(koksma__document *d)
+{
+    koksma__json_end(&d->json);
+    koksma__json_begin_array(&d->json, "caption");
+}
+
+void koksma__doc_figure_end(koksma__document *d)
+{
+    end_words(d);
+    koksma__json_end(&d->json);
+}
+
+void koksma__doc_pictures_begin(koksma__document *d, const char *scene, int width, int height)
+{
+    begin_block(d, "pictures", NULL);
+    koksma__json_write_text(&d->json, "scene", scene);
+    put_number(d, "width", width);
+    put_number(d, "height", height);
+    koksma__json_begin_array(&d->json, "images");
+}
+
+void koksma__doc_picture(koksma__document *d, const koksma_image *image, const char *name)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    unsigned char *bytes = malloc(4 * n);
+    if (!bytes && !d->json.status) {
+        d->json.status = koksma__fail_memory(4 * n);
+    }
+    for (size_t i = 0; bytes && i < n; i++) {
+        uint32_t bits;
+        memcpy(&bits, &image->pixels[i], sizeof bits);
+        for (int k = 0; k < 4; k++) {
+            bytes[4 * i + (size_t)k] = (unsigned char)(bits >> 8 * k);
+        }
+    }
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "name", name);
+    put_number(d, "channels", image->channels);
+    koksma__json_write_bytes(&d->json, "pixels", bytes, bytes ? 4 * n : 0);
+    koksma__json_end(&d->json);
+    free(bytes);
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Every number of a report that comes from the store is asked for here: a series is looked up by its key, its trials
+ * below the plan's number are read, and they are summed up as a mean with an interval (koksma__summarize). Nothing is
+ * kept between calls; SQLite keeps the pages that are asked for again.
+ */
+#include "study/report/means.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "study/run/tasks.h"
+
+koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,
+                                     koksma__result **results, size_t *n)
+{
+    long long id;
+    koksma_status status = koksma__store_series(study->store, series, false, &id);
+    status = status ? status : koksma__store_results(study->store, id, trials, results, n);
+    if (!status && !*results) {
+        *results = calloc(1, sizeof **results);
+        status = *results ? KOKSMA_OK : koksma__fail_memory(sizeof **results);
+    }
+    return status;
+}
+
+koksma__summary koksma__summarize_sets(const char *pattern, const koksma__result *results, size_t n)
+{
+    return n == 1 && koksma__has_one_set(pattern) ? koksma__exactly(results->values[0])
+                                                  : koksma__summarize(results->values, n, KOKSMA__RESULT_STRIDE);
+}
+
+/* sets: of point sets, not of images, which a pattern without other sets makes differ all the same. */
+static koksma_status mean_of(koksma_study *study, const koksma__series *series, bool sets, long long trials,
+                             koksma__result **results, koksma__summary *mean)
+{
+    koksma__result *found;
+    size_t n;
+    const koksma_status status = koksma__series_results(study, series, trials, &found, &n);
+    if (status) {
+        return status;
+    }
+    *mean = sets ? koksma__summarize_sets(series->pattern, found, n)
+                 : koksma__summarize(found->values, n, KOKSMA__RESULT_STRIDE);
+    if (results) {
+        *results = found;
+    } else {
+        free(found);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__discrepancy_mean(koksma_study *study, const koksma__discrepancy_block *block, const char *warp,
+                                       const char *pattern, long long n, const char *measure,
+                                       koksma__result **results, koksma__summary *mean)
+{
+    const koksma__series series = {.kind = "discrepancy",
+                                   .scene = "",
+                                   .scene_hash = "",
+                                   .options = warp,
+                                   .pattern = pattern,
+                                   .what = measure,
+                                   .n = n,
+                                   .dim = block->dim};
+    return mean_of(study, &series, true, block->trials, results, mean);
+}
+
+koksma_status koksma__image_mean(koksma_study *study, const koksma__image_block *block, const char *scene,
+                                 const char *variant, const char *pattern, long long spp, koksma__result **results,
+                                 koksma__summary *mean)
+{
+    const koksma__study_scene *s = koksma__study_scene_of(study, scene);
+    char name[KOKSMA__REFERENCE_NAME];
+    int width, height;
+    koksma__block_size(block, s, &width, &height);
+    koksma__reference_name(&block->references[block->n_references - 1], name);
+    const koksma__series series = {.kind = "image",
+                                   .scene = s->name,
+                                   .scene_hash = s->hash,
+                                   .options = variant,
+                                   .pattern = pattern,
+                                   .what = name,
+                                   .n = spp,
+                                   .width = width,
+                                   .height = height};
+    return mean_of(study, &series, false, block->trials, results, mean);
+}
+
+koksma_status koksma__reference_error(koksma_study *study, const koksma__image_block *block, const char *scene,
+                                      const char *variant, double *error)
+{
+    size_t index;
+    char name[KOKSMA__REFERENCE_NAME];
+    const koksma_status status = koksma__reference_index(study, block, koksma__study_scene_of(study, scene), variant,
+                                                         block->n_references - 1, &index);
+    *error = NAN;
+    if (status) {
+        return status;
+    }
+    const koksma__series key = koksma__reference_key(&study->references[index], name);
+    return koksma__store_reference(study->store, &key, error);
+}
+
+koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,
+                                    const char *scene, const char *variant)
+{
+    double error;
+    const koksma__reference *r = &block->references[block->n_references - 1];
+    const koksma_status status = koksma__reference_error(study, block, scene, variant, &error);
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d,
+                    "Mean absolute errors against the reference _%s_, the mean of %lld renders with %lld samples a "
+                    "pixel of %s; ",
+                    r->name, r->replicates, r->spp, r->pattern);
+    if (isfinite(error)) {
+        koksma__doc_say(d, "its own error is about %.2g", error);
+    } else {
+        koksma__doc_say(d, "its own error is not known");
+    }
+    koksma__doc_say(d, ". Up to %lld trials.", block->trials);
+    if (block->n_references > 1) {
+        koksma__doc_say(d, " `koksma study export` has the errors against the plan's other references.");
+    }
+    koksma__doc_paragraph_end(d);
+    return status;
+}
+
+void koksma__case_name(const char *scene, const char *variant, char *text, size_t size)
+{
+    snprintf(text, size, "%s%s%s", scene, variant[0] ? ", " : "", variant);
+}
+
+koksma__estimate koksma__estimate_of(const koksma__summary *s)
+{
+    return (koksma__estimate){s->mean, s->low, s->high};
+}

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the tables of papers have in common in a report: a row begins with its label and the printed numbers, each
+ * with the number of its note, and has ours with the verdict on the printed mean. Behind the table come its notes,
+ * and what its values of z say together: under chance alone their sum over the root of k is normal, and the sum of
+ * their squares is chi-squared with k degrees of freedom.
+ */
+#include "study/report/published_columns.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "stats/quantiles.h"
+
+void koksma__published_begin(koksma__document *d, const koksma__table *t)
+{
+    char id[96];
+    snprintf(id, sizeof id, "table-%.80s", t->id);
+    koksma__doc_section_begin(d, id, false);
+    koksma__doc_say(d, "Table %s: %s", t->id, t->title);
+    koksma__doc_section_body(d);
+    koksma__doc_table_begin(d, id);
+}
+
+void koksma__published_end(koksma__document *d, const koksma__table *t)
+{
+    koksma__doc_table_end(d);
+    if (t->n_notes) {
+        koksma__doc_list_begin(d, NULL, true);
+        for (size_t i = 0; i < t->n_notes; i++) {
+            koksma__doc_item(d);
+            koksma__doc_say(d, "%s", t->notes[i].reason);
+        }
+        koksma__doc_list_end(d);
+    }
+}
+
+void koksma__published_columns(koksma__document *d, const char *group)
+{
+    static const char *const names[3][2] = {
+        {"published mean", "ave"}, {"published SD", "SD"}, {"published max", "max"}};
+    koksma__doc_column(d, &(koksma__column){.name = "row", .title = "pattern"});
+    koksma__doc_column(d, &(koksma__column){.name = "pattern", .hidden = true});
+    for (int i = 0; i < 3; i++) {
+        koksma__doc_column(d, &(koksma__column){names[i][0], names[i][1], group, KOKSMA__COLUMN_NUMBER, .digits = 4});
+    }
+}
+
+void koksma__published_row(koksma__document *d, const koksma__table *t, const koksma__table_row *row)
+{
+    koksma__doc_row(d);
+    koksma__doc_text(d, row->label);
+    koksma__doc_text(d, row->pattern);
+    for (int s = 0; s < 3; s++) {
+        koksma__published_cell(d, &row->published[s], koksma__table_note(t, row->pattern, 0, s));
+    }
+}
+
+void koksma__published_cell(koksma__document *d, const koksma__printed *printed, size_t note)
+{
+    if (isnan(printed->value)) {
+        koksma__doc_number(d, NAN);
+        return;
+    }
+    koksma__cell_data cell = koksma__cell_of(printed->value);
+    cell.text = printed->text;
+    cell.note = note;
+    koksma__doc_cell(d, &cell);
+}
+
+void koksma__published_mean(koksma__document *d, const koksma__summary *mean, size_t sets, const koksma__verdict *v)
+{
+    koksma__cell_data cell = koksma__cell_of(mean->mean);
+    cell.low = mean->low;
+    cell.high = mean->high;
+    cell.sets = sets;
+    if (v) {
+        cell.note = v->kind == KOKSMA_VERDICT_EXPLAINED ? v->note : 0;
+        cell.verdict = koksma_study_verdict_name(v->kind);
+        cell.z = v->z;
+        cell.change = v->ratio;
+    }
+    koksma__doc_cell(d, &cell);
+}
+
+void koksma__published_verdict(koksma__document *d, const koksma__verdict *v)
+{
+    koksma__published_mean(d, &(koksma__summary){.mean = NAN, .low = NAN, .high = NAN}, 0, v);
+}
+
+void koksma__published_add_z(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
+{
+    /* sets that are all the same differ by rounding alone */
+    if (isfinite(v->z) && cell->sd > 0 && v->kind != KOKSMA_VERDICT_EXPLAINED) {
+        sums->count++;
+        sums->sum += v->z;
+        sums->squares += v->z * v->z;
+    }
+}
+
+void koksma__published_say_z(koksma__document *d, const koksma__z_sums *z)
+{
+    if (z->count > 1) {
+        const double k = (double)z->count, limit = koksma__chi_squared_quantile(0.95, k);
+        koksma__doc_paragraph(d,
+                              "The %zu values of z together: their sum over √%zu is %+.1f (by chance between -2 and "
+                              "+2 in 95 %% of tables; beyond, all means are off to one side), and the sum of their "
+                              "squares is %.1f (by chance below %.1f in 95 %%).",
+                              z->count, z->count, z->sum / sqrt(k), z->squares, limit);
+    }
+}

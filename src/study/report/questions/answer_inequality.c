@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Koksma's inequality shown: the error of the mean of f over N points is at most V(f) D*_N (Koksma 1942; in the plane
+ * Hlawka 1961, with the variation of Hardy and Krause). One set a pattern and number of points, seed 0, made here: it
+ * takes no rows. Functions of x alone see the points' first coordinates, and their star discrepancy.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+#include "core/sum.h"
+#include "study/report/integrands.h"
+#include "study/report/questions/topic.h"
+
+enum { MAX_POINTS = 4096 };
+
+/* What all rows have to say together. */
+typedef struct verdict {
+    size_t cases, beyond, no_use, infinite; /* no_use: V(f) D* is finite, but above every error that f can have */
+    double closest;
+    char where[KOKSMA_MAX_SPEC + 128];
+} verdict;
+
+static koksma_status star_of(const koksma_points *points, double *star)
+{
+    koksma_spec spec;
+    koksma_value value = {0};
+    koksma_status status = koksma_measure_spec("star", &spec);
+    status = status ? status : koksma_evaluate(&spec, points, NULL, &value);
+    *star = value.value;
+    return status;
+}
+
+/* The points' first coordinates. */
+static koksma_status on_line(const koksma_points *points, koksma_points *line)
+{
+    const koksma_status status = koksma_points_init(line, points->n, 1);
+    for (size_t i = 0; !status && i < points->n; i++) {
+        line->xs[i] = points->xs[i * (size_t)points->dim];
+    }
+    return status;
+}
+
+static double error_of(const koksma__integrand *f, const koksma_points *points)
+{
+    koksma__sum sum = {0};
+    for (size_t i = 0; i < points->n; i++) {
+        koksma__sum_add(&sum, f->at(points->xs + i * (size_t)points->dim));
+    }
+    return fabs(koksma__sum_value(&sum) / (double)points->n - f->integral);
+}
+
+static void add_row(koksma__document *d, verdict *all, const char *pattern, const koksma_points *points,
+                    const koksma__integrand *f, double star)
+{
+    const double error = error_of(f, points), bound = f->variation * star;
+    koksma__doc_row(d);
+    koksma__doc_text(d, f->title);
+    koksma__doc_text(d, pattern);
+    koksma__doc_number(d, (double)points->n);
+    koksma__doc_number(d, star);
+    koksma__doc_number(d, error);
+    if (isinf(f->variation)) {
+        koksma__doc_text(d, "infinite");
+        koksma__doc_text(d, "infinite");
+        koksma__doc_text(d, "");
+        all->infinite++;
+        return;
+    }
+    koksma__doc_number(d, f->variation);
+    koksma__doc_number(d, bound);
+    koksma__doc_number(d, error / bound);
+    all->cases++;
+    all->beyond += error > bound * (1 + 1e-12) + 1e-15;
+    all->no_use += bound >= f->range;
+    if (error / bound > all->closest) {
+        all->closest = error / bound;
+        snprintf(all->where, sizeof all->where, "%s over %zu points of %.400s", f->title, points->n, pattern);
+    }
+}
+
+static koksma_status add_set(koksma__document *d, verdict *all, const char *pattern, long long n, int dim)
+{
+    koksma_spec spec;
+    koksma_points points = {0}, line = {0};
+    double star = 0, star_on_line = 0;
+    koksma_status status = koksma_pattern_spec(pattern, &spec);
+    status = status ? status : koksma_points_init(&points, (size_t)n, dim);
+    status = status ? status : koksma_generate(&spec, 0, NULL, &points);
+    status = status ? status : on_line(&points, &line);
+    status = status ? status : star_of(&points, &star);
+    status = status ? status : star_of(&line, &star_on_line);
+    for (size_t i = 0; !status && koksma__integrand_at(i); i++) {
+        const koksma__integrand *f = koksma__integrand_at(i);
+        if (f->dim <= dim) {
+            add_row(d, all, pattern, f->dim == 1 ? &line : &points, f, f->dim == 1 ? star_on_line : star);
+        }
+    }
+    koksma_points_fini(&points);
+    koksma_points_fini(&line);
+    return status;
+}
+
+static void add_heads(koksma__document *d)
+{
+    koksma__doc_head(d, "f");
+    koksma__doc_head(d, "pattern");
+    koksma__doc_head_number(d, "N", 6);
+    koksma__doc_head_number(d, "D*", 3);
+    koksma__doc_head_number(d, "|error|", 3);
+    koksma__doc_head_number(d, "V(f)", 3);
+    koksma__doc_head_number(d, "V(f) D*", 3);
+    koksma__doc_head_number(d, "|error| / V(f) D*", 2);
+}
+
+static void say_verdict(koksma__document *d, const verdict *all)
+{
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d,
+                    "Koksma's inequality: the mean of _f_ over N points differs from its integral by at most "
+                    "V(_f_) D%s, the variation of _f_ (in the plane that of Hardy and Krause) times the star "
+                    "discrepancy of the points. There is one set of each pattern here, with seed 0; functions of "
+                    "_x_ alone use the first coordinates. ",
+                    "*");
+    koksma__doc_say(d, "%zu of %zu errors are within the bound; the closest, at %.0f %% of it, is that of %s. ",
+                    all->cases - all->beyond, all->cases, 100 * all->closest, all->where);
+    if (all->infinite) {
+        koksma__doc_say(d,
+                        "The edge of an object in a picture is seldom along an axis: there the variation is infinite "
+                        "(%zu rows), and the inequality promises nothing, though the errors are as small. ",
+                        all->infinite);
+    }
+    if (all->no_use) {
+        koksma__doc_say(
+            d,
+            "In %zu rows the variation is finite, but the bound exceeds the whole range of f: no error can "
+            "be so large.",
+            all->no_use);
+    }
+    koksma__doc_paragraph_end(d);
+}
+
+koksma_status koksma__answer_inequality(koksma_study *study, koksma__document *d, const koksma__topic *topic)
+{
+    verdict all = {0};
+    koksma__document rows = {0};
+    char file[64];
+    koksma_status status = KOKSMA_OK;
+    (void)study;
+    snprintf(file, sizeof file, "inequality-%.32s", topic->id);
+    koksma__doc_table_begin(&rows, file);
+    add_heads(&rows);
+    for (size_t b = 0; b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *block = topic->discrepancies[b];
+        for (size_t i = 0; !status && block->dim <= 2 && i < block->n.n * block->patterns.n; i++) {
+            const long long n = block->n.at[i % block->n.n];
+            if (n <= MAX_POINTS) {
+                status = add_set(&rows, &all, block->patterns.at[i / block->n.n], n, block->dim);
+            }
+        }
+    }
+    koksma__doc_table_end(&rows);
+    if (!status && all.cases) {
+        say_verdict(d, &all);
+        koksma__doc_append(d, &rows);
+    }
+    status = status ? status : rows.json.status;
+    koksma__json_writer_fini(&rows.json);
+    return status;
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What options (of renders) and warps (of points) change: the relative difference to the first of them, paired by
+ * trial, because both see the same points. A row has a pattern and a number of points or samples of a case (a scene
+ * or a measure); a sentence for each option sums up its rows by the geometric mean of the ratios.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/report/means.h"
+#include "study/report/questions/topic.h"
+
+/* One comparison: option v of a pattern at n in a case against option 0. */
+typedef struct comparison {
+    size_t cases, better, worse, equal, unknown; /* equal: every trial bit for bit; unknown: without an interval */
+    double logs;                                 /* sum of the logs of the ratios */
+} comparison;
+
+typedef struct side {
+    koksma__result *results;
+    koksma__summary mean;
+} side;
+
+/* The values of trials that both sides have; *n: how many. */
+static koksma_status pair(const side *base, const side *other, double **values, size_t *n)
+{
+    const size_t room = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
+    *n = 0;
+    *values = malloc((2 * room + 1) * sizeof **values);
+    if (!*values) {
+        return koksma__fail_memory((2 * room + 1) * sizeof **values);
+    }
+    for (size_t i = 0, k = 0; i < base->mean.n && k < other->mean.n;) {
+        const koksma__result *a = &base->results[i], *b = &other->results[k];
+        if (a->trial == b->trial) {
+            (*values)[*n] = a->values[0];
+            (*values)[room + (*n)++] = b->values[0];
+        }
+        i += a->trial <= b->trial;
+        k += b->trial <= a->trial;
+    }
+    if (*n < room) { /* together again */
+        memmove(*values + *n, *values + room, *n * sizeof **values);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status compare(koksma__document *d, const side *base, const side *other, comparison *t)
+{
+    double *values;
+    size_t n;
+    const koksma_status status = pair(base, other, &values, &n);
+    if (status) {
+        return status;
+    }
+    koksma__estimate e = koksma__relative_change(values + n, values, n);
+    if (n == 1 && base->mean.low == base->mean.high && other->mean.low == other->mean.high) { /* they don't vary */
+        e.low = e.high = e.value;
+    }
+    koksma__doc_interval(d, e);
+    if (!isnan(e.value)) {
+        const bool equal = !memcmp(values, values + n, n * sizeof *values);
+        t->cases++;
+        t->better += e.high < 0;
+        t->worse += e.low > 0;
+        t->equal += equal;
+        t->unknown += !equal && isnan(e.low);
+        t->logs += log(1 + e.value);
+    }
+    free(values);
+    return KOKSMA_OK;
+}
+
+static const char *name_of(const char *option)
+{
+    return option[0] ? option : "defaults";
+}
+
+static void say_change(koksma__document *d, const char *base, const char *other, const comparison *t)
+{
+    if (!t->cases) {
+        return;
+    }
+    koksma__doc_paragraph_begin(d);
+    koksma__doc_say(d,
+                    "*%s instead of %s:* %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely "
+                    "larger in %zu, too close to tell in %zu",
+                    name_of(other), name_of(base), 100 * (exp(t->logs / (double)t->cases) - 1), t->cases, t->better,
+                    t->worse, t->cases - t->better - t->worse - t->equal - t->unknown);
+    if (t->equal) {
+        koksma__doc_say(d, ", equal bit for bit in %zu", t->equal);
+    }
+    if (t->unknown) {
+        koksma__doc_say(d, ", unknown in %zu with a single trial", t->unknown);
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
+}
+
+/* The rows of one case: patterns x n, the first option's value and the others' relative differences. */
+typedef struct option_case {
+    const char *name, *measure;
+    const koksma__texts *patterns, *options;
+    const koksma__wholes *n;
+    const koksma__image_block *image;
+    const koksma__discrepancy_block *discrepancy;
+} option_case;
+
+static koksma_status add_row(koksma_study *study, koksma__document *d, const option_case *c, const char *pattern,
+                             long long n, comparison *changes)
+{
+    side base = {0};
+    koksma_status status = KOKSMA_OK;
+    koksma__doc_row(d);
+    koksma__doc_text(d, c->image ? c->name : c->measure);
+    koksma__doc_text(d, pattern);
+    koksma__doc_number(d, (double)n);
+    for (size_t v = 0; !status && v < c->options->n; v++) {
+        side s = {0};
+        status = c->image ? koksma__image_mean(study, c->image, c->name, c->options->at[v], pattern, n, &s.results,
+                                               &s.mean)
+                          : koksma__discrepancy_mean(study, c->discrepancy, c->options->at[v], pattern, n, c->measure,
+                                                     &s.results, &s.mean);
+        if (!status && v == 0) {
+            base = s;
+            koksma__doc_interval(d, koksma__estimate_of(&s.mean));
+        } else if (!status) {
+            status = compare(d, &base, &s, &changes[v]);
+            free(s.results);
+        }
+    }
+    free(base.results);
+    return status;
+}
+
+static koksma_status add_case(koksma_study *study, koksma__document *d, const option_case *c, comparison *changes)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < c->patterns->n * c->n->n; i++) {
+        status = add_row(study, d, c, c->patterns->at[i / c->n->n], c->n->at[i % c->n->n], changes);
+    }
+    return status;
+}
+
+static void add_heads(koksma__document *d, const option_case *c)
+{
+    char text[KOKSMA__VARIANT_TEXT + 64];
+    koksma__doc_head(d, c->image ? "scene" : "measure");
+    koksma__doc_head(d, "pattern");
+    koksma__doc_head_number(d, "N", 7);
+    for (size_t v = 0; v < c->options->n; v++) {
+        snprintf(text, sizeof text, "%s%s", v ? "relative change: " : "", name_of(c->options->at[v]));
+        koksma__doc_head_interval(d, text, 3);
+    }
+}
+
+/* All cases of a block: its scenes, or its measures. */
+static koksma_status add_block(koksma_study *study, koksma__document *d, const char *id, size_t number,
+                               option_case *c)
+{
+    const koksma__texts *cases = c->image ? &c->image->scenes : &c->discrepancy->measures;
+    comparison *changes = calloc(c->options->n, sizeof *changes);
+    koksma__document rows = {0};
+    char name[64];
+    koksma_status status = changes ? KOKSMA_OK : koksma__fail_memory(c->options->n * sizeof *changes);
+    snprintf(name, sizeof name, "options-%.32s-%zu", id, number);
+    koksma__doc_table_begin(&rows, name);
+    add_heads(&rows, c);
+    for (size_t i = 0; !status && i < cases->n; i++) {
+        *(c->image ? &c->name : &c->measure) = cases->at[i];
+        status = add_case(study, &rows, c, changes);
+    }
+    koksma__doc_table_end(&rows);
+    for (size_t v = 1; !status && v < c->options->n; v++) {
+        say_change(d, c->options->at[0], c->options->at[v], &changes[v]);
+    }
+    koksma__doc_append(d, &rows);
+    free(changes);
+    return status;
+}
+
+koksma_status koksma__answer_options(koksma_study *study, koksma__document *d, const koksma__topic *topic)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t number = 0;
+    for (size_t b = 0; !status && b < topic->n_discrepancies; b++) {
+        const koksma__discrepancy_block *block = topic->discrepancies[b];
+        option_case c = {
+            .discrepancy = block, .patterns = &block->patterns, .options = &block->warps, .n = &block->n};
+        status = block->warps.n > 1 ? add_block(study, d, topic->id, ++number, &c) : KOKSMA_OK;
+    }
+    for (size_t b = 0; !status && b < topic->n_images; b++) {
+        const koksma__image_block *i = topic->images[b];
+        option_case c = {.image = i, .patterns = &i->patterns, .options = &i->variants, .n = &i->spp};
+        status = i->variants.n > 1 ? add_block(study, d, topic->id, ++number, &c) : KOKSMA_OK;
+    }
+    return status;
+}

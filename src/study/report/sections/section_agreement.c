@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How many of the published means agree with ours: the verdicts of all tables of the study (koksma__table_judge),
+   counted. A table over several numbers of points has a mean a column, others have one a row. */
+#include <string.h>
+
+#include "study/report/published_tables.h"
+#include "study/report/report.h"
+
+static bool is_shown(const koksma__report_scope *scope)
+{
+    return scope->study->plan.n_tables > 0;
+}
+
+/* Counts the verdicts of a row by their kind. */
+static koksma_status count_row(koksma_study *study, const koksma__table *t, const koksma__table_row *row,
+                               size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t column = 0; !status && column < t->n.n; column++) {
+        koksma__cell cell;
+        status = t->scene ? koksma__table_image(study, t, &koksma__table_images(study, t)->references[0],
+                                                row->pattern, &cell)
+                          : koksma__table_discrepancy(study, t, t->measure, row->pattern, t->n.at[column], &cell);
+        if (!status) {
+            counts[koksma__table_judge(t, row, column, &cell).kind]++;
+        }
+    }
+    return status;
+}
+
+static const char *verb(size_t n)
+{
+    return n == 1 ? "differs" : "differ";
+}
+
+static void say_counts(koksma__document *d, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
+{
+    const size_t agree = counts[KOKSMA_VERDICT_AGREES], fitted = counts[KOKSMA_VERDICT_FITTED],
+                 explained = counts[KOKSMA_VERDICT_EXPLAINED], unexplained = counts[KOKSMA_VERDICT_UNEXPLAINED];
+    koksma__doc_say(d, "%zu of %zu published means agree", agree, agree + fitted + explained + unexplained);
+    if (fitted) {
+        koksma__doc_say(d,
+                        "; %zu agree within %.0f %% in scenes that were fitted to the published numbers, which "
+                        "confirms nothing",
+                        fitted, 100 * KOKSMA__IMAGE_TOLERANCE);
+    }
+    if (explained) {
+        koksma__doc_say(d, "; %zu %s for a known reason (notes)", explained, verb(explained));
+    }
+    if (unexplained) {
+        koksma__doc_say(d, "; %zu %s for an unknown reason", unexplained, verb(unexplained));
+    }
+    koksma__doc_say(d, ".");
+}
+
+static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
+{
+    size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1] = {0};
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < scope->study->plan.n_tables; i++) {
+        const koksma__table *t = &scope->study->plan.tables[i];
+        for (size_t r = 0; !status && r < t->n_rows; r++) {
+            status = count_row(scope->study, t, &t->rows[r], counts);
+        }
+    }
+    const size_t waiting = counts[KOKSMA_VERDICT_WAITING];
+    if (counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED] + counts[KOKSMA_VERDICT_EXPLAINED] +
+        counts[KOKSMA_VERDICT_UNEXPLAINED]) {
+        koksma__doc_paragraph_begin(d);
+        say_counts(d, counts);
+        koksma__doc_paragraph_end(d);
+    }
+    if (waiting) {
+        koksma__doc_paragraph(d, "%zu published mean%s too few trials yet to be compared.", waiting,
+                              waiting == 1 ? " has" : "s have");
+    }
+    return status;
+}
+
+const koksma__section koksma__section_agreement = {"Agreement with the published means", false, is_shown, write};

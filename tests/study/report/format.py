@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""format.py KOKSMA: a report for every kind of question (src/study/plan/questions.def), asked by name, and for every section
+(sections.def). Each report.json must be as docs/report.schema.json says and have the answer or the section; the page must
+hold the same text; the same rows must give the same bytes; a study of blocks that a question can't be answered from must
+say what it takes. Documents and error messages must name every kind of question."""
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+KOKSMA = Path(sys.argv[1]).resolve()
+PATTERNS = ["random", "jittered", "n-rooks", "regular", "halton", "sobol", "zaremba"]
+POINTS = {"id": "d", "patterns": PATTERNS, "measures": ["star", "l2-star"], "n": [4, 16, 64], "trials": 3}
+IMAGES = {"id": "i", "scenes": ["checker", "ball"], "patterns": PATTERNS, "spp": [4, 16, 64], "size": [8, 6], "trials": 3,
+          "options": {"filter": ["box", "tent"]}, "references": [{"name": "c", "pattern": "jittered", "spp": 64}]}
+problems = 0
+
+
+def complain(text):
+    global problems
+    problems += 1
+    print(text)
+
+
+def lines_of(table, macro):
+    text = (ROOT / "src/study" / table).read_text()
+    return re.findall(r"^%s\((\w+)" % macro, text, re.M)
+
+
+# ---- The part of JSON Schema (2020-12) that docs/report.schema.json uses
+
+TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
+KNOWN = {"$schema", "$defs", "$ref", "title", "type", "required", "additionalProperties", "properties", "const", "enum", "oneOf",
+         "items", "minItems", "maxItems", "minimum", "pattern"}
+
+
+def is_of(value, name):
+    if name in ("number", "integer"):
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and (name == "number" or value == int(value))
+    return isinstance(value, TYPES[name])
+
+
+def errors(value, schema, root, at="report"):
+    """What is wrong with the value; nothing: it is as the schema says."""
+    assert set(schema) <= KNOWN, f"a word that this validator does not know: {set(schema) - KNOWN}"
+    if "$ref" in schema:
+        yield from errors(value, root["$defs"][schema["$ref"].rsplit("/", 1)[1]], root, at)
+        return
+    names = schema.get("type", [])
+    names = [names] if isinstance(names, str) else names
+    if names and not any(is_of(value, name) for name in names):
+        yield f"{at}: {str(value)[:60]} is not of type {names}"
+        return
+    if "const" in schema and value != schema["const"]:
+        yield f"{at}: {str(value)[:60]} is not {schema['const']}"
+    if "enum" in schema and value not in schema["enum"]:
+        yield f"{at}: {str(value)[:60]} is none of {schema['enum']}"
+    if "oneOf" in schema:
+        found = [list(errors(value, option, root, at)) for option in schema["oneOf"]]
+        if sum(not e for e in found) != 1:
+            kind = value.get("kind") if isinstance(value, dict) else None
+            told = [e for e in found if e and not any(f": {kind} is not" in text for text in e)] if kind else found
+            yield f"{at}: as {sum(not e for e in found)} of {len(found)} forms: {[e[0] for e in told if e][:3]}"
+    if isinstance(value, str) and "pattern" in schema and not re.search(schema["pattern"], value):
+        yield f"{at}: '{value[:60]}' does not match {schema['pattern']}"
+    if "minimum" in schema and value < schema["minimum"]:
+        yield f"{at}: {value} is below {schema['minimum']}"
+    if isinstance(value, list):
+        if not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
+            yield f"{at}: {len(value)} items"
+        for i, item in enumerate(value):
+            yield from errors(item, schema.get("items", {}), root, f"{at}[{i}]")
+    if isinstance(value, dict):
+        for key in schema.get("required", []):
+            if key not in value:
+                yield f"{at}: no '{key}'"
+        for key, member in value.items():
+            if key in schema.get("properties", {}):
+                yield from errors(member, schema["properties"][key], root, f"{at}.{key}")
+            elif schema.get("additionalProperties", True) is False:
+                yield f"{at}: '{key}' is in no schema"
+
+
+SCHEMA = json.loads((ROOT / "docs/report.schema.json").read_text())
+
+
+def check_schema(name, report):
+    for error in list(errors(report, SCHEMA, SCHEMA))[:5]:
+        complain(f"{name}: {error}")
+
+
+# ---- What the schema can't say
+
+def blocks(content):
+    for block in content:
+        yield block
+        yield from blocks(block.get("content", []))
+
+
+def words(runs):
+    return "".join(run if isinstance(run, str) else run["text"] for run in runs)
+
+
+def check_tables(name, report):
+    for table in (b for b in blocks(report["content"]) if b["kind"] == "table"):
+        columns = [column["name"] for column in table["columns"]]
+        if len(set(columns)) < len(columns):
+            complain(f"{name}: table {table['name']} has a column twice: {columns}")
+        if not table["rows"]:
+            complain(f"{name}: table {table['name']} has no rows")
+        for row in table["rows"]:
+            if len(row) > len(columns):
+                complain(f"{name}: table {table['name']}: {len(row)} cells in {len(columns)} columns")
+            for cell, column in zip(row, table["columns"]):
+                if column["type"] in ("interval", "spread") and isinstance(cell, (str, int, float)):
+                    complain(f"{name}: table {table['name']}, {column['name']}: {cell} has no interval")
+
+
+def check_numbers(name, report):
+    """Every number of a paragraph is a value, too."""
+    for block in blocks(report["content"]):
+        for run in block.get("text", []):
+            if isinstance(run, dict) and "value" in run and not re.fullmatch(r"[-+]?[0-9.]+(e[-+]\d+)?", run["text"]):
+                complain(f"{name}: the number {run}")
+
+
+def run_study(name, plan):
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder)
+        (work / "plan.json").write_text(json.dumps({"name": name, "title": name, **plan}))
+        done = subprocess.run([KOKSMA, "study", "run", "./plan.json", "-o", "out", "-q"], cwd=work, capture_output=True, text=True)
+        if done.returncode:
+            complain(f"{name}: {done.stderr.strip()}")
+            return None
+        text, page = (work / "out/report.json").read_text(), (work / "out/report.html").read_text()
+        subprocess.run([KOKSMA, "study", "report", "out"], cwd=work, check=True)
+        if (work / "out/report.json").read_text() != text or (work / "out/report.html").read_text() != page:
+            complain(f"{name}: the same rows give another report")
+    held = re.search(r'<script type="application/json" id="data">\n(.*?)</script>', page, re.S)
+    if not held or held[1].strip() != text.strip():
+        complain(f"{name}: the page does not hold report.json")
+    try:
+        report = json.loads(text)
+    except ValueError as error:
+        complain(f"{name}: report.json is no JSON: {error}")
+        return None
+    check_schema(name, report)
+    check_tables(name, report)
+    check_numbers(name, report)
+    return report
+
+
+def check_question(kind):
+    question = {"id": "q", "title": "Q", "kind": kind, "discrepancies": "d", "images": "i"}
+    name = f"question {kind}"
+    report = run_study(name, {"discrepancies": [POINTS], "images": [IMAGES], "questions": [question]})
+    found = [b for b in blocks(report["content"]) if b.get("id") == "question-q"] if report else []
+    if not found or not found[0]["content"]:
+        complain(f"{name}: no answer")
+    elif not any(b["kind"] == "table" for b in blocks(found[0]["content"])):
+        complain(f"{name}: an answer without a table: {words(found[0]['content'][0].get('text', []))}")
+
+
+def check_sections():
+    """A plan for every section: published tables of both kinds, figures, questions, images."""
+    row = {"pattern": "random", "label": "R", "published": [0.3]}
+    plan = {"discrepancies": [POINTS], "images": [{**IMAGES, "options": {}}],
+            "tables": [{"id": "1", "title": "P", "measure": "star", "n": 16, "rows": [row]},
+                       {"id": "2", "title": "S", "measure": "star", "n": [4, 16, 64], "rows": [{**row, "published": ["0.5", "0.3", "0.2"]}]},
+                       {"id": "3", "title": "I", "scene": "ball", "n": 16, "rows": [row]}],
+            "figures": [{"id": "1", "title": "F", "pattern": "random", "n": 16}, {"id": "2", "title": "S", "scene": "ball", "pattern": "regular", "n": 1},
+                        {"id": "3", "title": "L", "pattern": "random", "n": 16, "lines": "dual"}],
+            "questions": [{"id": "q", "title": "Q", "kind": "table", "discrepancies": "d"}]}
+    report = run_study("sections", plan)
+    if report:
+        found = [b["id"] for b in report["content"] if "id" in b]
+        if found != lines_of("report/sections/sections.def", "SECTION"):
+            complain(f"sections: {found} are shown, of {lines_of('report/sections/sections.def', 'SECTION')}")
+        for block in (b for b in report["content"] if not b.get("content")):
+            complain(f"sections: {block.get('id')} is empty")
+        kinds = {b["kind"] for b in blocks(report["content"])}
+        if kinds != {"section", "paragraph", "list", "table", "chart", "figure", "pictures"}:
+            complain(f"sections: no block of a kind, only of {sorted(kinds)}")
+
+
+def check_documents():
+    kinds = lines_of("plan/questions.def", "QUESTION")
+    readme = (ROOT / "studies/README.md").read_text()
+    for kind in kinds:
+        if f"`{kind}`" not in readme:
+            complain(f"studies/README.md does not name the kind of question '{kind}'")
+    with tempfile.TemporaryDirectory() as folder:
+        plan = {"name": "k", "title": "k", "discrepancies": [POINTS], "questions": [{"id": "q", "title": "Q", "kind": "none", "discrepancies": "d"}]}
+        Path(folder, "k.json").write_text(json.dumps(plan))
+        told = subprocess.run([KOKSMA, "study", "run", "./k.json", "-o", "k"], cwd=folder, capture_output=True, text=True).stderr
+    if not told.rstrip().endswith(f"it takes {', '.join(kinds[:-1])} or {kinds[-1]}"):
+        complain(f"the message on an unknown kind: {told}")
+    format_text = (ROOT / "docs/report-format.md").read_text()
+    for name in SCHEMA["$defs"]["column"]["properties"] | SCHEMA["properties"] | {o["$ref"].rsplit("/")[-1]: 0 for o in SCHEMA["$defs"]["block"]["oneOf"]}:
+        if f"`{name}`" not in format_text:
+            complain(f"docs/report-format.md does not say what '{name}' is")
+
+
+# The validator itself sees what is wrong.
+GOOD = {"format": "koksma-report", "version": 1, "title": "", "about": "", "plan": "", "koksma": "", "content": []}
+for wrong in ({"version": 2}, {"title": 3}, {"more": 1}, {"content": [{"kind": "table", "name": "t", "columns": [], "rows": []}]},
+              {"content": [{"kind": "paragraph", "text": [{"text": "1", "value": "1"}]}]}, {"content": [{"kind": "none"}]}):
+    assert list(errors({**GOOD, **wrong}, SCHEMA, SCHEMA)), f"the validator takes {wrong}"
+assert not list(errors(GOOD, SCHEMA, SCHEMA))
+
+for kind in lines_of("plan/questions.def", "QUESTION"):
+    check_question(kind)
+check_sections()
+check_documents()
+print(f"{problems} problems")
+sys.exit(problems > 0)
