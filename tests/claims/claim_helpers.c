@@ -88,6 +88,22 @@ bool is_net2_block(const koksma_points *points, size_t first, size_t n)
     return ok;
 }
 
+bool is_net(const koksma_points *points, size_t n, size_t b, int *use, size_t *ms, int k, size_t left)
+{
+    if (k == points->dim - 1) {
+        use[k] = k;
+        ms[k] = left;
+        return one_in_each(points, n, use, ms, points->dim);
+    }
+    bool ok = true;
+    for (size_t a = 1; a <= left && ok; a *= b) {
+        use[k] = k;
+        ms[k] = a;
+        ok = is_net(points, n, b, use, ms, k + 1, left / a);
+    }
+    return ok;
+}
+
 static const double means_side[2] = {0.37, 0.61};
 
 /* What of the first n points lies in a box with sides 0.37, 0.61, ... */

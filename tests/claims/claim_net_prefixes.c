@@ -2,23 +2,6 @@
 /* net-prefixes: dim d, b the smallest prime >= d: the first b^m points are a (0,m,d)-net in base b, for every m. */
 #include "claims/claims.h"
 
-/* All ways of writing n = b^m as a product of powers of b along the coordinates. */
-static bool is_net(const koksma_points *points, size_t n, size_t b, int *use, size_t *ms, int k, size_t left)
-{
-    if (k == points->dim - 1) {
-        use[k] = k;
-        ms[k] = left;
-        return one_in_each(points, n, use, ms, points->dim);
-    }
-    bool ok = true;
-    for (size_t a = 1; a <= left && ok; a *= b) {
-        use[k] = k;
-        ms[k] = a;
-        ok = is_net(points, n, b, use, ms, k + 1, left / a);
-    }
-    return ok;
-}
-
 void claim_NET_PREFIXES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;

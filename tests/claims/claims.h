@@ -50,6 +50,10 @@ double smallest_distance(const koksma_points *points, bool torus);
 /* The n points from `first` on are a (0,m,2)-net in base 2. */
 bool is_net2_block(const koksma_points *points, size_t first, size_t n);
 
+/* The first n = b^m points are a (0,m,dim)-net in base b: all ways of writing n as a product of powers of b along the
+   coordinates. use and ms are scratch of dim numbers; k and left are 0 and n. */
+bool is_net(const koksma_points *points, size_t n, size_t b, int *use, size_t *ms, int k, size_t left);
+
 /* Means over sets of what a box and bands hold of all points, or of the first, in standard errors. */
 void check_means(const koksma_spec *spec, const koksma_points *points, uint64_t seed, bool first_only);
 
