@@ -209,7 +209,7 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
         fprintf(stderr, "  at %d x %d: ", check->width, check->height);
         switch (check->state) {
         case KOKSMA_RANK_CONFIRMED:
-            fprintf(stderr, "the same%s\n",
+            fprintf(stderr, "the same advice%s\n",
                     check->coherent && ranking->n_coherent < ranking->n ? ", but in visible bands" : "");
             break;
         case KOKSMA_RANK_OVERTURNED:
