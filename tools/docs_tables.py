@@ -47,9 +47,10 @@ def small_tables(site):
                counts(program, n, size)) for r, n in of("adaptive", "method")])
     sections(site, "warps", "Warps", "from the square to a lens, a triangle, a hemisphere: koksma measure --warp",
              [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
-    names = re.findall(r"^MATERIAL\((\w+)\)", (ROOT / "src/render/materials/materials.def").read_text(encoding="utf-8"), re.M)
-    sections(site, "materials", "Materials", "of scene files",
-             [(n, "", "", f"src/render/materials/bsdf_{n}.c", "") for n in names])
+    for kind, macro, prefix in (("materials", "MATERIAL", "bsdf_"), ("lights", "LIGHT", "light_")):
+        table = (ROOT / f"src/render/{kind}/{kind}.def").read_text(encoding="utf-8")
+        sections(site, kind, kind.capitalize(), "of scene files",
+                 [(n, "", "", f"src/render/{kind}/{prefix}{n}.c", "") for n in re.findall(rf"^{macro}\((\w+)\)", table, re.M)])
     sections(site, "uses", "Uses of a sample", "each may have a pattern of its own: koksma render -p USE=PATTERN",
              [(r["use"], f"{r['what']}; dimensions: {r['dim']}", "", "", "") for r in site.lists["uses"]])
 

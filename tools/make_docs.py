@@ -222,7 +222,7 @@ def index_page(site):
                           for r in site.lists["measures"]])
     others = "".join(f"<li><a href='{kind}/index.html'>{title}</a></li>" for kind, title in (
         ("scenes", "Scenes"), ("integrators", "Integrators"), ("filters", "Pixel filters"), ("adaptive", "Adaptive sampling"),
-        ("warps", "Warps"), ("materials", "Materials"), ("uses", "Uses of a sample")))
+        ("warps", "Warps"), ("materials", "Materials"), ("lights", "Lights"), ("uses", "Uses of a sample")))
     body = (f"<h2>Patterns</h2><div class='cards'>{cards}</div><h2>Measures</h2>{measures}"
             f"<h2>Rendering</h2><ul>{others}</ul><p><a href='references.html'>References</a></p>")
     site.write("index.html", page("Koksma", "sampling patterns, exact measures, and the error of the images", body, up=""))

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The camera, materials and lights on a block of rays, and samples on their way into a block.
- * What a light gives at a hit, from one position on it: power cos cos' / distance^2 (render/description.h), without square
- * roots: power (n.d) (-n'.d) / (d.d)^2
+ * What a light gives at a hit, from one position on it: power cos cos' / distance^2 (description.h), without square
+ * square roots: power (n.d) (-n'.d) / (d.d)^2
  */
 #include <math.h>
 
