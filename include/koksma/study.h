@@ -33,7 +33,7 @@ KOKSMA_API const char *koksma_study_mpi(void);
 
 /* This process's rank among those that mpirun started; 0 without it. Ranks but 0 open a study with folder NULL; its
    koksma_study_run does jobs for rank 0 until all are done. */
-KOKSMA_API int koksma_study_rank(void);
+KOKSMA_API int koksma_study_mpi_rank(void);
 
 typedef struct koksma_study_options {
     const char *const *plans; /* shipped names, or JSON files when the text has a '/' or ends in ".json". Several
