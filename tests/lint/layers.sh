@@ -3,6 +3,7 @@
 # files, citations.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+. tests/lint/files.sh
 failed=0
 complain() { echo "$1"; failed=$((failed + 1)); }
 
@@ -30,7 +31,7 @@ only 'mpi\.h' src/study/run/transport_mpi.c
 only 'Random123' src/core/random.h
 
 # Every source says its licence; no file is long without a reason at its top.
-git ls-files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]' 'explorer/*.[ch]' '*.mjs' '*.cjs' |
+files 'src/*.[ch]' 'cli/*.[ch]' 'include/*.h' 'tests/*.[ch]' 'bench/*.[ch]' 'explorer/*.[ch]' '*.mjs' '*.cjs' |
   xargs awk '
     FNR == 1 { excused = 0; if (!/SPDX-License-Identifier: Apache-2.0/) print FILENAME ": no SPDX line" }
     FNR >= 2 && FNR <= 12 && tolower($0) ~ /long because/ { excused = 1 }
@@ -40,7 +41,7 @@ while read -r problem; do complain "$problem"; done </tmp/koksma-lint.$$
 rm -f /tmp/koksma-lint.$$
 
 # File names are unique in the tree, as a reader looks them up by name.
-git ls-files '*.c' | xargs -n1 basename | grep -vx registry.c | sort | uniq -d | while read -r name; do echo "$name is in two folders"; done |
+files '*.c' | xargs -n1 basename | grep -vx registry.c | sort | uniq -d | while read -r name; do echo "$name is in two folders"; done |
   grep . && failed=$((failed + 1))
 
 # Every key cited in a table entry is in docs/references.bib.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Exponents of decay of patterns, by their claims (those that no points can exceed: bounds.c):
+ * Exponents of decay of patterns, by their claims (those that no points can exceed: lower_bounds.c):
  *   points that are independent                         1/2: the sum of n independent terms
  *   also one uniform in each cell of a cubic grid       1/2 + 1/(2 dim): only the cells that a border cuts have any
  *                                                       variance, n^(1 - 1/dim) of them (Beck and Chen 1987)

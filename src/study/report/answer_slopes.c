@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "measures/shared/bounds.h"
+#include "measures/shared/lower_bounds.h"
 #include "stats/slopes.h"
 #include "study/report/answers.h"
 #include "study/report/slope_words.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What no points can do better than: the one table of theoretical lower bounds. */
-#ifndef KOKSMA_MEASURES_SHARED_BOUNDS_H
-#define KOKSMA_MEASURES_SHARED_BOUNDS_H
+#ifndef KOKSMA_MEASURES_SHARED_LOWER_BOUNDS_H
+#define KOKSMA_MEASURES_SHARED_LOWER_BOUNDS_H
 
 #include <koksma/koksma.h>
 

@@ -4,7 +4,7 @@
  * 1972), edges and disks 1/2 + 1/(2 dim) (Schmidt 1969; Beck and Chen 1987; Alexander 1990). The power of log n and
  * whose theorem it is are known for the measures and dimensions of the table.
  */
-#include "measures/shared/bounds.h"
+#include "measures/shared/lower_bounds.h"
 
 #include <math.h>
 #include <string.h>
