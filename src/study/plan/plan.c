@@ -11,6 +11,7 @@
 #include <koksma/warp.h>
 
 #include "study/plan/image_patterns.h"
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/plans_embedded.h"
 #include "study/plan/variants.h"

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a plan owns: putting two together, and freeing. */
+/* What a plan owns: every list in it, with its texts. Two plans are put together by moving the lists of one behind
+   those of the other, so that nothing is copied and nothing is freed twice. */
+#include "study/plan/plan_owned.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "study/plan/plan.h"
 
 /* Moves the n_from items of *from behind the n of *to. */
 static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, size_t item_size)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/run/references.h"
 
 /* ---- What the store has -------------------------------------------------------------------------------- */
 

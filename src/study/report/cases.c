@@ -8,6 +8,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "study/run/references.h"
 
 /* Plans have their sizes sorted. */
 static bool has_size(const koksma__wholes *sizes, long long n)

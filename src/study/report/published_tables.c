@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "stats/statistics.h"
 #include "study/report/published_tables.h"
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
 enum { RESULT_STRIDE = sizeof(koksma__result) / sizeof(double) };

@@ -8,6 +8,7 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "study/report/report_tables.h"
+#include "study/run/references.h"
 
 static void add_image_cell(koksma__html *h, const koksma__cell *cell)
 {

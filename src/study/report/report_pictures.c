@@ -16,6 +16,7 @@
 #include "study/report/report_chart.h"
 #include "study/report/report_script.h"
 #include "study/report/report_table.h"
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
 /* What the floats of one file may take before their base64, and how much brighter an error is shown. */

@@ -8,8 +8,8 @@
  *
  * To rank 0: REQUEST (koksma__request; for the batch after the one in hand, so that nobody waits for an answer),
  * RESULTS (jobs' numbers, each before its results), FAILURE (koksma__failure: a job that is impossible), TILE
- * (koksma__tile, its sums), NEED (a reference), ERROR (status and text of a rank that ends, which ends all). From it:
- * ASSIGNMENTS (what to do; none: request again; the phase, or the run, is over), PIXELS.
+ * (koksma__reference_tile, its sums), NEED (a reference), ERROR (status and text of a rank that ends, which ends
+ * all). From it: ASSIGNMENTS (what to do; none: request again; the phase, or the run, is over), PIXELS.
  */
 #ifndef KOKSMA_STUDY_RUN_MPI_MESSAGES_H
 #define KOKSMA_STUDY_RUN_MPI_MESSAGES_H

@@ -89,7 +89,7 @@ static void receive_failure(server *s, int from)
 
 static void receive_tile(server *s, unsigned char *message, size_t bytes)
 {
-    koksma__tile tile;
+    koksma__reference_tile tile;
     if (bytes < sizeof tile) {
         return;
     }

@@ -128,7 +128,7 @@ static koksma_status do_job(worker *w, unsigned long long job)
     return status;
 }
 
-static koksma_status do_tile(worker *w, const koksma__tile *tile)
+static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
 {
     koksma__replicates sums = {0};
     const double start_s = koksma__now_s();

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Cuts the references that are missing into tiles of whole rows, as many as their size says, not as there are
+   threads; renders a tile as the sum of all replicates of its rows in their order; puts the sums of tiles together,
+   and finishes a reference with its last one. So its bits do not depend on who renders which tile. */
 #include "study/run/reference_tiles.h"
 
 #include <math.h>
@@ -12,18 +15,18 @@
 /* About 20 ms of a plain scene, so that those who wait for the last tile don't wait long. */
 static const double SAMPLES_A_TILE = 1 << 19;
 
-static koksma_status add_tile(koksma__tiles *tiles, size_t reference, int first_row, int rows)
+static koksma_status add_tile(koksma__reference_tiles *tiles, size_t reference, int first_row, int rows)
 {
-    koksma__tile *at = koksma__room_for_one(tiles->at, tiles->n, &tiles->room, 64, sizeof *at);
+    koksma__reference_tile *at = koksma__room_for_one(tiles->at, tiles->n, &tiles->room, 64, sizeof *at);
     if (!at) {
         return KOKSMA_MEMORY;
     }
     tiles->at = at;
-    tiles->at[tiles->n++] = (koksma__tile){reference, first_row, rows};
+    tiles->at[tiles->n++] = (koksma__reference_tile){reference, first_row, rows};
     return KOKSMA_OK;
 }
 
-static koksma_status add_tiles(koksma__tiles *tiles, size_t reference)
+static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
 {
     const koksma__reference_image *r = &tiles->study->references[reference];
     const double row = (double)r->width * (double)r->reference->spp * (double)r->reference->replicates;
@@ -51,11 +54,11 @@ static bool is_kept(const koksma_study *study, const koksma__reference_image *re
             (!koksma__store_reference(study->store, &key, &error) && !isnan(error)));
 }
 
-koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__tiles *tiles)
+koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles)
 {
     koksma_study *study = tasks->study;
     koksma_status status = KOKSMA_OK;
-    *tiles = (koksma__tiles){.study = study};
+    *tiles = (koksma__reference_tiles){.study = study};
     tiles->sums = calloc(study->n_references + 1, sizeof *tiles->sums);
     tiles->rows_left = calloc(study->n_references + 1, sizeof *tiles->rows_left);
     if (!tiles->sums || !tiles->rows_left) {
@@ -79,7 +82,7 @@ koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__tiles *tile
     return status;
 }
 
-void koksma__tiles_close(koksma__tiles *tiles)
+void koksma__tiles_close(koksma__reference_tiles *tiles)
 {
     for (size_t i = 0; tiles->sums && i < tiles->study->n_references; i++) {
         free(tiles->sums[i].sum);
@@ -87,7 +90,7 @@ void koksma__tiles_close(koksma__tiles *tiles)
     free(tiles->sums);
     free(tiles->rows_left);
     free(tiles->at);
-    *tiles = (koksma__tiles){0};
+    *tiles = (koksma__reference_tiles){0};
 }
 
 static koksma_status fail_reference(const koksma__reference_image *r, koksma_status status)
@@ -98,7 +101,7 @@ static koksma_status fail_reference(const koksma__reference_image *r, koksma_sta
     return koksma__fail_in(status, text);
 }
 
-koksma_status koksma__tile_do(const koksma_study *study, const koksma__tile *tile, const koksma_run *run,
+koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out)
 {
     const koksma__reference_image *r = &study->references[tile->reference];
@@ -119,8 +122,8 @@ koksma_status koksma__tile_do(const koksma_study *study, const koksma__tile *til
     return status == KOKSMA_IMPOSSIBLE ? fail_reference(r, status) : status;
 }
 
-koksma_status koksma__tiles_put(koksma__tiles *tiles, const koksma__tile *tile, const koksma__replicates *from,
-                                bool *complete)
+koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
+                                const koksma__replicates *from, bool *complete)
 {
     const koksma__reference_image *r = &tiles->study->references[tile->reference];
     koksma__replicates *all = &tiles->sums[tile->reference];
@@ -139,7 +142,7 @@ koksma_status koksma__tiles_put(koksma__tiles *tiles, const koksma__tile *tile, 
     return KOKSMA_OK;
 }
 
-koksma_status koksma__tiles_finish(koksma__tiles *tiles, size_t reference)
+koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference)
 {
     return koksma__replicates_finish(&tiles->sums[reference], tiles->study, &tiles->study->references[reference]);
 }

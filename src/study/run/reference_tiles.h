@@ -7,34 +7,35 @@
 #ifndef KOKSMA_STUDY_RUN_REFERENCE_TILES_H
 #define KOKSMA_STUDY_RUN_REFERENCE_TILES_H
 
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
-typedef struct koksma__tile {
+typedef struct koksma__reference_tile {
     unsigned long long reference; /* its index in study->references */
     long long first_row, rows;
-} koksma__tile;
+} koksma__reference_tile;
 
-typedef struct koksma__tiles {
+typedef struct koksma__reference_tiles {
     koksma_study *study;
     size_t n, room;
-    koksma__tile *at;
+    koksma__reference_tile *at;
     koksma__replicates *sums; /* of every reference of the study */
     long long *rows_left;
-} koksma__tiles;
+} koksma__reference_tiles;
 
 /* Reads the references that the tasks' jobs need and that have a file; lists the tiles of the others. */
-koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__tiles *tiles);
-void koksma__tiles_close(koksma__tiles *tiles);
+koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles);
+void koksma__tiles_close(koksma__reference_tiles *tiles);
 
 /* Renders a tile: the sums of its rows, which the caller frees (out->sum). */
-koksma_status koksma__tile_do(const koksma_study *study, const koksma__tile *tile, const koksma_run *run,
+koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out);
 
 /* Takes a tile's sums; *complete: they were the reference's last. One call at a time, each tile once. */
-koksma_status koksma__tiles_put(koksma__tiles *tiles, const koksma__tile *tile, const koksma__replicates *sums,
-                                bool *complete);
+koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
+                                const koksma__replicates *sums, bool *complete);
 
 /* The pixels, file and row in the store of a reference that is complete. */
-koksma_status koksma__tiles_finish(koksma__tiles *tiles, size_t reference);
+koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference);
 
 #endif

@@ -128,7 +128,7 @@ void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char
     pthread_mutex_unlock(&state->lock);
 }
 
-size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__tile *tile)
+size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile)
 {
     size_t i = 0;
     while (i < state->tiles.n &&
@@ -143,7 +143,7 @@ size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__tile
  */
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
-    const koksma__tile tile = state->tiles.at[i];
+    const koksma__reference_tile tile = state->tiles.at[i];
     bool complete = false;
     koksma_status status = KOKSMA_OK;
     pthread_mutex_lock(&state->lock);

@@ -28,7 +28,7 @@ typedef enum koksma__assignment_kind {
 
 typedef struct koksma__assignment {
     unsigned long long kind, number; /* number: of the job or tile */
-    koksma__tile tile;
+    koksma__reference_tile tile;
 } koksma__assignment;
 
 /* Jobs whose pattern finds no set, or a measure no value (IMPOSSIBLE): the others go on without them. */
@@ -54,7 +54,7 @@ void koksma__phase_was_busy(koksma__phase *phase, double start_s);
 typedef struct koksma__run_state {
     koksma__phase *phase;
     pthread_mutex_t lock; /* guards what follows */
-    koksma__tiles tiles;
+    koksma__reference_tiles tiles;
     koksma__work_queue tile_queue, jobs;
     koksma_status status;
     char text[KOKSMA__FAILURE_TEXT];
@@ -92,6 +92,6 @@ void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char
 void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums);
 
 /* The number of a tile that a rank has sent back; tiles.n: no such. */
-size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__tile *tile);
+size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
 
 #endif

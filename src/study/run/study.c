@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Opens and closes studies: parses the plan, makes DIR, opens its store, loads each scene once, and writes down which
+   plan it was. Of the ranks of an MPI run only rank 0 has a folder. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +9,7 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
+#include "study/plan/plan_owned.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Two bits for each number: taken, and put back. A cursor skips what is taken, so that taking is O(1) unless numbers
+   are not ready; a second cursor goes round those that are out when nothing else is left. */
 #include "study/run/work_queue.h"
 
 #include <stdlib.h>
