@@ -55,6 +55,7 @@ MAY_USE = {
 
 # Headers that declare what several files of their directory define, and why.
 INTERNAL = {
+    "src/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
     "src/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/study/store/store_internal.h": "the store's object, for its own files only",
     "src/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
@@ -72,7 +73,8 @@ def directory(path):
 
 
 def unit(path):
-    return path.rsplit(".", 1)[0]
+    """A header and its .c file are one; an internal header stands for itself."""
+    return path if path in INTERNAL else path.rsplit(".", 1)[0]
 
 
 def read_sources():

@@ -2,6 +2,7 @@
 /* The questions of a plan. */
 #include <string.h>
 
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
 static const char *const kinds[KOKSMA__ASK_KINDS] = {"correlation", "slopes", "equal",

@@ -8,6 +8,7 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "study/plan/plan_owned.h"
 #include "study/run/references.h"
 
 /* Plans have their sizes sorted. */

@@ -6,6 +6,7 @@
 
 #include "core/status.h"
 #include "stats/statistics.h"
+#include "study/plan/plan_owned.h"
 #include "study/report/published_tables.h"
 #include "study/run/references.h"
 #include "study/run/tasks.h"
