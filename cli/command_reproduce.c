@@ -105,7 +105,7 @@ static int run(const cli_arguments *arguments)
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_study_summary summary;
     const char *plans[MAX_PLANS];
-    folder = koksma_study_rank() > 0 ? NULL : folder; /* one rank of several keeps the results */
+    folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* one rank of several keeps the results */
     const koksma_study_options options = {.plans = plans,
                                           .n_plans = choose_plans(arguments, plans),
                                           .folder = folder,

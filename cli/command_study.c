@@ -139,7 +139,7 @@ static int run_plans(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
-    if (koksma_study_rank() > 0) {
+    if (koksma_study_mpi_rank() > 0) {
         options.folder = NULL;
     }
     const int code = run_study(arguments, &options, &work);
@@ -161,7 +161,7 @@ static int estimate(const cli_arguments *arguments)
     if (!study_options(arguments, &options, &work)) {
         return CLI_USAGE;
     }
-    if (koksma_study_rank() > 0) { /* one rank of several does it */
+    if (koksma_study_mpi_rank() > 0) { /* one rank of several does it */
         return CLI_YES;
     }
     options.folder = NULL;
@@ -221,7 +221,7 @@ static int report(const cli_arguments *arguments)
     if (!cli_work_begin(arguments, "reporting", &work)) {
         return CLI_USAGE;
     }
-    if (koksma_study_rank() > 0) {
+    if (koksma_study_mpi_rank() > 0) {
         return CLI_YES;
     }
     const koksma_study_options options = {.folder = arguments->operands[1]};

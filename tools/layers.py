@@ -53,6 +53,15 @@ MAY_USE = {
 }
 
 
+# Headers that declare what several files of their directory define, and why.
+INTERNAL = {
+    "src/study/plan/plan.h": "the data of a plan, which plan.c and the parsers of its sections fill",
+    "src/study/store/store.h": "the interface of the store, whose files are parts of one object",
+    "src/study/store/store_internal.h": "the store's object, for its own files only",
+    "src/study/plan/plan_section.h": "the parsers of a plan's sections, one file each, for plan.c's table",
+}
+
+
 def directory(path):
     """src/study/run/queue.c -> study/run; src/render/lights/sphere.c -> render; cli/main.c -> cli."""
     parts = path.split("/")
@@ -64,7 +73,8 @@ def directory(path):
 
 
 def unit(path):
-    return path.rsplit(".", 1)[0]
+    """A header and its .c file are one; an internal header stands for itself."""
+    return path if path in INTERNAL else path.rsplit(".", 1)[0]
 
 
 def read_sources():
@@ -206,10 +216,13 @@ def check_cycles(tree):
 
 def check_headers(tree):
     headers = {p: declarations(t) for p, t in tree.code.items() if p.endswith(".h")}
+    for header in sorted(INTERNAL):
+        if header not in headers:
+            yield "headers", header, "INTERNAL of tools/layers.py has it, and it is not there"
     for name, path in sorted(tree.defined.items()):
         if name.startswith("koksma__") and name not in headers.get(unit(path) + ".h", ()):
             elsewhere = sorted(h for h, names in headers.items() if name in names)
-            if elsewhere:
+            if elsewhere and not (elsewhere[0] in INTERNAL and directory(elsewhere[0]) == directory(path)):
                 yield "headers", path, "%s is declared in %s" % (name, elsewhere[0])
     types = {}
     for path, text in sorted(tree.code.items()):

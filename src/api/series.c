@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Exponents of decay. Boxes: no points do better than 1/n, powers of log n aside (Roth 1954; Schmidt 1972); edges and
- * disks: n^(-1/2 - 1/(2 dim)) (Schmidt 1969; Beck and Chen 1987; Alexander 1990).
- *
- * Of patterns, by their claims:
+ * Exponents of decay of patterns, by their claims (those that no points can exceed: lower_bounds.c):
  *   points that are independent                         1/2: the sum of n independent terms
  *   also one uniform in each cell of a cubic grid       1/2 + 1/(2 dim): only the cells that a border cuts have any
  *                                                       variance, n^(1 - 1/dim) of them (Beck and Chen 1987)
@@ -67,17 +64,4 @@ double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, in
         return 1;
     }
     return claims & KOKSMA_CLAIM_LATIN && unbiased && !(claims & more) && dim > 1 ? 0.5 : (double)NAN;
-}
-
-double koksma_best_rate(const koksma_measure *measure, int dim)
-{
-    switch (measure->family) {
-    case KOKSMA_FAMILY_BOXES:
-        return 1;
-    case KOKSMA_FAMILY_EDGES:
-    case KOKSMA_FAMILY_DISKS:
-        return 0.5 + 0.5 / dim;
-    default:
-        return NAN;
-    }
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/npy.h"
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
@@ -198,14 +199,9 @@ koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_poi
 
 koksma_status koksma__points_write_npy(FILE *stream, const koksma_points *points, const koksma_run *run)
 {
-    char header[128];
-    const int used = snprintf(header, sizeof header, "{'descr': '<f8', 'fortran_order': False, 'shape': (%zu, %d), }",
-                              points->n, points->dim);
-    const size_t length = ((size_t)used + 1 + 10 + 63) / 64 * 64 - 10; /* the data begins at a multiple of 64 */
-    const unsigned char start[10] = {
-        0x93, 'N', 'U', 'M', 'P', 'Y', 1, 0, (unsigned char)(length & 255), (unsigned char)(length >> 8)};
-    fwrite(start, 1, sizeof start, stream);
-    fprintf(stream, "%-*s\n", (int)length - 1, header);
+    char shape[64];
+    snprintf(shape, sizeof shape, "(%zu, %d)", points->n, points->dim);
+    koksma__npy_put_header(stream, "'<f8'", shape);
     const size_t count = points->n * (size_t)points->dim;
     for (size_t i = 0; i < count && !ferror(stream); i += ITEMS_AT_ONCE) {
         unsigned char bytes[8 * ITEMS_AT_ONCE];
@@ -216,9 +212,7 @@ koksma_status koksma__points_write_npy(FILE *stream, const koksma_points *points
         for (size_t j = 0; j < n; j++) {
             uint64_t bits;
             memcpy(&bits, &points->xs[i + j], sizeof bits);
-            for (int b = 0; b < 8; b++) {
-                bytes[8 * j + (size_t)b] = (unsigned char)(bits >> (8 * b));
-            }
+            koksma__npy_set_word(bytes + 8 * j, bits);
         }
         fwrite(bytes, 8, n, stream);
     }

@@ -5,9 +5,9 @@
 #include <koksma/series.h>
 
 #include "core/random.h"
-#include "stats/quantiles.h"
 #include "stats/bootstrap.h"
 #include "stats/correlation.h"
+#include "stats/quantiles.h"
 #include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "test.h"

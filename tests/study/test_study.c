@@ -9,8 +9,10 @@
 
 #include "stats/statistics.h"
 #include "study/plan/plan.h"
+#include "study/plan/plan_owned.h"
 #include "study/report/rho_words.h"
 #include "study/report/said.h"
+#include "study/run/references.h"
 #include "study/run/study.h"
 #include "study/store/store.h"
 #include "test.h"

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The names of pictures that another renderer made: a path is matched with a template in which {spp}, {trial} and
+   other names in braces stand for digits or texts; spp and trial are numbers, all others name the group of a picture.
+ */
 #include "study/images/image_names.h"
 
 #include <stdio.h>

@@ -11,6 +11,7 @@
 #include <koksma/warp.h>
 
 #include "study/plan/image_patterns.h"
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/plans_embedded.h"
 #include "study/plan/variants.h"
@@ -157,33 +158,6 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
 }
 
 /* ---- The whole ------------------------------------------------------------------------------------------- */
-
-bool koksma__texts_have(const koksma__texts *texts, const char *text)
-{
-    for (size_t i = 0; i < texts->n; i++) {
-        if (!strcmp(texts->at[i], text)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
-{
-    for (size_t i = 0; i < wholes->n; i++) {
-        if (wholes->at[i] == value) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
-                              long long n, long long dim)
-{
-    return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
-           koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
-}
 
 static koksma_status parse(const koksma__json_node *root, const koksma__plan_trials *trials, koksma__plan *p)
 {

@@ -15,9 +15,6 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
-void koksma__texts_fini(koksma__texts *texts);
-bool koksma__texts_have(const koksma__texts *texts, const char *text);
-
 /* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {
     char *id;                         /* what questions call it; may be NULL */
@@ -169,27 +166,13 @@ typedef struct koksma__plan_trials {
 koksma_status koksma__plan_parse(const char *name, const char *text, size_t size, const koksma__plan_trials *trials,
                                  koksma__plan *plan);
 
-/* Makes a plan that was read one part of its own. Errors: MEMORY. */
-koksma_status koksma__plan_own(koksma__plan *plan);
-
-/* Appends what `from` has to `plan`, whose name becomes "a+b"; `from` is empty afterwards. */
-koksma_status koksma__plan_append(koksma__plan *plan, koksma__plan *from);
-
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
-
-bool koksma__wholes_have(const koksma__wholes *wholes, long long value);
 
 /* Whether the columns of a table are numbers of points. */
 static inline bool koksma__table_is_over_n(const koksma__table *table)
 {
     return table->n.n > 1;
 }
-
-/* Whether the block has these points and this measure. */
-bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
-                              long long n, long long dim);
-
-void koksma__plan_fini(koksma__plan *plan);
 
 #endif

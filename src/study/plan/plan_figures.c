@@ -8,6 +8,7 @@
 
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 #include "study/plan/variants.h"
 

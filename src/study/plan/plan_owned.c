@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a plan owns: putting two together, and freeing. */
+/* What a plan owns: every list in it, with its texts, and what these hold. Two plans are put together by moving the
+   lists of one behind those of the other, so that nothing is copied and nothing is freed twice. */
+#include "study/plan/plan_owned.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "study/plan/plan.h"
 
 /* Moves the n_from items of *from behind the n of *to. */
 static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, size_t item_size)
@@ -204,4 +206,31 @@ void koksma__plan_fini(koksma__plan *p)
     free(p->about);
     free(p->order);
     *p = (koksma__plan){0};
+}
+
+bool koksma__texts_have(const koksma__texts *texts, const char *text)
+{
+    for (size_t i = 0; i < texts->n; i++) {
+        if (!strcmp(texts->at[i], text)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__wholes_have(const koksma__wholes *wholes, long long value)
+{
+    for (size_t i = 0; i < wholes->n; i++) {
+        if (wholes->at[i] == value) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool koksma__plan_block_makes(const koksma__discrepancy_block *block, const char *measure, const char *pattern,
+                              long long n, long long dim)
+{
+    return !block->warps.n && block->dim == dim && koksma__texts_have(&block->measures, measure) &&
+           koksma__texts_have(&block->patterns, pattern) && koksma__wholes_have(&block->n, n);
 }

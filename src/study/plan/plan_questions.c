@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
 const koksma__question_kind koksma__question_kinds[] = {

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* What all sections of a plan share: an array of objects becomes an array of structs, item by item, each by the parse
+   function of its section; texts, numbers of trials and lists of patterns are read and checked here. */
 #include "study/plan/plan_section.h"
 
 #include <stdlib.h>

@@ -11,6 +11,7 @@
 #include "core/c_locale.h"
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
 /* ---- Printed numbers ------------------------------------------------------------------------------------- */

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The files of points that a plan's patterns name (file:PATH). A result depends on what is in them, so that their
+   hash is part of its key: a file that is changed gives new rows and leaves the old ones alone. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>

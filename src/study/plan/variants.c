@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Variants: the options of a block of images, all combinations of them. A table has the options with their words; a
+   variant is a text "name=word,..." in the table's order, without defaults, which is the key in the store. Options
+   that change the exact image count for references, too; the others do not. */
 #include "study/plan/variants.h"
 
 #include <math.h>
@@ -7,6 +10,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
 enum { MAX_COMBINATIONS = 4096, MAX_WORDS = 64, MAX_WORD = KOKSMA_MAX_SPEC };

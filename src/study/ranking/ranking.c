@@ -30,7 +30,7 @@ typedef struct ranking {
     const koksma_rank_options *options;
     koksma__study_scene scene;
     char variant[KOKSMA__VARIANT_TEXT]; /* integrator and filter, where they are others than by default */
-    koksma__watch watch;
+    koksma__run_control control;
     double start_s;
     koksma__contest contest;
 } ranking;
@@ -122,7 +122,7 @@ static koksma_status check_size(ranking *r, koksma_rank_check *check)
         patterns[i] = r->contest.contestants[first[i]].pattern;
     }
     koksma_status status =
-        koksma__contest_init(&contest, r->options, &scene, r->variant, &r->watch, patterns, n, CHECK_ALPHA);
+        koksma__contest_init(&contest, r->options, &scene, r->variant, &r->control, patterns, n, CHECK_ALPHA);
     status = status ? status : koksma__contest_run(&contest, KOKSMA__RANK_FIND_LEADER);
     if (!status) {
         conclude(&contest, check);
@@ -167,7 +167,7 @@ static size_t trials_to_lead(const koksma__rank_table *table)
 static void estimate_need(const ranking *r, koksma_ranking *out)
 {
     const koksma__contest *c = &r->contest;
-    const double threads = r->watch.run.threads, elapsed_s = koksma__now_s() - r->start_s;
+    const double threads = r->control.run.threads, elapsed_s = koksma__now_s() - r->start_s;
     size_t waiting = 0, open = 0;
     double threads_s = 0;
     for (size_t i = 0; i < c->n; i++) {
@@ -181,7 +181,7 @@ static void estimate_need(const ranking *r, koksma_ranking *out)
         return;
     }
     if (c->reference.made < KOKSMA__RANK_REPLICATES) { /* trials cost as many times it as they have samples */
-        const double part = fmax(c->reference.made + r->watch.fraction, 0.01) / KOKSMA__RANK_REPLICATES;
+        const double part = fmax(c->reference.made + r->control.fraction, 0.01) / KOKSMA__RANK_REPLICATES;
         const double samples = KOKSMA__RANK_REPLICATES * (double)koksma__rank_reference_spp(r->options->spp);
         const double trials = (double)(needed * open) * r->options->spp / samples;
         out->needed_s = elapsed_s * (1 + trials) / part;
@@ -338,10 +338,10 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
         patterns[p] = p;
     }
     koksma_status status =
-        koksma__contest_init(&r->contest, r->options, &r->scene, r->variant, &r->watch, patterns, n, ALPHA);
+        koksma__contest_init(&r->contest, r->options, &r->scene, r->variant, &r->control, patterns, n, ALPHA);
     free(patterns);
     status = status ? status : do_sequence(r, out);
-    if (status == KOKSMA_INTERRUPTED && koksma__watch_time_is_up(&r->watch)) {
+    if (status == KOKSMA_INTERRUPTED && koksma__run_control_time_is_up(&r->control)) {
         out->cut_short = true;
         status = KOKSMA_OK;
     }
@@ -376,7 +376,7 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
                                    koksma_ranking *out)
 {
     ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
-    koksma__watch_begin(run, options->time_limit_s, &r.watch);
+    koksma__run_control_begin(run, options->time_limit_s, &r.control);
     *out = (koksma_ranking){.reference_error = NAN};
     if (!options->n_patterns) {
         return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");

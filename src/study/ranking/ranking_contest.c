@@ -53,7 +53,7 @@ static bool keep_in_share(void *context, double fraction)
 {
     timed *t = context;
     const koksma__contest *c = t->contest;
-    if (!koksma__keep_going(&c->watch->job, fraction)) {
+    if (!koksma__keep_going(&c->control->job, fraction)) {
         return false;
     }
     t->late = t->late || (c->share_ns && atomic_load(&t->contestant->busy_ns) + since_ns(t->start_s) > c->share_ns);
@@ -205,7 +205,7 @@ koksma__rank_errors koksma__contest_errors(const koksma__contest *c, size_t i)
 
 static koksma_status do_batch(batch *b)
 {
-    const koksma_status status = koksma__parallel(&b->contest->watch->run, b->n_active * b->count, do_trial, b);
+    const koksma_status status = koksma__parallel(&b->contest->control->run, b->n_active * b->count, do_trial, b);
     for (size_t a = 0; !status && a < b->n_active; a++) {
         koksma__contestant *p = &b->contest->contestants[b->active[a]];
         for (size_t t = 0; !atomic_load(&p->late) && !atomic_load(&p->refused) && t < b->count; t++) {
@@ -301,9 +301,9 @@ static bool call_back(koksma__contest *c)
 /* What is left of the time, dealt out evenly. */
 static void set_share(koksma__contest *c, double part)
 {
-    const double left_s = c->watch->end_s - koksma__now_s();
-    c->share_ns = c->watch->end_s > 0 && c->n > 1
-                      ? (unsigned long long)fmax(1e9 * part * left_s * c->watch->run.threads / (double)c->n, 1)
+    const double left_s = c->control->end_s - koksma__now_s();
+    c->share_ns = c->control->end_s > 0 && c->n > 1
+                      ? (unsigned long long)fmax(1e9 * part * left_s * c->control->run.threads / (double)c->n, 1)
                       : 0;
 }
 
@@ -316,7 +316,7 @@ koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
     }
     if (!c->reference.pixels) {
         const double start_s = koksma__now_s();
-        status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->watch->run);
+        status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->control->run);
         c->reference_s = koksma__now_s() - start_s;
         set_share(c, 1);
     }
@@ -353,14 +353,14 @@ koksma_status koksma__contest_try_patterns(koksma__contest *c)
 }
 
 koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options *options,
-                                   const koksma__study_scene *scene, const char *variant, koksma__watch *watch,
-                                   const size_t *patterns, size_t n, double alpha)
+                                   const koksma__study_scene *scene, const char *variant,
+                                   koksma__run_control *control, const size_t *patterns, size_t n, double alpha)
 {
     const size_t most = options->max_trials ? (size_t)options->max_trials : 4096;
     *c = (koksma__contest){.options = options,
                            .scene = *scene,
                            .variant = variant,
-                           .watch = watch,
+                           .control = control,
                            .n = n,
                            .contestants = calloc(n, sizeof *c->contestants)};
     pthread_mutex_init(&c->lock, NULL);

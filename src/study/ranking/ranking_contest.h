@@ -36,7 +36,7 @@ typedef struct koksma__contest {
     const koksma_rank_options *options;
     koksma__study_scene scene; /* width and height: of this contest */
     const char *variant;
-    koksma__watch *watch;
+    koksma__run_control *control;
     int max_rounds;
     size_t n;
     koksma__contestant *contestants;
@@ -49,8 +49,8 @@ typedef struct koksma__contest {
 
 /* The contest must stay where it is. Errors: MEMORY. fini takes zeros and what a failed init left. */
 koksma_status koksma__contest_init(koksma__contest *contest, const koksma_rank_options *options,
-                                   const koksma__study_scene *scene, const char *variant, koksma__watch *watch,
-                                   const size_t *patterns, size_t n, double alpha);
+                                   const koksma__study_scene *scene, const char *variant,
+                                   koksma__run_control *control, const size_t *patterns, size_t n, double alpha);
 void koksma__contest_fini(koksma__contest *contest);
 
 /* Leaves those out that cannot make spp points, or puts those off that take too long to say. Errors: MEMORY,

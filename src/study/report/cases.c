@@ -13,7 +13,9 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "study/plan/plan_owned.h"
 #include "study/report/means.h"
+#include "study/run/references.h"
 
 /* Plans have their sizes sorted. */
 static bool has_size(const koksma__wholes *sizes, long long n)

@@ -2,8 +2,8 @@
 /* Collects the ranks of a question's cases, a measure at a time, and reports what rank_regression.c makes of them:
    for each scene the single measure, the pair and the combination of all measures that the other scenes choose, and
    how well each orders this scene's errors. */
-#include "stats/correlation.h"
 #include "study/report/combinations.h"
+#include "stats/correlation.h"
 
 #include <math.h>
 #include <stdio.h>

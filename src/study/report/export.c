@@ -7,6 +7,9 @@
 
 #include "core/atomic_file.h"
 #include "core/c_locale.h"
+#include "core/csv.h"
+#include "core/json_writer.h"
+#include "core/npy.h"
 #include "core/status.h"
 #include "study/run/study.h"
 #include "study/store/store.h"
@@ -19,6 +22,7 @@ static const char *const value_names[KOKSMA__RESULT_VALUES] = {"value", "sd", "m
 
 typedef struct writer {
     FILE *stream;
+    koksma__json_writer json;
     size_t rows, widths[N_TEXTS]; /* of NPY's byte strings */
 } writer;
 
@@ -36,27 +40,11 @@ static long long whole_of(const koksma__series *s, int k)
 
 /* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------ */
 
-static void put_csv_text(FILE *f, const char *text)
-{
-    if (!strpbrk(text, ",\"\r\n")) {
-        fputs(text, f);
-        return;
-    }
-    putc('"', f);
-    for (; *text; text++) {
-        if (*text == '"') {
-            putc('"', f);
-        }
-        putc(*text, f);
-    }
-    putc('"', f);
-}
-
 static koksma_status put_csv(void *context, const koksma__series *series, const koksma__result *result)
 {
     FILE *f = ((writer *)context)->stream;
     for (int k = 0; k < N_TEXTS; k++) {
-        put_csv_text(f, text_of(series, k));
+        koksma__csv_put(f, text_of(series, k));
         putc(',', f);
     }
     for (int k = 0; k < N_WHOLES; k++) {
@@ -90,40 +78,26 @@ static void put_csv_header(FILE *f)
 
 /* ---- JSON lines ---------------------------------------------------------------------------------------- */
 
-static void put_json_text(FILE *f, const char *text)
-{
-    putc('"', f);
-    for (; *text; text++) {
-        const unsigned char c = (unsigned char)*text;
-        if (c == '"' || c == '\\') {
-            fprintf(f, "\\%c", c);
-        } else if (c < 0x20) {
-            fprintf(f, "\\u%04x", c);
-        } else {
-            putc(c, f);
-        }
-    }
-    putc('"', f);
-}
-
-/* The seed is a text: readers that take numbers for doubles would lose its last bits. JSON has no infinity. */
+/* The seed is a text: readers that take numbers for doubles would lose its last bits. */
 static koksma_status put_json(void *context, const koksma__series *series, const koksma__result *result)
 {
-    FILE *f = ((writer *)context)->stream;
+    writer *w = context;
+    char seed[24];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)result->seed);
+    koksma__json_begin_object(&w->json, NULL);
     for (int k = 0; k < N_TEXTS; k++) {
-        fprintf(f, "%s\"%s\":", k ? "," : "{", text_names[k]);
-        put_json_text(f, text_of(series, k));
+        koksma__json_write_text(&w->json, text_names[k], text_of(series, k));
     }
     for (int k = 0; k < N_WHOLES; k++) {
-        fprintf(f, ",\"%s\":%lld", whole_names[k], whole_of(series, k));
+        koksma__json_write_whole(&w->json, whole_names[k], whole_of(series, k));
     }
-    fprintf(f, ",\"trial\":%lld,\"seed\":\"%llu\"", result->trial, (unsigned long long)result->seed);
+    koksma__json_write_whole(&w->json, "trial", result->trial);
+    koksma__json_write_text(&w->json, "seed", seed);
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        koksma__fprintf(f, !isfinite(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k],
-                        result->values[k]);
+        koksma__json_write_number(&w->json, value_names[k], result->values[k]);
     }
-    fputs("}\n", f);
-    return KOKSMA_OK;
+    koksma__json_end(&w->json);
+    return koksma__json_line(&w->json, w->stream);
 }
 
 /* ---- NPY: an array of records, little-endian ------------------------------------------------------------ */
@@ -140,35 +114,31 @@ static koksma_status measure_npy(void *context, const koksma__series *series, co
     return KOKSMA_OK;
 }
 
-/* Version 1.0 of the format: the magic bytes, the length of a Python literal padded to a multiple of 64, the literal.
- */
 static void put_npy_header(const writer *w)
 {
-    char header[1024];
-    int size = snprintf(header, sizeof header, "{'descr': [");
+    char descr[KOKSMA__NPY_HEADER - 64] = "[", shape[32];
+    size_t size = 1;
     for (int k = 0; k < N_TEXTS; k++) {
-        size += snprintf(header + size, sizeof header - (size_t)size, "('%s', '|S%zu'), ", text_names[k],
-                         w->widths[k] ? w->widths[k] : 1);
+        size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '|S%zu'), ", text_names[k],
+                                 w->widths[k] ? w->widths[k] : 1);
     }
     for (int k = 0; k < N_WHOLES; k++) {
-        size += snprintf(header + size, sizeof header - (size_t)size, "('%s', '<i8'), ", whole_names[k]);
+        size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '<i8'), ", whole_names[k]);
     }
-    size += snprintf(header + size, sizeof header - (size_t)size, "('trial', '<i8'), ('seed', '<u8')");
+    size += (size_t)snprintf(descr + size, sizeof descr - size, "('trial', '<i8'), ('seed', '<u8')");
     for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        size += snprintf(header + size, sizeof header - (size_t)size, ", ('%s', '<f8')", value_names[k]);
+        size += (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '<f8')", value_names[k]);
     }
-    size += snprintf(header + size, sizeof header - (size_t)size, "], 'fortran_order': False, 'shape': (%zu,), }",
-                     w->rows);
-    const int total = (10 + size + 1 + 63) / 64 * 64;
-    fprintf(w->stream, "%cNUMPY%c%c%c%c", 0x93, 1, 0, (total - 10) & 255, (total - 10) >> 8);
-    fprintf(w->stream, "%-*s\n", total - 11, header);
+    snprintf(descr + size, sizeof descr - size, "]");
+    snprintf(shape, sizeof shape, "(%zu,)", w->rows);
+    koksma__npy_put_header(w->stream, descr, shape);
 }
 
 static void put_word(FILE *f, uint64_t word)
 {
-    for (int i = 0; i < 8; i++) {
-        putc((int)(word >> 8 * i & 255), f);
-    }
+    unsigned char bytes[8];
+    koksma__npy_set_word(bytes, word);
+    fwrite(bytes, 1, sizeof bytes, f);
 }
 
 static koksma_status put_npy(void *context, const koksma__series *series, const koksma__result *result)
@@ -232,6 +202,7 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     if (!status) {
         w.stream = file.stream;
         status = write_rows(store, format, &w);
+        koksma__json_writer_fini(&w.json);
         const koksma_status closed = koksma__atomic_close(&file, !status);
         status = status ? status : closed;
     }

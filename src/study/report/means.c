@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
 koksma_status koksma__series_results(koksma_study *study, const koksma__series *series, long long trials,

@@ -11,8 +11,10 @@
 
 #include "core/status.h"
 #include "stats/statistics.h"
+#include "study/plan/plan_owned.h"
 #include "study/report/means.h"
 #include "study/report/published_tables.h"
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
 const koksma__image_block *koksma__table_images(const koksma_study *study, const koksma__table *table)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/plan/plan_owned.h"
 #include "study/report/rho_breakdowns.h"
 
 /* A part of the cases: one table has many. */

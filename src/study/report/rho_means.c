@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sums of rank correlations. A measure has a cell for each scene and number of samples, found by linear search: there
    are few. */
-#include "stats/bootstrap.h"
 #include "study/report/rho_means.h"
+#include "stats/bootstrap.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,9 +5,9 @@
  * not only those with the best, as the best is found in the same data. A statement about all scenes is one only where
  * it holds again without each of them: the jackknife's subsets (Efron 1982), used as a check, not for a variance.
  */
+#include "study/report/rho_ranking.h"
 #include "stats/bootstrap.h"
 #include "stats/holm.h"
-#include "study/report/rho_ranking.h"
 
 #include <math.h>
 #include <stdlib.h>

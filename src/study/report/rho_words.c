@@ -3,8 +3,8 @@
  * The answer over all cases. Every statement is checked on the rankings over all scenes and without each one
  * (koksma__rho_always_...): one that fails without some scene is not made, and the sentence says so.
  */
-#include "stats/bootstrap.h"
 #include "study/report/rho_words.h"
+#include "stats/bootstrap.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -14,7 +14,7 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
-#include "study/run/pool.h"
+#include "study/run/mpi_rank.h"
 #include "study/run/run_control.h"
 #include "study/run/tasks.h"
 
@@ -207,8 +207,8 @@ static size_t choose(const guesses *g, double left_s)
 static koksma_status time_tasks(koksma_study *study, guesses *g, const koksma_run *run, double budget_s)
 {
     const double start_s = koksma__now_s();
-    koksma__watch w;
-    koksma__watch_begin(run, 0, &w);
+    koksma__run_control w;
+    koksma__run_control_begin(run, 0, &w);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < g->n; i++) {
         if (g->at[i].nearest == (size_t)NONE) {
@@ -260,7 +260,7 @@ koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, 
     const double start_s = koksma__now_s(), budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
     const bool both = study->plan.n_discrepancies && study->plan.n_images;
     *out = (koksma_study_cost){0};
-    koksma__pool_release();
+    koksma__mpi_release();
     koksma_status status = estimate_kind(study, false, run, both ? budget_s / 2 : budget_s, out);
     const double left_s = budget_s - (koksma__now_s() - start_s);
     status = status ? status : estimate_kind(study, true, run, fmax(left_s, budget_s / 4), out);

@@ -4,7 +4,8 @@
  * nothing else is left, what is still out is done again here: a rank that was lost costs its batch, where MPI lets
  * the others live on; else the run ends, and the same command goes on from the store.
  */
-#include <pthread.h>
+#include "study/run/mpi_serve.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,8 +13,9 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
-#include "study/run/mpi_ranks.h"
-#include "study/run/run_state.h"
+#include "study/run/mpi_messages.h"
+#include "study/run/mpi_rank.h"
+#include "study/run/workers.h"
 
 /* Ranks have a batch in hand while they ask for the next, so that the answer may take as long as this. */
 static const double REST_S = 1e-3;
@@ -21,71 +23,20 @@ static const double REST_S = 1e-3;
 static const double GOODBYE_S = 30;
 
 typedef struct server {
-    koksma__pool *pool;
+    koksma__phase *phase;
     const koksma__transport *mpi;
-    int size, phase;
-    koksma__ledger ledger;
+    int size, number; /* number: of the phase */
+    koksma__run_state state;
     /* For the serving thread alone: */
-    koksma__ask *said; /* by each rank, last */
-    bool *ended;       /* ranks that know that the phase is over */
+    koksma__request *requests; /* of each rank, the last */
+    bool *ended;               /* ranks that know that the phase is over */
 } server;
 
-/* ---- Work on this rank --------------------------------------------------------------------------------- */
-
-static void do_job_here(server *s, size_t job)
-{
-    long long trial;
-    const koksma__task *task = koksma__tasks_job(s->pool->tasks, job, &trial);
-    koksma__result *results = calloc(task->n_series, sizeof *results);
-    const koksma_status status =
-        results ? koksma__task_do(s->pool->tasks->study, task, trial, &s->pool->watch->job, results)
-                : koksma__fail_memory(task->n_series * sizeof *results);
-    if (status == KOKSMA_IMPOSSIBLE) {
-        koksma__ledger_refuse_job(&s->ledger, job, koksma_error_text());
-    } else if (status) {
-        koksma__ledger_stop(&s->ledger, status, koksma_error_text());
-    } else {
-        koksma__ledger_put_job(&s->ledger, job, task, results);
-    }
-    free(results);
-}
-
-static void do_part_here(server *s, size_t i)
-{
-    koksma__replicates sums = {0};
-    const koksma_status status =
-        koksma__part_do(s->pool->tasks->study, &s->ledger.parts.at[i], &s->pool->watch->job, &sums);
-    if (status) {
-        koksma__ledger_stop(&s->ledger, status, koksma_error_text());
-    } else {
-        koksma__ledger_put_part(&s->ledger, i, &sums);
-    }
-    free(sums.sum);
-}
-
-/* Until all results are in. */
+/* Work on this rank, on a thread of its own. */
 static void *work_here(void *context)
 {
     server *s = context;
-    koksma__deal deal;
-    double waiting_s = koksma__now_s(), took_s = 0;
-    while (!koksma__ledger_is_over(&s->ledger)) {
-        /* A batch is late when it takes much longer than a job here; then it may be lost. */
-        const bool late = koksma__now_s() - waiting_s > 1 + 20 * took_s;
-        if (!koksma__ledger_take(&s->ledger, late, &deal)) {
-            koksma__ranks_rest(REST_S / 4);
-            continue;
-        }
-        const double start_s = koksma__now_s();
-        if (deal.kind == KOKSMA__DEAL_JOB) {
-            do_job_here(s, deal.number);
-        } else {
-            do_part_here(s, deal.number);
-        }
-        koksma__pool_was_busy(s->pool, start_s);
-        waiting_s = koksma__now_s();
-        took_s = waiting_s - start_s;
-    }
+    koksma__work(&s->state, true);
     return NULL;
 }
 
@@ -95,10 +46,10 @@ static void send_pixels(server *s, int to)
 {
     unsigned long long index;
     if (!s->mpi->receive(to, KOKSMA__TAG_NEED, &index, sizeof index, NULL) ||
-        index >= s->pool->tasks->study->n_references) {
+        index >= s->phase->tasks->study->n_references) {
         return;
     }
-    const koksma_image *image = &s->pool->tasks->study->references[index].image;
+    const koksma_image *image = &s->phase->tasks->study->references[index].image;
     const int shape[3] = {image->width, image->height, image->channels};
     const size_t pixels = (size_t)shape[0] * (size_t)shape[1] * (size_t)shape[2];
     s->mpi->send(to, KOKSMA__TAG_PIXELS, shape, sizeof shape);
@@ -112,47 +63,47 @@ static void receive_results(server *s, unsigned char *message, size_t bytes)
         long long trial;
         memcpy(&job, message + at, sizeof job);
         at += sizeof job;
-        const koksma__task *task = koksma__tasks_job(s->pool->tasks, job, &trial);
+        const koksma__task *task = koksma__tasks_job(s->phase->tasks, job, &trial);
         const size_t size = task->n_series * sizeof(koksma__result);
         koksma__result *results = malloc(size);
         if (!results || at + size > bytes) {
-            koksma__ledger_stop(&s->ledger, KOKSMA_MEMORY, "out of memory for results");
+            koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for results");
             free(results);
             return;
         }
         memcpy(results, message + at, size);
-        koksma__ledger_put_job(&s->ledger, job, task, results);
+        koksma__run_state_put_job(&s->state, job, task, results);
         free(results);
         at += size;
     }
 }
 
-static void receive_refusal(server *s, int from)
+static void receive_failure(server *s, int from)
 {
-    koksma__refusal refusal;
-    if (s->mpi->receive(from, KOKSMA__TAG_REFUSAL, &refusal, sizeof refusal, NULL) &&
-        refusal.job < s->pool->tasks->n_jobs) {
-        koksma__ledger_refuse_job(&s->ledger, refusal.job, refusal.text);
+    koksma__failure failure;
+    if (s->mpi->receive(from, KOKSMA__TAG_FAILURE, &failure, sizeof failure, NULL) &&
+        failure.job < s->phase->tasks->n_jobs) {
+        koksma__run_state_fail_job(&s->state, failure.job, failure.text);
     }
 }
 
-static void receive_part(server *s, unsigned char *message, size_t bytes)
+static void receive_tile(server *s, unsigned char *message, size_t bytes)
 {
-    koksma__part part;
-    if (bytes < sizeof part) {
+    koksma__reference_tile tile;
+    if (bytes < sizeof tile) {
         return;
     }
-    memcpy(&part, message, sizeof part);
-    const size_t i = koksma__ledger_part(&s->ledger, &part);
-    double *numbers = malloc(bytes - sizeof part);
+    memcpy(&tile, message, sizeof tile);
+    const size_t i = koksma__run_state_tile(&s->state, &tile);
+    double *numbers = malloc(bytes - sizeof tile);
     if (!numbers) {
-        koksma__ledger_stop(&s->ledger, KOKSMA_MEMORY, "out of memory for a part of a reference");
-    } else if (i < s->ledger.parts.n) {
-        const int width = s->pool->tasks->study->references[part.reference].width;
-        memcpy(numbers, message + sizeof part, bytes - sizeof part);
-        const koksma__replicates sums = koksma__replicates_over(numbers, (bytes - sizeof part) / sizeof *numbers,
-                                                                (size_t)width * (size_t)part.rows);
-        koksma__ledger_put_part(&s->ledger, i, &sums);
+        koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for a tile of a reference");
+    } else if (i < s->state.tiles.n) {
+        const int width = s->phase->tasks->study->references[tile.reference].width;
+        memcpy(numbers, message + sizeof tile, bytes - sizeof tile);
+        const koksma__replicates sums = koksma__replicates_over(numbers, (bytes - sizeof tile) / sizeof *numbers,
+                                                                (size_t)width * (size_t)tile.rows);
+        koksma__run_state_put_tile(&s->state, i, &sums);
     }
     free(numbers);
 }
@@ -161,31 +112,31 @@ static void receive_work(server *s, int from, int tag, size_t bytes)
 {
     unsigned char *message = malloc(bytes ? bytes : 1);
     if (!message) {
-        koksma__ledger_stop(&s->ledger, KOKSMA_MEMORY, "out of memory for a message");
+        koksma__run_state_stop(&s->state, KOKSMA_MEMORY, "out of memory for a message");
     } else if (s->mpi->receive(from, tag, message, bytes, NULL)) {
-        (tag == KOKSMA__TAG_PART ? receive_part : receive_results)(s, message, bytes);
+        (tag == KOKSMA__TAG_TILE ? receive_tile : receive_results)(s, message, bytes);
     }
     free(message);
 }
 
 /* Answers a request; with nothing when there is nothing now. */
-static void deal(server *s, int to)
+static void assign(server *s, int to)
 {
-    koksma__ask ask;
-    koksma__deal deals[KOKSMA__MAX_BATCH];
+    koksma__request request;
+    koksma__assignment assignments[KOKSMA__MAX_BATCH];
     size_t n = 0;
-    s->mpi->receive(to, KOKSMA__TAG_ASK, &ask, sizeof ask, NULL);
-    const bool now = (int)ask.phase == s->phase;
+    s->mpi->receive(to, KOKSMA__TAG_REQUEST, &request, sizeof request, NULL);
+    const bool now = (int)request.phase == s->number;
     if (now) {
-        s->said[to] = ask;
-        n = koksma__ledger_take_batch(&s->ledger, ask.job_s, s->size, deals);
+        s->requests[to] = request;
+        n = koksma__run_state_take_batch(&s->state, request.job_s, s->size, assignments);
     }
-    if (n == 0 && (koksma__ledger_is_over(&s->ledger) ? (int)ask.phase <= s->phase || s->ledger.status
-                                                      : (int)ask.phase < s->phase)) {
-        deals[n++] = (koksma__deal){.kind = s->ledger.status ? KOKSMA__DEAL_RUN_OVER : KOKSMA__DEAL_PHASE_OVER};
-        s->ended[to] = s->ended[to] || now || s->ledger.status;
+    if (n == 0 && (koksma__run_state_is_over(&s->state) ? (int)request.phase <= s->number || s->state.status
+                                                        : (int)request.phase < s->number)) {
+        assignments[n++] = (koksma__assignment){.kind = s->state.status ? KOKSMA__RUN_OVER : KOKSMA__PHASE_OVER};
+        s->ended[to] = s->ended[to] || now || s->state.status;
     }
-    s->mpi->send(to, KOKSMA__TAG_DEAL, deals, n * sizeof *deals);
+    s->mpi->send(to, KOKSMA__TAG_ASSIGNMENTS, assignments, n * sizeof *assignments);
 }
 
 /* One message, if there is one. */
@@ -196,24 +147,24 @@ static bool serve_one(server *s)
     if (!s->mpi->probe(&from, &tag, &bytes)) {
         return false;
     }
-    char text[KOKSMA__RANK_TEXT] = "";
+    char text[KOKSMA__FAILURE_TEXT] = "";
     switch (tag) {
-    case KOKSMA__TAG_ASK:
-        deal(s, from);
+    case KOKSMA__TAG_REQUEST:
+        assign(s, from);
         break;
     case KOKSMA__TAG_NEED:
         send_pixels(s, from);
         break;
-    case KOKSMA__TAG_REFUSAL:
-        receive_refusal(s, from);
+    case KOKSMA__TAG_FAILURE:
+        receive_failure(s, from);
         break;
     case KOKSMA__TAG_RESULTS:
-    case KOKSMA__TAG_PART:
+    case KOKSMA__TAG_TILE:
         receive_work(s, from, tag, bytes);
         break;
     case KOKSMA__TAG_ERROR:
         s->mpi->receive(from, KOKSMA__TAG_ERROR, text, sizeof text, NULL);
-        koksma__ledger_stop(&s->ledger, (koksma_status)text[0], text + 1);
+        koksma__run_state_stop(&s->state, (koksma_status)text[0], text + 1);
         s->ended[from] = true;
         break;
     default:
@@ -237,16 +188,16 @@ static void serve(server *s)
 {
     double over_s = 0;
     for (;;) {
-        const bool served = serve_one(s), over = koksma__ledger_is_over(&s->ledger);
+        const bool served = serve_one(s), over = koksma__run_state_is_over(&s->state);
         over_s = !over ? 0 : over_s > 0 ? over_s : koksma__now_s();
         if (over && (all_ended(s) || koksma__now_s() - over_s > GOODBYE_S)) {
             return;
         }
-        if (!over && !koksma__keep_going(&s->pool->watch->run, koksma__ledger_fraction(&s->ledger))) {
-            koksma__ledger_stop(&s->ledger, KOKSMA_INTERRUPTED, "interrupted");
+        if (!over && !koksma__keep_going(&s->phase->control->run, koksma__run_state_fraction(&s->state))) {
+            koksma__run_state_stop(&s->state, KOKSMA_INTERRUPTED, "interrupted");
         }
         if (!served) {
-            koksma__ranks_rest(REST_S);
+            koksma__mpi_rest(REST_S);
         }
     }
 }
@@ -255,32 +206,32 @@ static void serve(server *s)
 
 static koksma_status open_server(server *s)
 {
-    s->said = calloc((size_t)s->size, sizeof *s->said);
+    s->requests = calloc((size_t)s->size, sizeof *s->requests);
     s->ended = calloc((size_t)s->size, sizeof *s->ended);
-    const koksma_status status = koksma__ledger_open(s->pool, &s->ledger);
-    return s->said && s->ended ? status : koksma__fail_memory((size_t)s->size);
+    const koksma_status status = koksma__run_state_open(s->phase, &s->state);
+    return s->requests && s->ended ? status : koksma__fail_memory((size_t)s->size);
 }
 
 static void close_server(server *s)
 {
-    koksma__ledger_close(&s->ledger);
-    free(s->said);
+    koksma__run_state_close(&s->state);
+    free(s->requests);
     free(s->ended);
 }
 
-koksma_status koksma__pool_serve(koksma__pool *pool)
+koksma_status koksma__mpi_serve(koksma__phase *phase)
 {
-    koksma__ranks *ranks = koksma__ranks_get();
+    koksma__mpi *mpi = koksma__mpi_get();
     server s = {
-        .pool = pool, .mpi = ranks->mpi, .size = ranks->size, .phase = pool->tasks->n && pool->tasks->at[0].image};
+        .phase = phase, .mpi = mpi->mpi, .size = mpi->size, .number = phase->tasks->n && phase->tasks->at[0].image};
     pthread_t helper;
     koksma_status status = open_server(&s);
-    if (status && !(s.said && s.ended)) {
+    if (status && !(s.requests && s.ended)) {
         close_server(&s);
         return status;
     }
     if (status) {
-        koksma__ledger_stop(&s.ledger, status, koksma_error_text());
+        koksma__run_state_stop(&s.state, status, koksma_error_text());
     }
     const bool helped = !pthread_create(&helper, NULL, work_here, &s);
     serve(&s);
@@ -288,11 +239,11 @@ koksma_status koksma__pool_serve(koksma__pool *pool)
         pthread_join(helper, NULL);
     }
     for (int r = 1; r < s.size; r++) {
-        atomic_fetch_add(&pool->busy_ns, (unsigned long long)(1e9 * s.said[r].busy_s));
-        pool->others_s += s.said[r].processor_s;
+        atomic_fetch_add(&phase->busy_ns, (unsigned long long)(1e9 * s.requests[r].busy_s));
+        phase->others_s += s.requests[r].processor_s;
     }
-    ranks->released = s.ledger.status || pool->last;
-    status = s.ledger.status ? koksma__fail(s.ledger.status, "%s", s.ledger.text) : KOKSMA_OK;
+    mpi->released = s.state.status || phase->last;
+    status = koksma__run_state_status(&s.state);
     close_server(&s);
     return status;
 }

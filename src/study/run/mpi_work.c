@@ -1,21 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The ranks that do what rank 0 deals out. */
+/* The other ranks of an MPI run. A rank requests the next batch when it begins with one, so that an answer has the
+   time of a batch to come; results go back together, at least every SEND_S. It has the plan and makes the same list
+   of jobs as rank 0, fetches the reference images that its jobs need, and keeps nothing. */
+#include "study/run/mpi_work.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/processor_clock.h"
 #include "core/status.h"
-#include "study/run/mpi_ranks.h"
+#include "study/run/mpi_messages.h"
+#include "study/run/mpi_rank.h"
 
 static const double REST_S = 2e-4;
 
 /* Jobs' results on their way. */
-typedef struct letter {
+typedef struct outbox {
     unsigned char *bytes;
     size_t size, room;
     double since_s; /* when its first job began */
-} letter;
+} outbox;
 
 typedef struct worker {
     const koksma__transport *mpi;
@@ -23,7 +28,7 @@ typedef struct worker {
     koksma_study *study;
     const koksma_run *job;
     koksma__tasks tasks;
-    letter out;
+    outbox out;
     double busy_s, began_s; /* began_s: processor time at the phase's start */
 } worker;
 
@@ -38,7 +43,7 @@ static bool receive(const worker *w, int wanted, void *bytes, size_t room, size_
     int from, tag;
     size_t coming;
     while (!w->mpi->probe(&from, &tag, &coming)) {
-        koksma__ranks_rest(REST_S);
+        koksma__mpi_rest(REST_S);
     }
     return w->mpi->receive(0, wanted, bytes, room, size);
 }
@@ -74,14 +79,14 @@ static koksma_status send_results(worker *w)
     return KOKSMA_OK;
 }
 
-static koksma_status send_refusal(const worker *w, unsigned long long job)
+static koksma_status send_failure(const worker *w, unsigned long long job)
 {
-    koksma__refusal refusal = {.job = job};
-    snprintf(refusal.text, sizeof refusal.text, "%s", koksma_error_text());
-    return w->mpi->send(0, KOKSMA__TAG_REFUSAL, &refusal, sizeof refusal) ? KOKSMA_OK : lost(w);
+    koksma__failure failure = {.job = job};
+    snprintf(failure.text, sizeof failure.text, "%s", koksma_error_text());
+    return w->mpi->send(0, KOKSMA__TAG_FAILURE, &failure, sizeof failure) ? KOKSMA_OK : lost(w);
 }
 
-static koksma_status make_room(letter *l, size_t more)
+static koksma_status make_room(outbox *l, size_t more)
 {
     if (l->size + more > l->room) {
         const size_t room = 2 * (l->size + more);
@@ -109,7 +114,7 @@ static koksma_status do_job(worker *w, unsigned long long job)
     w->out.since_s = w->out.size ? w->out.since_s : start_s;
     status = status ? status : koksma__task_do(w->study, task, trial, w->job, results);
     if (!status) {
-        letter *l = &w->out;
+        outbox *l = &w->out;
         memcpy(l->bytes + l->size, &job, sizeof job);
         memcpy(l->bytes + l->size + sizeof job, results, task->n_series * sizeof *results);
         l->size += sizeof job + task->n_series * sizeof *results;
@@ -117,56 +122,56 @@ static koksma_status do_job(worker *w, unsigned long long job)
         status = koksma__now_s() - l->since_s > KOKSMA__SEND_S ? send_results(w) : KOKSMA_OK;
     } else if (status == KOKSMA_IMPOSSIBLE) {
         w->busy_s += koksma__now_s() - start_s;
-        status = send_refusal(w, job);
+        status = send_failure(w, job);
     }
     free(results);
     return status;
 }
 
-static koksma_status do_part(worker *w, const koksma__part *part)
+static koksma_status do_tile(worker *w, const koksma__reference_tile *tile)
 {
     koksma__replicates sums = {0};
     const double start_s = koksma__now_s();
-    koksma_status status = koksma__part_do(w->study, part, w->job, &sums);
+    koksma_status status = koksma__tile_do(w->study, tile, w->job, &sums);
     const size_t bytes = koksma__replicates_numbers(&sums) * sizeof *sums.sum;
-    unsigned char *message = status ? NULL : malloc(sizeof *part + bytes);
+    unsigned char *message = status ? NULL : malloc(sizeof *tile + bytes);
     if (!status && !message) {
-        status = koksma__fail_memory(sizeof *part + bytes);
+        status = koksma__fail_memory(sizeof *tile + bytes);
     }
     w->busy_s += koksma__now_s() - start_s;
     if (!status) {
-        memcpy(message, part, sizeof *part);
-        memcpy(message + sizeof *part, sums.sum, bytes);
-        status = w->mpi->send(0, KOKSMA__TAG_PART, message, sizeof *part + bytes) ? KOKSMA_OK : lost(w);
+        memcpy(message, tile, sizeof *tile);
+        memcpy(message + sizeof *tile, sums.sum, bytes);
+        status = w->mpi->send(0, KOKSMA__TAG_TILE, message, sizeof *tile + bytes) ? KOKSMA_OK : lost(w);
     }
     free(message);
     free(sums.sum);
     return status;
 }
 
-/* Does what was dealt; *over, *run_over: there is no more in this phase, or at all. */
-static koksma_status do_batch(worker *w, const koksma__deal *deals, size_t n, bool *over, bool *run_over)
+/* Does the assignments; *over, *run_over: there is no more in this phase, or at all. */
+static koksma_status do_batch(worker *w, const koksma__assignment *assignments, size_t n, bool *over, bool *run_over)
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < n && !status && !*over; i++) {
-        *run_over = deals[i].kind == KOKSMA__DEAL_RUN_OVER;
-        *over = *run_over || deals[i].kind == KOKSMA__DEAL_PHASE_OVER;
-        if (deals[i].kind == KOKSMA__DEAL_JOB) {
-            status = do_job(w, deals[i].number);
-        } else if (deals[i].kind == KOKSMA__DEAL_PART) {
-            status = do_part(w, &deals[i].part);
+        *run_over = assignments[i].kind == KOKSMA__RUN_OVER;
+        *over = *run_over || assignments[i].kind == KOKSMA__PHASE_OVER;
+        if (assignments[i].kind == KOKSMA__ASSIGN_JOB) {
+            status = do_job(w, assignments[i].number);
+        } else if (assignments[i].kind == KOKSMA__ASSIGN_TILE) {
+            status = do_tile(w, &assignments[i].tile);
         }
     }
     return status ? status : send_results(w);
 }
 
-static koksma_status ask(const worker *w, int phase, double job_s)
+static koksma_status request(const worker *w, int phase, double job_s)
 {
-    const koksma__ask ask = {phase, job_s, w->busy_s, koksma__processor_s() - w->began_s};
-    return w->mpi->send(0, KOKSMA__TAG_ASK, &ask, sizeof ask) ? KOKSMA_OK : lost(w);
+    const koksma__request next = {phase, job_s, w->busy_s, koksma__processor_s() - w->began_s};
+    return w->mpi->send(0, KOKSMA__TAG_REQUEST, &next, sizeof next) ? KOKSMA_OK : lost(w);
 }
 
-/* Asks and does until the phase is over. */
+/* Requests and does assignments until the phase is over. */
 static koksma_status work_phase(worker *w, int phase, bool *run_over)
 {
     koksma_status status = koksma__tasks_open(w->study, phase == 1, &w->tasks);
@@ -174,37 +179,37 @@ static koksma_status work_phase(worker *w, int phase, bool *run_over)
     double job_s = 0;
     w->busy_s = 0;
     w->began_s = koksma__processor_s();
-    status = over ? status : ask(w, phase, job_s);
+    status = over ? status : request(w, phase, job_s);
     while (!over && !status) {
-        koksma__deal deals[KOKSMA__MAX_BATCH];
+        koksma__assignment assignments[KOKSMA__MAX_BATCH];
         size_t got;
-        if (!receive(w, KOKSMA__TAG_DEAL, deals, sizeof deals, &got)) {
+        if (!receive(w, KOKSMA__TAG_ASSIGNMENTS, assignments, sizeof assignments, &got)) {
             status = lost(w);
             break;
         }
-        const size_t n = got / sizeof *deals;
+        const size_t n = got / sizeof *assignments;
         const double busy_s = w->busy_s;
-        const bool ahead = n && deals[0].kind <= KOKSMA__DEAL_PART;
-        status = ahead ? ask(w, phase, job_s) : KOKSMA_OK;
-        status = status ? status : do_batch(w, deals, n, &over, run_over);
-        if (ahead && deals[n - 1].kind == KOKSMA__DEAL_JOB) {
+        const bool ahead = n && assignments[0].kind <= KOKSMA__ASSIGN_TILE;
+        status = ahead ? request(w, phase, job_s) : KOKSMA_OK;
+        status = status ? status : do_batch(w, assignments, n, &over, run_over);
+        if (ahead && assignments[n - 1].kind == KOKSMA__ASSIGN_JOB) {
             job_s = (w->busy_s - busy_s) / (double)n;
         }
         if (n == 0 && !status) {
-            koksma__ranks_rest(REST_S);
-            status = ask(w, phase, job_s);
+            koksma__mpi_rest(REST_S);
+            status = request(w, phase, job_s);
         }
     }
     koksma__tasks_close(&w->tasks);
     return status;
 }
 
-koksma_status koksma__pool_work(koksma_study *study, const koksma_run *job)
+koksma_status koksma__mpi_work(koksma_study *study, const koksma_run *job)
 {
-    const koksma__ranks *ranks = koksma__ranks_get();
-    worker w = {.mpi = ranks->mpi, .rank = ranks->rank, .study = study, .job = job};
+    const koksma__mpi *mpi = koksma__mpi_get();
+    worker w = {.mpi = mpi->mpi, .rank = mpi->rank, .study = study, .job = job};
     koksma_status status = KOKSMA_OK;
-    if (ranks->size < 2) {
+    if (mpi->size < 2) {
         return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder can't be run");
     }
     bool over = false;
@@ -213,7 +218,7 @@ koksma_status koksma__pool_work(koksma_study *study, const koksma_run *job)
     }
     free(w.out.bytes);
     if (status) { /* rank 0 says it, and ends the others */
-        char text[KOKSMA__RANK_TEXT];
+        char text[KOKSMA__FAILURE_TEXT];
         text[0] = (char)status;
         snprintf(text + 1, sizeof text - 1, "%s", koksma_error_text());
         w.mpi->send(0, KOKSMA__TAG_ERROR, text, sizeof text);

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Cuts the references that are missing into tiles of whole rows, as many as their size says, not as there are
+   threads; renders a tile as the sum of all replicates of its rows in their order; puts the sums of tiles together,
+   and finishes a reference with its last one. So its bits do not depend on who renders which tile. */
 #include "study/run/reference_tiles.h"
 
 #include <math.h>
@@ -9,34 +12,34 @@
 #include "core/capacity.h"
 #include "core/status.h"
 
-/* About 20 ms of a plain scene, so that those who wait for the last part don't wait long. */
-static const double SAMPLES_A_PART = 1 << 19;
+/* About 20 ms of a plain scene, so that those who wait for the last tile don't wait long. */
+static const double SAMPLES_A_TILE = 1 << 19;
 
-static koksma_status add_part(koksma__parts *parts, size_t reference, int first_row, int rows)
+static koksma_status add_tile(koksma__reference_tiles *tiles, size_t reference, int first_row, int rows)
 {
-    koksma__part *at = koksma__room_for_one(parts->at, parts->n, &parts->room, 64, sizeof *at);
+    koksma__reference_tile *at = koksma__room_for_one(tiles->at, tiles->n, &tiles->room, 64, sizeof *at);
     if (!at) {
         return KOKSMA_MEMORY;
     }
-    parts->at = at;
-    parts->at[parts->n++] = (koksma__part){reference, first_row, rows};
+    tiles->at = at;
+    tiles->at[tiles->n++] = (koksma__reference_tile){reference, first_row, rows};
     return KOKSMA_OK;
 }
 
-static koksma_status add_parts(koksma__parts *parts, size_t reference)
+static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
 {
-    const koksma__reference_image *r = &parts->study->references[reference];
+    const koksma__reference_image *r = &tiles->study->references[reference];
     const double row = (double)r->width * (double)r->reference->spp * (double)r->reference->replicates;
     bool alone;
     koksma_status status = koksma__reference_rows_stand_alone(r, &alone);
     int rows = r->height;
-    if (alone && row * rows > SAMPLES_A_PART) {
-        rows = row < SAMPLES_A_PART ? (int)(SAMPLES_A_PART / row) : 1;
+    if (alone && row * rows > SAMPLES_A_TILE) {
+        rows = row < SAMPLES_A_TILE ? (int)(SAMPLES_A_TILE / row) : 1;
     }
     for (int y = 0; !status && y < r->height; y += rows) {
-        status = add_part(parts, reference, y, r->height - y < rows ? r->height - y : rows);
+        status = add_tile(tiles, reference, y, r->height - y < rows ? r->height - y : rows);
     }
-    parts->rows_left[reference] = r->height;
+    tiles->rows_left[reference] = r->height;
     return status;
 }
 
@@ -51,43 +54,43 @@ static bool is_kept(const koksma_study *study, const koksma__reference_image *re
             (!koksma__store_reference(study->store, &key, &error) && !isnan(error)));
 }
 
-koksma_status koksma__parts_open(const koksma__tasks *tasks, koksma__parts *parts)
+koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles)
 {
     koksma_study *study = tasks->study;
     koksma_status status = KOKSMA_OK;
-    *parts = (koksma__parts){.study = study};
-    parts->sums = calloc(study->n_references + 1, sizeof *parts->sums);
-    parts->rows_left = calloc(study->n_references + 1, sizeof *parts->rows_left);
-    if (!parts->sums || !parts->rows_left) {
-        status = koksma__fail_memory((study->n_references + 1) * sizeof *parts->sums);
+    *tiles = (koksma__reference_tiles){.study = study};
+    tiles->sums = calloc(study->n_references + 1, sizeof *tiles->sums);
+    tiles->rows_left = calloc(study->n_references + 1, sizeof *tiles->rows_left);
+    if (!tiles->sums || !tiles->rows_left) {
+        status = koksma__fail_memory((study->n_references + 1) * sizeof *tiles->sums);
     }
     for (size_t i = 0; !status && i < tasks->n; i++) {
         const koksma__task *task = &tasks->at[i];
         for (size_t r = 0; task->image && !status && r < task->n_series && task->done_before < task->trials; r++) {
             const size_t index = task->references[r];
-            if (study->references[index].image.pixels || parts->rows_left[index]) {
+            if (study->references[index].image.pixels || tiles->rows_left[index]) {
                 continue;
             }
             status = is_kept(study, &study->references[index])
                          ? koksma__reference_read(study, &study->references[index])
-                         : add_parts(parts, index);
+                         : add_tiles(tiles, index);
         }
     }
     if (status) {
-        koksma__parts_close(parts);
+        koksma__tiles_close(tiles);
     }
     return status;
 }
 
-void koksma__parts_close(koksma__parts *parts)
+void koksma__tiles_close(koksma__reference_tiles *tiles)
 {
-    for (size_t i = 0; parts->sums && i < parts->study->n_references; i++) {
-        free(parts->sums[i].sum);
+    for (size_t i = 0; tiles->sums && i < tiles->study->n_references; i++) {
+        free(tiles->sums[i].sum);
     }
-    free(parts->sums);
-    free(parts->rows_left);
-    free(parts->at);
-    *parts = (koksma__parts){0};
+    free(tiles->sums);
+    free(tiles->rows_left);
+    free(tiles->at);
+    *tiles = (koksma__reference_tiles){0};
 }
 
 static koksma_status fail_reference(const koksma__reference_image *r, koksma_status status)
@@ -98,15 +101,15 @@ static koksma_status fail_reference(const koksma__reference_image *r, koksma_sta
     return koksma__fail_in(status, text);
 }
 
-koksma_status koksma__part_do(const koksma_study *study, const koksma__part *part, const koksma_run *run,
+koksma_status koksma__tile_do(const koksma_study *study, const koksma__reference_tile *tile, const koksma_run *run,
                               koksma__replicates *out)
 {
-    const koksma__reference_image *r = &study->references[part->reference];
+    const koksma__reference_image *r = &study->references[tile->reference];
     koksma_status status = KOKSMA_OK;
     *out = (koksma__replicates){0};
     for (long long i = 0; !status && i < r->reference->replicates; i++) {
         koksma_image image;
-        status = koksma__reference_replicate(r, i, (int)part->first_row, (int)part->rows, run, &image);
+        status = koksma__reference_replicate(r, i, (int)tile->first_row, (int)tile->rows, run, &image);
         if (!status) {
             status = koksma__replicates_add(out, &image);
             koksma_image_fini(&image);
@@ -119,12 +122,12 @@ koksma_status koksma__part_do(const koksma_study *study, const koksma__part *par
     return status == KOKSMA_IMPOSSIBLE ? fail_reference(r, status) : status;
 }
 
-koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, const koksma__replicates *from,
-                                bool *complete)
+koksma_status koksma__tiles_put(koksma__reference_tiles *tiles, const koksma__reference_tile *tile,
+                                const koksma__replicates *from, bool *complete)
 {
-    const koksma__reference_image *r = &parts->study->references[part->reference];
-    koksma__replicates *all = &parts->sums[part->reference];
-    const size_t width = from->pixels / (size_t)part->rows, first = (size_t)part->first_row * width;
+    const koksma__reference_image *r = &tiles->study->references[tile->reference];
+    koksma__replicates *all = &tiles->sums[tile->reference];
+    const size_t width = from->pixels / (size_t)tile->rows, first = (size_t)tile->first_row * width;
     const koksma_status status =
         all->sum ? KOKSMA_OK : koksma__replicates_init(all, width * (size_t)r->height, from->channels);
     if (status) {
@@ -134,12 +137,12 @@ koksma_status koksma__parts_put(koksma__parts *parts, const koksma__part *part, 
     memcpy(all->sum + first * from->channels, from->sum, from->pixels * from->channels * sizeof *from->sum);
     memcpy(all->luminance + first, from->luminance, from->pixels * sizeof *from->sum);
     memcpy(all->squares + first, from->squares, from->pixels * sizeof *from->sum);
-    parts->rows_left[part->reference] -= part->rows;
-    *complete = parts->rows_left[part->reference] == 0;
+    tiles->rows_left[tile->reference] -= tile->rows;
+    *complete = tiles->rows_left[tile->reference] == 0;
     return KOKSMA_OK;
 }
 
-koksma_status koksma__parts_finish(koksma__parts *parts, size_t reference)
+koksma_status koksma__tiles_finish(koksma__reference_tiles *tiles, size_t reference)
 {
-    return koksma__replicates_finish(&parts->sums[reference], parts->study, &parts->study->references[reference]);
+    return koksma__replicates_finish(&tiles->sums[reference], tiles->study, &tiles->study->references[reference]);
 }

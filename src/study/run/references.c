@@ -1,75 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Reference images. The paper took 400 jittered samples; a reference whose own error is not far below the errors that
- * are measured against it hides or adds error, so a plan may ask for the mean of many independent renders. Their
- * spread gives the reference's own expected absolute error, of luminance as all errors of images (image/compare.c):
- * for k replicates with the sample deviation s of a pixel's luminance, a normal error of deviation s / sqrt k has the
- * mean absolute value sqrt(2/pi) s / sqrt k; the mean of that over the pixels is kept. Deviations are updated
- * replicate by replicate (Welford 1962), so that equal replicates have none.
+ * are measured against it hides or adds error, so a plan may ask for the mean of many independent renders
+ * (replicates.c), whose spread gives that error, too. A finished reference is a file in DIR/references, named by the
+ * hash of all it depends on, and a row of the store.
  */
+#include "study/run/references.h"
+
 #include <errno.h>
-#include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/c_locale.h"
-#include "core/hash.h"
 #include "core/status.h"
-#include "image/formats.h"
 #include "render/rows.h"
-#include "study/plan/image_patterns.h"
 #include "study/plan/point_files.h"
 #include "study/run/study.h"
-
-enum { LONGEST_KEY = 8192 }; /* a path, a pattern, options */
-
-uint64_t koksma__job_seed(const char *format, ...)
-{
-    char key[LONGEST_KEY];
-    va_list arguments;
-    va_start(arguments, format);
-    koksma__vsnprintf(key, sizeof key, format, arguments);
-    va_end(arguments);
-    return koksma__hash(key, strlen(key));
-}
 
 void koksma__reference_name(const koksma__reference *reference, char *text)
 {
     snprintf(text, KOKSMA__REFERENCE_NAME, "%s:%s@%lldx%lld", reference->name, reference->pattern, reference->spp,
              reference->replicates);
-}
-
-void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height)
-{
-    *width = block->width ? block->width : scene->width;
-    *height = block->height ? block->height : scene->height;
-}
-
-static koksma_status set_variant(const koksma__study_scene *scene, const koksma__picture *picture,
-                                 koksma__variant *variant)
-{
-    koksma_render_options *options = &variant->render;
-    koksma_render_options_init(options, scene->scene);
-    koksma_status status = koksma__image_pattern_set(picture->pattern, options);
-    if (!status) {
-        status = koksma__variant_apply(picture->variant, picture->of_reference, variant);
-    }
-    options->spp = (int)picture->spp;
-    options->seed = picture->seed;
-    options->width = picture->width;
-    options->height = picture->height;
-    return status;
-}
-
-koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
-                                   const koksma_run *run, koksma_image *out)
-{
-    koksma__variant variant;
-    const koksma_status status = set_variant(scene, picture, &variant);
-    return status ? status : koksma__variant_render(scene->scene, &variant, run, out);
 }
 
 koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
@@ -127,7 +79,7 @@ koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *
 {
     koksma__variant variant;
     const koksma__picture picture = picture_of(reference, 0);
-    const koksma_status status = set_variant(reference->scene, &picture, &variant);
+    const koksma_status status = koksma__picture_set(reference->scene, &picture, &variant);
     *alone = !status && koksma__rows_stand_alone(&variant.render);
     return status;
 }
@@ -138,63 +90,8 @@ koksma_status koksma__reference_replicate(const koksma__reference_image *referen
 {
     koksma__variant variant;
     const koksma__picture picture = picture_of(reference, replicate);
-    const koksma_status status = set_variant(reference->scene, &picture, &variant);
+    const koksma_status status = koksma__picture_set(reference->scene, &picture, &variant);
     return status ? status : koksma__render_rows(reference->scene->scene, &variant.render, first_row, rows, run, out);
-}
-
-size_t koksma__replicates_numbers(const koksma__replicates *s)
-{
-    return s->pixels * (s->channels + 2);
-}
-
-koksma__replicates koksma__replicates_over(double *numbers, size_t n, size_t pixels)
-{
-    double *luminance = numbers + (n - 2 * pixels);
-    return (koksma__replicates){.sum = numbers,
-                                .luminance = luminance,
-                                .squares = luminance + pixels,
-                                .pixels = pixels,
-                                .channels = n / pixels - 2};
-}
-
-koksma_status koksma__replicates_init(koksma__replicates *s, size_t pixels, size_t channels)
-{
-    const size_t n = koksma__replicates_numbers(&(koksma__replicates){.pixels = pixels, .channels = channels});
-    double *zeros = calloc(n, sizeof *zeros);
-    if (!zeros) {
-        return koksma__fail_memory(n * sizeof *zeros);
-    }
-    *s = koksma__replicates_over(zeros, n, pixels);
-    return KOKSMA_OK;
-}
-
-koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)
-{
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    const koksma_status status = s->sum ? KOKSMA_OK : koksma__replicates_init(s, pixels, (size_t)image->channels);
-    if (status) {
-        return status;
-    }
-    s->n++;
-    for (size_t i = 0; i < pixels * s->channels; i++) {
-        s->sum[i] += (double)image->pixels[i];
-    }
-    for (size_t p = 0; p < pixels; p++) {
-        const double y = koksma__luminance(image, p), off = y - s->luminance[p];
-        s->luminance[p] += off / (double)s->n;
-        s->squares[p] += off * (y - s->luminance[p]);
-    }
-    return KOKSMA_OK;
-}
-
-static double standard_error(const koksma__replicates *s)
-{
-    const double k = (double)s->n;
-    double total = 0;
-    for (size_t p = 0; p < s->pixels; p++) {
-        total += sqrt(2 / M_PI * s->squares[p] / (k - 1) / k);
-    }
-    return s->n < 2 ? (double)NAN : total / (double)s->pixels;
 }
 
 /* The file's name holds all that the picture and its own error depend on: of luminance since there are such names. */
@@ -215,17 +112,6 @@ bool koksma__reference_exists(const koksma_study *study, const koksma__reference
     struct stat info;
     koksma__reference_path(study, reference, path, sizeof path);
     return !stat(path, &info);
-}
-
-koksma_status koksma__replicates_mean(const koksma__replicates *s, int width, int height, koksma_image *out,
-                                      double *error)
-{
-    const koksma_status status = koksma_image_init(out, width, height, (int)s->channels);
-    for (size_t i = 0; !status && i < s->pixels * s->channels; i++) {
-        out->pixels[i] = (float)(s->sum[i] / (double)s->n);
-    }
-    *error = standard_error(s);
-    return status;
 }
 
 /* The picture last: where it is, the row is. */

@@ -10,7 +10,10 @@
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 #include "core/status.h"
-#include "study/run/pool.h"
+#include "study/run/mpi_rank.h"
+#include "study/run/mpi_serve.h"
+#include "study/run/mpi_work.h"
+#include "study/run/workers.h"
 
 /* ---- What was run, on what ----------------------------------------------------------------------------- */
 
@@ -52,8 +55,8 @@ static koksma_status record_run(koksma_study *study, const char *started, const 
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
-/* What was refused, of both kinds of jobs. */
-static void add_refused(koksma__refused *all, const koksma__refused *more)
+/* Adds the failures of a phase to those of the run. */
+static void add_failures(koksma__failures *all, const koksma__failures *more)
 {
     if (more->n && !all->n) {
         memcpy(all->text, more->text, sizeof all->text);
@@ -62,18 +65,15 @@ static void add_refused(koksma__refused *all, const koksma__refused *more)
 }
 
 /* With a status that is not OK already, only counts. */
-static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *watch, koksma_status before,
-                              koksma_study_summary *summary, koksma__refused *refused)
+static koksma_status run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
+                              koksma_study_summary *summary, koksma__failures *failures)
 {
     koksma__tasks tasks;
     koksma_status status = koksma__tasks_open(study, images, &tasks);
     if (status) {
         return status;
     }
-    koksma__pool pool = {.tasks = &tasks,
-                         .watch = watch,
-                         .last = images || !study->plan.n_images,
-                         .refused = {.lock = PTHREAD_MUTEX_INITIALIZER}};
+    koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
     status = koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
@@ -81,14 +81,13 @@ static koksma_status run_kind(koksma_study *study, bool images, koksma__watch *w
         done_before += (size_t)tasks.at[i].done_before;
     }
     summary->done_before += done_before;
-    if (!status && !before && (done_before < tasks.n_jobs || (koksma__pool_size() > 1 && tasks.n_jobs))) {
-        status = koksma__pool_size() > 1 ? koksma__pool_serve(&pool) : koksma__pool_threads(&pool);
+    if (!status && !before && (done_before < tasks.n_jobs || (koksma__mpi_size() > 1 && tasks.n_jobs))) {
+        status = koksma__mpi_size() > 1 ? koksma__mpi_serve(&phase) : koksma__work_threads(&phase);
     }
-    summary->done_now += atomic_load(&pool.done);
-    summary->idle_seconds -= 1e-9 * (double)atomic_load(&pool.busy_ns);
-    summary->processor_seconds += pool.others_s;
-    add_refused(refused, &pool.refused);
-    pthread_mutex_destroy(&pool.refused.lock);
+    summary->done_now += atomic_load(&phase.done);
+    summary->idle_seconds -= 1e-9 * (double)atomic_load(&phase.busy_ns);
+    summary->processor_seconds += phase.others_s;
+    add_failures(failures, &phase.failures);
     koksma__tasks_close(&tasks);
     return before ? before : status;
 }
@@ -102,30 +101,31 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     strftime(started, sizeof started, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
     summary = summary ? summary : &unused;
     *summary = (koksma_study_summary){0};
-    koksma__watch w;
-    koksma__watch_begin(run, run && study->store ? run->time_limit_s : 0, &w); /* rank 0 looks at the clock for all */
+    koksma__run_control control;
+    /* Rank 0 looks at the clock for all. */
+    koksma__run_control_begin(run, run && study->store ? run->time_limit_s : 0, &control);
     if (!study->store) {
-        return koksma__pool_work(study, &w.job);
+        return koksma__mpi_work(study, &control.job);
     }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
-    koksma__refused refused = {.n = 0};
-    koksma_status status = run_kind(study, false, &w, KOKSMA_OK, summary, &refused);
-    status = run_kind(study, true, &w, status, summary, &refused);
-    summary->workers = koksma__pool_size() > 1 ? koksma__pool_size() : w.run.threads;
+    koksma__failures failures = {.n = 0};
+    koksma_status status = run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
+    status = run_kind(study, true, &control, status, summary, &failures);
+    summary->workers = koksma__mpi_size() > 1 ? koksma__mpi_size() : control.run.threads;
     summary->seconds = koksma__now_s() - start_s;
     summary->idle_seconds += summary->workers * summary->seconds;
     summary->processor_seconds += koksma__processor_s() - processor_s;
     summary->store_seconds = koksma__store_seconds(study->store) - store_s;
     const bool all = !status;
-    summary->complete = all && !refused.n;
+    summary->complete = all && !failures.n;
     if (!status || status == KOKSMA_INTERRUPTED || status == KOKSMA_IMPOSSIBLE) {
         const koksma_status recorded = record_run(study, started, summary);
-        status = status == KOKSMA_OK || koksma__watch_time_is_up(&w) ? recorded : status;
+        status = status == KOKSMA_OK || koksma__run_control_time_is_up(&control) ? recorded : status;
     }
-    if (all && !status && refused.n) {
-        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", refused.n,
-                              summary->jobs, refused.text);
+    if (all && !status && failures.n) {
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%zu of %zu jobs can't be done, and all others are: %s", failures.n,
+                              summary->jobs, failures.text);
     }
     return status;
 }

@@ -1,47 +1,50 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Deadline, interruption and progress of a run. The functions keep_running and keep_at_job are handed to what works:
+   only the thread of the caller asks the caller's keep_going and the clock; jobs on other threads see the flag that
+   it sets, so that a caller's function needs no lock. */
 #include "study/run/run_control.h"
 
 #include "core/parallel.h"
 #include "core/processor_clock.h"
 
 /* The caller first: after a long job both may say stop, and an interruption counts more than the time. */
-static bool look(koksma__watch *w)
+static bool look(koksma__run_control *control)
 {
-    if (!atomic_load(&w->interrupted) && !koksma__keep_going(w->caller_run, w->fraction)) {
-        atomic_store(&w->interrupted, true);
-        atomic_store(&w->stop, true);
+    if (!atomic_load(&control->interrupted) && !koksma__keep_going(control->caller_run, control->fraction)) {
+        atomic_store(&control->interrupted, true);
+        atomic_store(&control->stop, true);
     }
-    if (!atomic_load(&w->stop) && w->end_s > 0 && koksma__now_s() > w->end_s) {
-        atomic_store(&w->is_up, true);
-        atomic_store(&w->stop, true);
+    if (!atomic_load(&control->stop) && control->end_s > 0 && koksma__now_s() > control->end_s) {
+        atomic_store(&control->is_up, true);
+        atomic_store(&control->stop, true);
     }
-    return !atomic_load(&w->stop);
+    return !atomic_load(&control->stop);
 }
 
-bool koksma__watch_time_is_up(koksma__watch *w)
+bool koksma__run_control_time_is_up(koksma__run_control *control)
 {
-    look(w);
-    return atomic_load(&w->is_up) && !atomic_load(&w->interrupted);
+    look(control);
+    return atomic_load(&control->is_up) && !atomic_load(&control->interrupted);
 }
 
 static bool keep_running(void *context, double fraction)
 {
-    koksma__watch *w = context;
-    w->fraction = fraction;
-    return look(w);
+    koksma__run_control *control = context;
+    control->fraction = fraction;
+    return look(control);
 }
 
 static bool keep_at_job(void *context, double fraction)
 {
-    koksma__watch *w = context;
+    koksma__run_control *control = context;
     (void)fraction; /* of the job */
-    return pthread_equal(pthread_self(), w->caller) ? look(w) : !atomic_load(&w->stop);
+    return pthread_equal(pthread_self(), control->caller) ? look(control) : !atomic_load(&control->stop);
 }
 
-void koksma__watch_begin(const koksma_run *run, double time_limit_s, koksma__watch *w)
+void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *control)
 {
-    *w = (koksma__watch){
+    *control = (koksma__run_control){
         .caller_run = run, .caller = pthread_self(), .end_s = time_limit_s > 0 ? koksma__now_s() + time_limit_s : 0};
-    w->run = (koksma_run){.threads = koksma__threads(run), .keep_going = keep_running, .context = w};
-    w->job = (koksma_run){.threads = 1, .keep_going = keep_at_job, .context = w};
+    control->run = (koksma_run){.threads = koksma__threads(run), .keep_going = keep_running, .context = control};
+    control->job = (koksma_run){.threads = 1, .keep_going = keep_at_job, .context = control};
 }

@@ -11,7 +11,7 @@
 
 #include <koksma/koksma.h>
 
-typedef struct koksma__watch {
+typedef struct koksma__run_control {
     const koksma_run *caller_run; /* may be NULL */
     pthread_t caller;
     double end_s;            /* of the time, by koksma__now_s; 0: none */
@@ -21,13 +21,13 @@ typedef struct koksma__watch {
     atomic_bool interrupted; /* because the caller's keep_going said so, before or after that */
     koksma_run run;          /* of the whole, with the caller's threads */
     koksma_run job;          /* of a job, on one thread, which may be any */
-} koksma__watch;
+} koksma__run_control;
 
 /* The watch must stay where it is. time_limit_s 0: none. */
-void koksma__watch_begin(const koksma_run *run, double time_limit_s, koksma__watch *watch);
+void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *watch);
 
 /* Whether the time limit, and not the caller, has ended the work. The caller is asked once more, so that an
    interruption during a long job is not overtaken by the limit. For the caller's thread. */
-bool koksma__watch_time_is_up(koksma__watch *watch);
+bool koksma__run_control_time_is_up(koksma__run_control *watch);
 
 #endif

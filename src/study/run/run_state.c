@@ -1,84 +1,100 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The state is two queues (work_queue.h) under one lock: tiles of reference images, then jobs, which are ready when
+   the references that they are compared with are. What was taken stays out until it is put back, by whoever did it
+   first; a second result of the same is left out, so that an assignment whose rank was lost can be handed out again.
+ */
 #include "study/run/run_state.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/processor_clock.h"
 #include "core/status.h"
 
-void koksma__ledger_stop(koksma__ledger *ledger, koksma_status status, const char *text)
+void koksma__phase_was_busy(koksma__phase *phase, double start_s)
 {
-    pthread_mutex_lock(&ledger->lock);
-    if (!ledger->status) {
-        ledger->status = status;
-        snprintf(ledger->text, sizeof ledger->text, "%s", text);
-    }
-    pthread_mutex_unlock(&ledger->lock);
+    atomic_fetch_add(&phase->busy_ns, (unsigned long long)(1e9 * (koksma__now_s() - start_s)));
 }
 
-bool koksma__ledger_is_over(koksma__ledger *ledger)
+void koksma__run_state_stop(koksma__run_state *state, koksma_status status, const char *text)
 {
-    pthread_mutex_lock(&ledger->lock);
-    const bool over = ledger->status || (ledger->part_queue.left == 0 && ledger->jobs.left == 0);
-    pthread_mutex_unlock(&ledger->lock);
+    pthread_mutex_lock(&state->lock);
+    if (!state->status) {
+        state->status = status;
+        snprintf(state->text, sizeof state->text, "%s", text);
+    }
+    pthread_mutex_unlock(&state->lock);
+}
+
+bool koksma__run_state_is_over(koksma__run_state *state)
+{
+    pthread_mutex_lock(&state->lock);
+    const bool over = state->status || (state->tile_queue.left == 0 && state->jobs.left == 0);
+    pthread_mutex_unlock(&state->lock);
     return over;
 }
 
-double koksma__ledger_fraction(koksma__ledger *ledger)
+double koksma__run_state_fraction(koksma__run_state *state)
 {
-    const size_t n = ledger->jobs.n;
-    pthread_mutex_lock(&ledger->lock);
-    const double fraction = n ? 1 - (double)ledger->jobs.left / (double)n : 1;
-    pthread_mutex_unlock(&ledger->lock);
+    const size_t n = state->jobs.n;
+    pthread_mutex_lock(&state->lock);
+    const double fraction = n ? 1 - (double)state->jobs.left / (double)n : 1;
+    pthread_mutex_unlock(&state->lock);
     return fraction;
+}
+
+koksma_status koksma__run_state_status(const koksma__run_state *state)
+{
+    return state->status ? koksma__fail(state->status, "%s", state->text) : KOKSMA_OK;
 }
 
 /* ---- What to do next ----------------------------------------------------------------------------------- */
 
 static bool job_is_ready(const void *context, size_t job)
 {
-    const koksma__ledger *ledger = context;
+    const koksma__run_state *state = context;
     long long trial;
-    const koksma__task *task = koksma__tasks_job(ledger->pool->tasks, job, &trial);
+    const koksma__task *task = koksma__tasks_job(state->phase->tasks, job, &trial);
     bool ready = true;
     for (size_t r = 0; task->image && r < task->n_series; r++) {
-        ready &= ledger->ready[task->references[r]];
+        ready &= state->ready[task->references[r]];
     }
     return ready;
 }
 
-bool koksma__ledger_take(koksma__ledger *ledger, bool lost, koksma__deal *deal)
+bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment)
 {
     size_t i;
     bool found = false;
-    *deal = (koksma__deal){0};
-    pthread_mutex_lock(&ledger->lock);
-    const bool failed = ledger->status != KOKSMA_OK;
-    if (!failed && (koksma__queue_take(&ledger->part_queue, 1, NULL, NULL, &i) ||
-                    (lost && ledger->part_queue.left && koksma__queue_take_lost(&ledger->part_queue, &i)))) {
-        *deal = (koksma__deal){.kind = KOKSMA__DEAL_PART, .number = i, .part = ledger->parts.at[i]};
+    *assignment = (koksma__assignment){0};
+    pthread_mutex_lock(&state->lock);
+    const bool failed = state->status != KOKSMA_OK;
+    if (!failed && (koksma__work_queue_take(&state->tile_queue, 1, NULL, NULL, &i) ||
+                    (lost && state->tile_queue.left && koksma__work_queue_take_lost(&state->tile_queue, &i)))) {
+        *assignment = (koksma__assignment){.kind = KOKSMA__ASSIGN_TILE, .number = i, .tile = state->tiles.at[i]};
         found = true;
-    } else if (!failed && (koksma__queue_take(&ledger->jobs, ledger->pool->tasks->n, job_is_ready, ledger, &i) ||
-                           (lost && !ledger->part_queue.left && koksma__queue_take_lost(&ledger->jobs, &i)))) {
-        *deal = (koksma__deal){.kind = KOKSMA__DEAL_JOB, .number = i};
+    } else if (!failed && (koksma__work_queue_take(&state->jobs, state->phase->tasks->n, job_is_ready, state, &i) ||
+                           (lost && !state->tile_queue.left && koksma__work_queue_take_lost(&state->jobs, &i)))) {
+        *assignment = (koksma__assignment){.kind = KOKSMA__ASSIGN_JOB, .number = i};
         found = true;
     }
-    pthread_mutex_unlock(&ledger->lock);
+    pthread_mutex_unlock(&state->lock);
     return found;
 }
 
-size_t koksma__ledger_take_batch(koksma__ledger *ledger, double job_s, int ranks,
-                                 koksma__deal deals[KOKSMA__MAX_BATCH])
+size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int ranks,
+                                    koksma__assignment assignments[KOKSMA__MAX_BATCH])
 {
-    pthread_mutex_lock(&ledger->lock);
-    const koksma__queue *queue = ledger->part_queue.next < ledger->part_queue.n ? &ledger->part_queue : &ledger->jobs;
+    pthread_mutex_lock(&state->lock);
+    const koksma__work_queue *queue =
+        state->tile_queue.next < state->tile_queue.n ? &state->tile_queue : &state->jobs;
     const size_t share = (queue->n - queue->next) / (size_t)(4 * ranks) + 1;
-    const double fit = queue == &ledger->part_queue ? 6 : job_s > 0 ? KOKSMA__BATCH_S / job_s : 1;
-    pthread_mutex_unlock(&ledger->lock);
+    const double fit = queue == &state->tile_queue ? 6 : job_s > 0 ? KOKSMA__BATCH_S / job_s : 1;
+    pthread_mutex_unlock(&state->lock);
     size_t batch = fit < 1 ? 1 : fit > KOKSMA__MAX_BATCH ? KOKSMA__MAX_BATCH : (size_t)fit, n = 0;
     batch = batch < share ? batch : share;
-    while (n < batch && koksma__ledger_take(ledger, false, &deals[n])) {
+    while (n < batch && koksma__run_state_take(state, false, &assignments[n])) {
         n++;
     }
     return n;
@@ -86,97 +102,98 @@ size_t koksma__ledger_take_batch(koksma__ledger *ledger, double job_s, int ranks
 
 /* ---- What comes in ------------------------------------------------------------------------------------- */
 
-void koksma__ledger_put_job(koksma__ledger *ledger, size_t job, const koksma__task *task,
-                            const koksma__result *results)
+void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksma__task *task,
+                               const koksma__result *results)
 {
-    pthread_mutex_lock(&ledger->lock);
-    const bool is_new = koksma__queue_put(&ledger->jobs, job);
-    pthread_mutex_unlock(&ledger->lock);
+    pthread_mutex_lock(&state->lock);
+    const bool is_new = koksma__work_queue_put(&state->jobs, job);
+    pthread_mutex_unlock(&state->lock);
     const koksma_status status =
-        is_new ? koksma__task_put(ledger->pool->tasks->study->store, task, results) : KOKSMA_OK;
+        is_new ? koksma__task_put(state->phase->tasks->study->store, task, results) : KOKSMA_OK;
     if (status) {
-        koksma__ledger_stop(ledger, status, koksma_error_text());
+        koksma__run_state_stop(state, status, koksma_error_text());
         return;
     }
-    atomic_fetch_add(&ledger->pool->done, is_new);
+    atomic_fetch_add(&state->phase->done, is_new);
 }
 
-void koksma__ledger_refuse_job(koksma__ledger *ledger, size_t job, const char *text)
+void koksma__run_state_fail_job(koksma__run_state *state, size_t job, const char *text)
 {
-    pthread_mutex_lock(&ledger->lock);
-    const bool is_new = koksma__queue_put(&ledger->jobs, job);
-    pthread_mutex_unlock(&ledger->lock);
-    if (is_new) {
-        koksma__pool_refuse(ledger->pool, job, text);
+    koksma__failures *f = &state->phase->failures;
+    pthread_mutex_lock(&state->lock);
+    if (koksma__work_queue_put(&state->jobs, job) && (!f->n++ || job < f->first)) {
+        f->first = job;
+        snprintf(f->text, sizeof f->text, "%s", text);
     }
+    pthread_mutex_unlock(&state->lock);
 }
 
-size_t koksma__ledger_part(const koksma__ledger *ledger, const koksma__part *part)
+size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile)
 {
     size_t i = 0;
-    while (i < ledger->parts.n &&
-           (ledger->parts.at[i].reference != part->reference || ledger->parts.at[i].first_row != part->first_row ||
-            ledger->parts.at[i].rows != part->rows)) {
+    while (i < state->tiles.n &&
+           (state->tiles.at[i].reference != tile->reference || state->tiles.at[i].first_row != tile->first_row ||
+            state->tiles.at[i].rows != tile->rows)) {
         i++;
     }
     return i;
 }
 
-/* A reference is ready when its file is there, not with its last part; jobs are left as long as one is in the making.
+/* A reference is ready when its file is there, not with its last tile; jobs are left as long as one is in the making.
  */
-void koksma__ledger_put_part(koksma__ledger *ledger, size_t i, const koksma__replicates *sums)
+void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma__replicates *sums)
 {
-    const koksma__part part = ledger->parts.at[i];
+    const koksma__reference_tile tile = state->tiles.at[i];
     bool complete = false;
     koksma_status status = KOKSMA_OK;
-    pthread_mutex_lock(&ledger->lock);
-    if (koksma__queue_put(&ledger->part_queue, i)) {
-        status = koksma__parts_put(&ledger->parts, &part, sums, &complete);
+    pthread_mutex_lock(&state->lock);
+    if (koksma__work_queue_put(&state->tile_queue, i)) {
+        status = koksma__tiles_put(&state->tiles, &tile, sums, &complete);
     }
-    pthread_mutex_unlock(&ledger->lock);
-    status = !status && complete ? koksma__parts_finish(&ledger->parts, part.reference) : status;
+    pthread_mutex_unlock(&state->lock);
+    status = !status && complete ? koksma__tiles_finish(&state->tiles, tile.reference) : status;
     if (status) {
-        koksma__ledger_stop(ledger, status, koksma_error_text());
+        koksma__run_state_stop(state, status, koksma_error_text());
         return;
     }
-    pthread_mutex_lock(&ledger->lock);
-    ledger->ready[part.reference] |= complete;
-    pthread_mutex_unlock(&ledger->lock);
+    pthread_mutex_lock(&state->lock);
+    state->ready[tile.reference] |= complete;
+    pthread_mutex_unlock(&state->lock);
 }
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
-koksma_status koksma__ledger_open(koksma__pool *pool, koksma__ledger *ledger)
+koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *state)
 {
-    const koksma__tasks *tasks = pool->tasks;
+    const koksma__tasks *tasks = phase->tasks;
     const size_t n_references = tasks->study->n_references;
-    *ledger = (koksma__ledger){.pool = pool};
-    pthread_mutex_init(&ledger->lock, NULL);
-    ledger->ready = calloc(n_references + 1, sizeof *ledger->ready);
-    koksma_status status = ledger->ready ? KOKSMA_OK : koksma__fail_memory(n_references + 1);
-    status = status ? status : koksma__parts_open(tasks, &ledger->parts);
-    status = status ? status : koksma__queue_open(ledger->parts.n, &ledger->part_queue);
-    status = status ? status : koksma__queue_open(tasks->n_jobs, &ledger->jobs);
+    *state = (koksma__run_state){.phase = phase};
+    pthread_mutex_init(&state->lock, NULL);
+    state->ready = calloc(n_references + 1, sizeof *state->ready);
+    koksma_status status = state->ready ? KOKSMA_OK : koksma__fail_memory(n_references + 1);
+    status = status ? status : koksma__tiles_open(tasks, &state->tiles);
+    status = status ? status : koksma__work_queue_open(state->tiles.n, &state->tile_queue);
+    status = status ? status : koksma__work_queue_open(tasks->n_jobs, &state->jobs);
     for (size_t i = 0; i < n_references && !status; i++) {
-        ledger->ready[i] = tasks->study->references[i].image.pixels != NULL;
+        state->ready[i] = tasks->study->references[i].image.pixels != NULL;
     }
     for (size_t i = 0; i < tasks->n_jobs && !status; i++) {
         long long trial;
         const koksma__task *task = koksma__tasks_job(tasks, i, &trial);
         if (koksma__task_is_done(task, trial)) {
-            koksma__queue_put(&ledger->jobs, i);
+            koksma__work_queue_put(&state->jobs, i);
         }
     }
     return status;
 }
 
-void koksma__ledger_close(koksma__ledger *ledger)
+void koksma__run_state_close(koksma__run_state *state)
 {
-    koksma__queue_close(&ledger->part_queue);
-    koksma__queue_close(&ledger->jobs);
-    if (ledger->parts.sums) {
-        koksma__parts_close(&ledger->parts);
+    koksma__work_queue_close(&state->tile_queue);
+    koksma__work_queue_close(&state->jobs);
+    if (state->tiles.sums) {
+        koksma__tiles_close(&state->tiles);
     }
-    free(ledger->ready);
-    pthread_mutex_destroy(&ledger->lock);
+    free(state->ready);
+    pthread_mutex_destroy(&state->lock);
 }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Opens and closes studies: parses the plan, makes DIR, opens its store, loads each scene once, and writes down which
+   plan it was. Of the ranks of an MPI run only rank 0 has a folder. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +9,8 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
-#include "study/run/pool.h"
+#include "study/plan/plan_owned.h"
+#include "study/run/mpi_rank.h"
 #include "study/run/study.h"
 
 enum { MAX_PLAN = 1 << 22 };
@@ -202,7 +205,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
 static koksma_status open_folder(koksma_study *study, const char *folder)
 {
     char path[KOKSMA__PATH];
-    koksma__pool_release();
+    koksma__mpi_release();
     study->folder = strdup(folder);
     if (!study->folder) {
         return koksma__fail_memory(strlen(folder));
@@ -223,7 +226,7 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
     if (!study) {
         return koksma__fail_memory(sizeof *study);
     }
-    koksma_status status = koksma__pool_check();
+    koksma_status status = koksma__mpi_check();
     status = status             ? status
              : options->n_plans ? open_with_plans(study, options)
                                 : open_folder(study, options->folder);

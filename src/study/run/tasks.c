@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Tasks and jobs. The blocks of a plan become tasks (a pattern at a size, with all its measures or references), those
+   with the most trials first; job i is found by binary search among the rounds, in which the same tasks have trials
+   left. A job generates and measures one point set, or renders one image and compares it with its references. */
 #include "study/run/tasks.h"
 
 #include <math.h>
@@ -11,6 +14,7 @@
 #include "api/generate.h"
 #include "core/capacity.h"
 #include "core/status.h"
+#include "study/run/references.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
 

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns error
+   codes into a status and a text. No other file includes sqlite3.h. */
 #include "study/store/database.h"
 
 #include <errno.h>

@@ -62,12 +62,6 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query)
     return status;
 }
 
-koksma_status koksma__store_commit(koksma__store *store)
-{
-    koksma__store_enter(store);
-    return koksma__store_leave(store, koksma__store_write_rows(store));
-}
-
 /* ---- Texts --------------------------------------------------------------------------------------------- */
 
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value)

@@ -119,3 +119,9 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
     }
     return status;
 }
+
+koksma_status koksma__store_commit(koksma__store *store)
+{
+    koksma__store_enter(store);
+    return koksma__store_leave(store, koksma__store_write_rows(store));
+}

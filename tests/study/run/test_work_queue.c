@@ -4,7 +4,7 @@
 
 #include "render/rows.h"
 #include "rendering.h"
-#include "study/run/queue.h"
+#include "study/run/work_queue.h"
 
 static void rows_have_the_bits_of_the_whole(void **state)
 {
@@ -59,36 +59,36 @@ static bool is_even(const void *context, size_t i)
 static void a_queue_gives_each_number_once(void **state)
 {
     (void)state;
-    koksma__queue q;
+    koksma__work_queue q;
     size_t i, seen = 0;
-    assert_ok(koksma__queue_open(20, &q));
-    assert_true(koksma__queue_put(&q, 3)); /* done before */
-    assert_false(koksma__queue_put(&q, 3));
-    assert_true(koksma__queue_take(&q, 20, is_even, NULL, &i) && i == 0);
-    assert_true(koksma__queue_take(&q, 20, is_even, NULL, &i) && i == 2);
-    assert_true(koksma__queue_take(&q, 20, NULL, NULL, &i) && i == 1);
-    assert_true(koksma__queue_take(&q, 20, NULL, NULL, &i) && i == 4);
-    assert_true(koksma__queue_take(&q, 3, is_even, NULL, &i) && i == 6);
-    assert_true(koksma__queue_take(&q, 4, is_even, NULL, &i) && i == 8);
-    assert_false(koksma__queue_take(&q, 2, is_even, NULL, &i) && i > 6); /* 10 is out of reach */
-    assert_false(koksma__queue_take_lost(&q, &i));
-    while (koksma__queue_take(&q, 20, NULL, NULL, &i)) {
-        assert_true(koksma__queue_put(&q, i));
+    assert_ok(koksma__work_queue_open(20, &q));
+    assert_true(koksma__work_queue_put(&q, 3)); /* done before */
+    assert_false(koksma__work_queue_put(&q, 3));
+    assert_true(koksma__work_queue_take(&q, 20, is_even, NULL, &i) && i == 0);
+    assert_true(koksma__work_queue_take(&q, 20, is_even, NULL, &i) && i == 2);
+    assert_true(koksma__work_queue_take(&q, 20, NULL, NULL, &i) && i == 1);
+    assert_true(koksma__work_queue_take(&q, 20, NULL, NULL, &i) && i == 4);
+    assert_true(koksma__work_queue_take(&q, 3, is_even, NULL, &i) && i == 6);
+    assert_true(koksma__work_queue_take(&q, 4, is_even, NULL, &i) && i == 8);
+    assert_false(koksma__work_queue_take(&q, 2, is_even, NULL, &i) && i > 6); /* 10 is out of reach */
+    assert_false(koksma__work_queue_take_lost(&q, &i));
+    while (koksma__work_queue_take(&q, 20, NULL, NULL, &i)) {
+        assert_true(koksma__work_queue_put(&q, i));
         seen++;
     }
     assert_int_equal(seen + 7, 20);
     unsigned lost = 0;
     for (int k = 0; k < 6; k++) {
-        assert_true(koksma__queue_take_lost(&q, &i));
+        assert_true(koksma__work_queue_take_lost(&q, &i));
         lost |= 1u << i;
     }
     assert_int_equal(lost, 1u << 0 | 1u << 1 | 1u << 2 | 1u << 4 | 1u << 6 | 1u << 8);
     for (i = 0; i < 20; i++) {
-        koksma__queue_put(&q, i);
+        koksma__work_queue_put(&q, i);
     }
     assert_int_equal(q.left, 0);
-    assert_false(koksma__queue_take_lost(&q, &i));
-    koksma__queue_close(&q);
+    assert_false(koksma__work_queue_take_lost(&q, &i));
+    koksma__work_queue_close(&q);
 }
 
 int main(void)

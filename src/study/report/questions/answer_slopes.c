@@ -10,28 +10,11 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "measures/shared/lower_bounds.h"
 #include "stats/slopes.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 #include "study/report/slope_words.h"
-
-/* No pattern falls faster than n^power (log n)^logs in dim dimensions. */
-static const struct {
-    const char *measure, *who;
-    int dim;
-    double power, logs;
-} bounds[] = {
-    {"star", "Schmidt 1972", 2, -1, 1},
-    {"l2-star", "Roth 1954", 2, -1, 0.5},
-    {"extreme", "Schmidt 1972", 2, -1, 1},
-    {"edge", "Alexander 1990", 2, -0.75, 0},
-    {"edge", "Alexander 1990", 3, -2.0 / 3, 0},
-    {"l2-edge", "Alexander 1990", 2, -0.75, 0},
-    {"l2-edge", "Alexander 1990", 3, -2.0 / 3, 0},
-    {"disk", "Beck 1987", 2, -0.75, 0},
-    {"l2-disk", "Beck 1987", 2, -0.75, 0},
-    {"l2-disk", "Beck 1987", 3, -2.0 / 3, 0},
-};
 
 /* The means of one pattern over the sizes, with room for all of them: those above 0, and all. */
 typedef struct curve {
@@ -100,21 +83,18 @@ static koksma__trend trend_of(const curve *c)
 /* The bound over the sizes of a curve; NULL: none is known, else whose it is. */
 static const char *bound_of(const subject *s, const curve *like, curve *out)
 {
-    char measure[64];
-    snprintf(measure, sizeof measure, "%.*s", (int)strcspn(s->measure ? s->measure : "", ":"),
-             s->measure ? s->measure : "");
-    for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
-        if (!s->image && !s->warp[0] && s->discrepancy->dim == bounds[b].dim && !strcmp(bounds[b].measure, measure) &&
-            like->n) {
-            out->n = like->n;
-            for (size_t i = 0; i < like->n; i++) {
-                const double n = out->x[i] = like->x[i];
-                out->y[i] = koksma__exactly(pow(n, bounds[b].power) * pow(log(n), bounds[b].logs));
-            }
-            return bounds[b].who;
-        }
+    koksma_spec spec;
+    koksma__bound bound;
+    if (s->image || s->warp[0] || !like->n || koksma_measure_spec(s->measure, &spec) ||
+        !koksma__lower_bound(spec.measure, s->discrepancy->dim, &bound)) {
+        return NULL;
     }
-    return NULL;
+    out->n = like->n;
+    for (size_t i = 0; i < like->n; i++) {
+        const double n = out->x[i] = like->x[i];
+        out->y[i] = koksma__exactly(pow(n, -bound.power) * pow(log(n), bound.logs));
+    }
+    return bound.source;
 }
 
 static void draw_curve(koksma__document *chart, const curve *c, const char *label)

@@ -14,6 +14,7 @@
 #include "study/report/error_spectrum.h"
 #include "study/report/means.h"
 #include "study/report/report.h"
+#include "study/run/references.h"
 #include "study/run/tasks.h"
 
 /* What the floats of one file may take before their base64, and how many patterns of a scene are shown. */

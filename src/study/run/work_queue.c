@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "study/run/queue.h"
+/* Two bits for each number: taken, and put back. A cursor skips what is taken, so that taking is O(1) unless numbers
+   are not ready; a second cursor goes round those that are out when nothing else is left. */
+#include "study/run/work_queue.h"
 
 #include <stdlib.h>
 
@@ -15,21 +17,21 @@ static void set(unsigned char *bits, size_t i)
     bits[i / 8] |= (unsigned char)(1u << i % 8);
 }
 
-koksma_status koksma__queue_open(size_t n, koksma__queue *queue)
+koksma_status koksma__work_queue_open(size_t n, koksma__work_queue *queue)
 {
-    *queue = (koksma__queue){.n = n, .left = n, .out = calloc(n / 8 + 1, 1), .done = calloc(n / 8 + 1, 1)};
+    *queue = (koksma__work_queue){.n = n, .left = n, .out = calloc(n / 8 + 1, 1), .done = calloc(n / 8 + 1, 1)};
     return queue->out && queue->done ? KOKSMA_OK : koksma__fail_memory(n / 4);
 }
 
-void koksma__queue_close(koksma__queue *queue)
+void koksma__work_queue_close(koksma__work_queue *queue)
 {
     free(queue->out);
     free(queue->done);
-    *queue = (koksma__queue){0};
+    *queue = (koksma__work_queue){0};
 }
 
-bool koksma__queue_take(koksma__queue *queue, size_t reach, koksma__queue_ready ready, const void *context,
-                        size_t *out)
+bool koksma__work_queue_take(koksma__work_queue *queue, size_t reach, koksma__work_queue_ready ready,
+                             const void *context, size_t *out)
 {
     while (queue->next < queue->n && get(queue->out, queue->next)) {
         queue->next++;
@@ -44,7 +46,7 @@ bool koksma__queue_take(koksma__queue *queue, size_t reach, koksma__queue_ready 
     return false;
 }
 
-bool koksma__queue_take_lost(koksma__queue *queue, size_t *out)
+bool koksma__work_queue_take_lost(koksma__work_queue *queue, size_t *out)
 {
     if (queue->left == 0 || queue->next < queue->n) {
         return false;
@@ -57,7 +59,7 @@ bool koksma__queue_take_lost(koksma__queue *queue, size_t *out)
     return true;
 }
 
-bool koksma__queue_put(koksma__queue *queue, size_t i)
+bool koksma__work_queue_put(koksma__work_queue *queue, size_t i)
 {
     if (get(queue->done, i)) {
         return false;

@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Which ranks there are. */
-#include "study/run/mpi_ranks.h"
+/* Which ranks there are. MPI is loaded only where the environment says that mpirun or srun started this process with
+   others; rank 0 that ends early ends the others, too, which would wait for it. */
+#include "study/run/mpi_rank.h"
 
 #include <stdlib.h>
 #include <time.h>
 
+#include <koksma/study.h>
+
 #include "core/status.h"
 
-static koksma__ranks ranks;
+static koksma__mpi here;
 static const char *problem; /* why this process is alone, when mpirun started more than one */
 
 static void finish(void)
 {
-    const bool others_wait = ranks.rank == 0 && ranks.size > 1 && !ranks.released; /* for what won't come */
-    ranks.mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
+    const bool others_wait = here.rank == 0 && here.size > 1 && !here.released; /* for what won't come */
+    here.mpi->finish(others_wait ? koksma_status_exit_code(KOKSMA_IO) : 0);
 }
 
 /* Ranks that were started together, as the launcher's environment has it; 0: no launcher. */
@@ -27,51 +30,51 @@ static int launched(void)
 static void start(void)
 {
     const int expected = launched();
-    ranks.size = 1;
+    here.size = 1;
     if (expected) {
-        ranks.mpi = koksma__transport_load(&problem);
-        if (ranks.mpi && !ranks.mpi->start(&ranks.size, &ranks.rank)) {
-            ranks.mpi = NULL;
+        here.mpi = koksma__transport_load(&problem);
+        if (here.mpi && !here.mpi->start(&here.size, &here.rank)) {
+            here.mpi = NULL;
             problem = "MPI can't be started";
         }
     }
-    if (ranks.mpi) {
+    if (here.mpi) {
         atexit(finish);
     } else if (expected <= 1) {
         problem = NULL;
     }
 }
 
-koksma__ranks *koksma__ranks_get(void)
+koksma__mpi *koksma__mpi_get(void)
 {
-    if (ranks.size == 0) {
+    if (here.size == 0) {
         start();
     }
-    return &ranks;
+    return &here;
 }
 
-int koksma__pool_size(void)
+int koksma__mpi_size(void)
 {
-    return koksma__ranks_get()->size;
+    return koksma__mpi_get()->size;
 }
 
-int koksma_study_rank(void)
+int koksma_study_mpi_rank(void)
 {
-    return koksma__ranks_get()->rank;
+    return koksma__mpi_get()->rank;
 }
 
-koksma_status koksma__pool_check(void)
+koksma_status koksma__mpi_check(void)
 {
-    koksma__ranks_get()->released = false;
+    koksma__mpi_get()->released = false;
     return problem ? koksma__fail(KOKSMA_UNSUPPORTED, "%s", problem) : KOKSMA_OK;
 }
 
-void koksma__pool_release(void)
+void koksma__mpi_release(void)
 {
-    koksma__ranks_get()->released = true;
+    koksma__mpi_get()->released = true;
 }
 
-void koksma__ranks_rest(double seconds)
+void koksma__mpi_rest(double seconds)
 {
     const struct timespec t = {0, (long)(1e9 * seconds)};
     nanosleep(&t, NULL);

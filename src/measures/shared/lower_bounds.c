@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Lower bounds of discrepancies. The power is that of the family, in any dimension: boxes 1 (Roth 1954; Schmidt
+ * 1972), edges and disks 1/2 + 1/(2 dim) (Schmidt 1969; Beck and Chen 1987; Alexander 1990). The power of log n and
+ * whose theorem it is are known for the measures and dimensions of the table.
+ */
+#include "measures/shared/lower_bounds.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <koksma/series.h>
+
+static const struct {
+    const char *measure, *source;
+    int max_dim; /* from 2 on */
+    double logs;
+} bounds[] = {
+    {"star", "Schmidt 1972", 2, 1},   {"l2-star", "Roth 1954", 2, 0.5},    {"extreme", "Schmidt 1972", 2, 1},
+    {"edge", "Alexander 1990", 3, 0}, {"l2-edge", "Alexander 1990", 3, 0}, {"disk", "Beck 1987", 2, 0},
+    {"l2-disk", "Beck 1987", 3, 0},
+};
+
+double koksma_best_rate(const koksma_measure *measure, int dim)
+{
+    switch (measure->family) {
+    case KOKSMA_FAMILY_BOXES:
+        return 1;
+    case KOKSMA_FAMILY_EDGES:
+    case KOKSMA_FAMILY_DISKS:
+        return 0.5 + 0.5 / dim;
+    default:
+        return NAN;
+    }
+}
+
+bool koksma__lower_bound(const koksma_measure *measure, int dim, koksma__bound *bound)
+{
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
+        if (!strcmp(bounds[i].measure, measure->name) && dim >= 2 && dim <= bounds[i].max_dim) {
+            *bound = (koksma__bound){koksma_best_rate(measure, dim), bounds[i].logs, bounds[i].source};
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Reference images: their keys, files and pixels. */
+#ifndef KOKSMA_STUDY_RUN_REFERENCES_H
+#define KOKSMA_STUDY_RUN_REFERENCES_H
+
+#include <koksma/study.h>
+
+#include "study/run/replicates.h"
+#include "study/run/study.h"
+
+/* "name:pattern@spp x replicates": the reference's key in the store. */
+void koksma__reference_name(const koksma__reference *reference, char *text);
+
+/* The index in study->references of the reference that a variant of a block is compared with; it is added, without
+   pixels, when it is not there. Errors: MEMORY. */
+koksma_status koksma__reference_index(koksma_study *study, const koksma__image_block *block,
+                                      const koksma__study_scene *scene, const char *variant, size_t r, size_t *index);
+
+/* The key of a reference's standard error in the store; `name` holds its text. */
+koksma__series koksma__reference_key(const koksma__reference_image *reference, char name[KOKSMA__REFERENCE_NAME]);
+
+/* Where the reference's file is. */
+void koksma__reference_path(const koksma_study *study, const koksma__reference_image *reference, char *path,
+                            size_t size);
+
+/* Whether its rows can be rendered one by one. */
+koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *reference, bool *alone);
+
+/* Renders rows of one replicate of a reference; all of them where they don't stand alone. Allocates
+   out, as high as `rows`. */
+koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
+                                          int first_row, int rows, const koksma_run *run, koksma_image *out);
+
+/* The mean of all replicates becomes the reference's pixels, its file, and a row of the store. Frees the sums. */
+koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
+                                        koksma__reference_image *reference);
+
+/* Reads DIR/references/…, unless the pixels are there. */
+koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference);
+
+/* Whether the file is there already. */
+bool koksma__reference_exists(const koksma_study *study, const koksma__reference_image *reference);
+
+#endif
