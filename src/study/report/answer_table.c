@@ -6,6 +6,7 @@
 
 #include "core/status.h"
 #include "study/report/answers.h"
+#include "study/report/coherence_rows.h"
 
 enum { EQUAL_TO = 16 };
 
@@ -45,6 +46,9 @@ static void add_heads(koksma__grid *g, const columns *c)
         }
         koksma__grid_head_interval(g, text);
     }
+    if (c->image) {
+        koksma__grid_head(g, "in bands with");
+    }
 }
 
 /* Whether the best of the last column is the largest. */
@@ -76,6 +80,69 @@ static koksma_status order(koksma_study *study, const columns *c, const koksma__
     return KOKSMA_OK;
 }
 
+static koksma_status coherence_of(koksma_study *study, const columns *c, const char *pattern, size_t k,
+                                  koksma__row_coherence *out)
+{
+    return koksma__image_coherence(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], out);
+}
+
+/* The numbers of samples at which a pattern's error is in bands: "4, 16 samples". */
+static koksma_status add_bands(koksma_study *study, koksma__grid *grid, const columns *c, const char *pattern)
+{
+    koksma_status status = KOKSMA_OK;
+    char text[512] = "";
+    size_t length = 0, known = 0;
+    for (size_t k = 0; !status && k < c->n; k++) {
+        koksma__row_coherence coherence;
+        status = coherence_of(study, c, pattern, k, &coherence);
+        known += coherence.mean.n > 0;
+        if (koksma__in_bands(&coherence) && length < sizeof text) {
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "",
+                                       c->image->spp.at[k]);
+        }
+    }
+    if (length && length < sizeof text) {
+        snprintf(text + length, sizeof text - length, " samples");
+    }
+    koksma__grid_text(grid, length ? text : known ? "none" : "not known");
+    return status;
+}
+
+/* Says which pattern has the least error in the last column, and, where that is in bands, which has it without. */
+static koksma_status add_best(koksma_study *study, koksma__html *h, const columns *c, const koksma__texts *patterns,
+                              const double *means, const size_t *by)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t i = 0, known = 0;
+    for (; !status && i < patterns->n && isfinite(means[by[i]]); i++) {
+        koksma__row_coherence coherence;
+        status = coherence_of(study, c, patterns->at[by[i]], c->n - 1, &coherence);
+        known += coherence.mean.n > 0;
+        if (!koksma__in_bands(&coherence)) {
+            break;
+        }
+    }
+    if (status || !known) {
+        return status;
+    }
+    const bool found = i < patterns->n && isfinite(means[by[i]]);
+    koksma__html_add(h, "<p>With %lld samples ", c->image->spp.at[c->n - 1]);
+    koksma__html_text(h, patterns->at[by[0]]);
+    if (found && i == 0) {
+        koksma__html_add(h, " leaves the least error, and no visible bands.</p>\n");
+        return status;
+    }
+    koksma__html_add(h, " leaves the least error, but in visible bands; ");
+    if (found) {
+        koksma__html_add(h, "of the patterns without bands ");
+        koksma__html_text(h, patterns->at[by[i]]);
+        koksma__html_add(h, " leaves the least, %.1f %% more.</p>\n", 100 * (means[by[i]] / means[by[0]] - 1));
+    } else {
+        koksma__html_add(h, "so do all others.</p>\n");
+    }
+    return status;
+}
+
 static koksma_status add_rows(koksma_study *study, koksma__grid *grid, const columns *c,
                               const koksma__texts *patterns, const size_t *by)
 {
@@ -87,6 +154,9 @@ static koksma_status add_rows(koksma_study *study, koksma__grid *grid, const col
             koksma__summary mean = {0};
             status = cell_of(study, c, patterns->at[by[i]], k, &mean);
             koksma__grid_interval(grid, koksma__estimate_of(&mean), 4);
+        }
+        if (!status && c->image) {
+            status = add_bands(study, grid, c, patterns->at[by[i]]);
         }
     }
     return status;
@@ -109,6 +179,7 @@ static koksma_status add_table(koksma_study *study, koksma__html *h, const char 
         add_heads(&grid, c);
         status = status ? status : add_rows(study, &grid, c, patterns, by);
         koksma__grid_close(&grid);
+        status = !status && c->image ? add_best(study, h, c, patterns, means, by) : status;
     }
     free(means);
     free(by);

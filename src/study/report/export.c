@@ -11,11 +11,11 @@
 #include "study/run/study.h"
 #include "study/store/store.h"
 
-enum { N_TEXTS = 6, N_WHOLES = 4 };
+enum { N_TEXTS = 6, N_WHOLES = 4, N_VALUES = 7 };
 
 static const char *const text_names[N_TEXTS] = {"kind", "scene", "scene_hash", "options", "pattern", "what"};
 static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"};
-static const char *const value_names[KOKSMA__RESULT_VALUES] = {"value", "sd", "max", "rmse"};
+static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", "p", "frequency_x", "frequency_y"};
 
 typedef struct writer {
     FILE *stream;
@@ -32,6 +32,17 @@ static long long whole_of(const koksma__series *s, int k)
 {
     const long long wholes[N_WHOLES] = {s->n, s->dim, s->width, s->height};
     return wholes[k];
+}
+
+/* A result's values in the columns of its kind; NaN in the others. */
+static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
+{
+    const int first = strcmp(s->kind, "coherence") ? 1 : KOKSMA__RESULT_VALUES;
+    for (int k = 0; k < N_VALUES; k++) {
+        values[k] = NAN;
+    }
+    values[0] = result->values[0];
+    memcpy(&values[first], &result->values[1], (KOKSMA__RESULT_VALUES - 1) * sizeof *values);
 }
 
 /* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------ */
@@ -55,6 +66,8 @@ static void put_csv_text(FILE *f, const char *text)
 static koksma_status put_csv(void *context, const koksma__series *series, const koksma__result *result)
 {
     FILE *f = ((writer *)context)->stream;
+    double values[N_VALUES];
+    values_of(series, result, values);
     for (int k = 0; k < N_TEXTS; k++) {
         put_csv_text(f, text_of(series, k));
         putc(',', f);
@@ -63,10 +76,10 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
         fprintf(f, "%lld,", whole_of(series, k));
     }
     fprintf(f, "%lld,%llu", result->trial, (unsigned long long)result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         putc(',', f);
-        if (!isnan(result->values[k])) {
-            koksma__fprintf(f, "%.17g", result->values[k]);
+        if (!isnan(values[k])) {
+            koksma__fprintf(f, "%.17g", values[k]);
         }
     }
     putc('\n', f);
@@ -82,7 +95,7 @@ static void put_csv_header(FILE *f)
         fprintf(f, "%s,", whole_names[k]);
     }
     fputs("trial,seed", f);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         fprintf(f, ",%s", value_names[k]);
     }
     putc('\n', f);
@@ -110,6 +123,8 @@ static void put_json_text(FILE *f, const char *text)
 static koksma_status put_json(void *context, const koksma__series *series, const koksma__result *result)
 {
     FILE *f = ((writer *)context)->stream;
+    double values[N_VALUES];
+    values_of(series, result, values);
     for (int k = 0; k < N_TEXTS; k++) {
         fprintf(f, "%s\"%s\":", k ? "," : "{", text_names[k]);
         put_json_text(f, text_of(series, k));
@@ -118,9 +133,8 @@ static koksma_status put_json(void *context, const koksma__series *series, const
         fprintf(f, ",\"%s\":%lld", whole_names[k], whole_of(series, k));
     }
     fprintf(f, ",\"trial\":%lld,\"seed\":\"%llu\"", result->trial, (unsigned long long)result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        koksma__fprintf(f, !isfinite(result->values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k],
-                        result->values[k]);
+    for (int k = 0; k < N_VALUES; k++) {
+        koksma__fprintf(f, !isfinite(values[k]) ? ",\"%s\":null" : ",\"%s\":%.17g", value_names[k], values[k]);
     }
     fputs("}\n", f);
     return KOKSMA_OK;
@@ -154,7 +168,7 @@ static void put_npy_header(const writer *w)
         size += snprintf(header + size, sizeof header - (size_t)size, "('%s', '<i8'), ", whole_names[k]);
     }
     size += snprintf(header + size, sizeof header - (size_t)size, "('trial', '<i8'), ('seed', '<u8')");
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         size += snprintf(header + size, sizeof header - (size_t)size, ", ('%s', '<f8')", value_names[k]);
     }
     size += snprintf(header + size, sizeof header - (size_t)size, "], 'fortran_order': False, 'shape': (%zu,), }",
@@ -174,6 +188,8 @@ static void put_word(FILE *f, uint64_t word)
 static koksma_status put_npy(void *context, const koksma__series *series, const koksma__result *result)
 {
     const writer *w = context;
+    double values[N_VALUES];
+    values_of(series, result, values);
     for (int k = 0; k < N_TEXTS; k++) {
         const char *text = text_of(series, k);
         const size_t length = strlen(text), width = w->widths[k] ? w->widths[k] : 1;
@@ -187,10 +203,10 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
     }
     put_word(w->stream, (uint64_t)result->trial);
     put_word(w->stream, result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         uint64_t word;
-        memcpy(&word, &result->values[k], sizeof word);
-        put_word(w->stream, isnan(result->values[k]) ? UINT64_C(0x7ff8000000000000) : word);
+        memcpy(&word, &values[k], sizeof word);
+        put_word(w->stream, isnan(values[k]) ? UINT64_C(0x7ff8000000000000) : word);
     }
     return KOKSMA_OK;
 }

@@ -7,6 +7,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
+#include "study/report/coherence_rows.h"
 #include "study/report/report_tables.h"
 
 static void add_image_cell(koksma__html *h, const koksma__cell *cell)
@@ -30,10 +31,14 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     const koksma__image_block *block = koksma__table_images(study, t);
     const koksma__table_row *row = &t->rows[r];
     koksma__cell cell, last = {0};
+    koksma__row_coherence coherence;
+    char bands[KOKSMA__COHERENCE_TEXT];
     koksma_status status = koksma__table_image(study, t, &block->references[0], row->pattern, &cell);
     if (!status) {
         status = koksma__table_image(study, t, &block->references[block->n_references - 1], row->pattern, &last);
     }
+    status =
+        status ? status : koksma__image_coherence(study, block, t->scene, "", row->pattern, t->n.at[0], &coherence);
     if (status) {
         return status;
     }
@@ -46,7 +51,10 @@ static koksma_status add_image_row(koksma_study *study, koksma__html *h, koksma_
     const koksma__verdict verdict = koksma__table_judge(t, row, 0, &cell);
     koksma__table_add_verdict(h, agreement, &verdict);
     add_image_cell(h, &last);
-    koksma__html_add(h, "</tr>\n");
+    koksma__coherence_text(&coherence, bands);
+    koksma__csv_number(csv, coherence.mean.mean);
+    koksma__csv_text(csv, coherence.mean.n ? koksma__in_bands(&coherence) ? "yes" : "no" : "");
+    koksma__html_add(h, "<td>%s</td></tr>\n", bands);
     return KOKSMA_OK;
 }
 
@@ -126,11 +134,12 @@ static void add_heads(koksma__html *h, const koksma__image_block *block)
     koksma__html_text(h, last->pattern);
     koksma__html_add(h, " samples (");
     koksma__html_text(h, last->name);
-    koksma__html_add(h, ")</th></tr>\n");
-    koksma__html_add(h,
-                     "<tr><th>pattern</th><th>ave</th><th>SD</th><th>max</th>"
-                     "<th>mean <span class=\"pm\">95 %%</span></th><th>SD</th><th>max</th><th>mean within 25 %%</th>"
-                     "<th>mean <span class=\"pm\">95 %%</span></th><th>SD</th><th>max</th></tr></thead>\n<tbody>\n");
+    koksma__html_add(h, ")</th><th>coherence of the error</th></tr>\n");
+    koksma__html_add(
+        h,
+        "<tr><th>pattern</th><th>ave</th><th>SD</th><th>max</th>"
+        "<th>mean <span class=\"pm\">95 %%</span></th><th>SD</th><th>max</th><th>mean within 25 %%</th>"
+        "<th>mean <span class=\"pm\">95 %%</span></th><th>SD</th><th>max</th><th>mean</th></tr></thead>\n<tbody>\n");
 }
 
 koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, koksma__agreement *agreement,
@@ -147,6 +156,8 @@ koksma_status koksma__report_image_table(koksma_study *study, koksma__html *h, k
         koksma__table_begin(h, &csv, t);
         koksma__table_csv_heads(&csv, block->references[0].name);
         koksma__table_csv_heads(&csv, block->references[block->n_references - 1].name);
+        koksma__csv_text(&csv, "coherence");
+        koksma__csv_text(&csv, "in bands");
         add_heads(h, block);
     }
     for (size_t r = 0; !status && r < n; r++) {
