@@ -10,6 +10,8 @@
 #include "core/vector.h"
 #include "image/formats.h"
 #include "meshes/mesh_file.h"
+#include "render/lights/lights.h"
+#include "render/materials/materials.h"
 #include "scene/model.h"
 #include "scene/parse.h"
 
@@ -108,7 +110,7 @@ static koksma_status tint(koksma_image *image, const double colour[3])
 /* A texture that isn't there leaves the colour alone. */
 static void take_colour_map(koksma__build *build, const koksma__file_texture *from, koksma__material *m)
 {
-    if (m->kind != KOKSMA__MATERIAL_LAMBERT) {
+    if (m->bsdf != &koksma__bsdf_lambert) {
         snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
         return;
     }
@@ -158,9 +160,12 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     const double strength = i < KOKSMA__GLTF_MATERIALS ? build->gltf.strengths[i] : 1;
     double *glow = build->glows[i];
     snprintf(m->name, sizeof m->name, "%zu", i);
-    m->kind = from->metallic > 0.5f ? KOKSMA__MATERIAL_GGX : KOKSMA__MATERIAL_LAMBERT;
-    m->roughness = fmin(fmax((double)from->roughness, 0.03), 1);
-    double *to = m->kind == KOKSMA__MATERIAL_GGX ? m->reflectance : m->albedo[0];
+    double *to = m->albedo[0];
+    m->bsdf = from->metallic > 0.5f ? &koksma__bsdf_ggx : &koksma__bsdf_lambert;
+    if (m->bsdf == &koksma__bsdf_ggx) {
+        *koksma__material_value(m, "roughness") = fmin(fmax((double)from->roughness, 0.03), 1);
+        to = koksma__material_value(m, "reflectance");
+    }
     for (int k = 0; k < 3; k++) {
         to[k] = clamp01(from->colour[k]);
         glow[k] = from->glow[k] > 0 ? (double)from->glow[k] * strength : 0;
@@ -179,6 +184,7 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
 void koksma__build_grey(koksma__build *build)
 {
     build->scene->n_materials = 1;
+    build->scene->materials[0].bsdf = &koksma__bsdf_lambert;
     for (int i = 0; i < 6; i++) {
         build->scene->materials[0].albedo[i / 3][i % 3] = 0.8;
     }
@@ -276,7 +282,7 @@ static koksma_status build_light(koksma__build *build, size_t i)
     if (status) {
         return status;
     }
-    to->kind = from->far_away ? KOKSMA__LIGHT_DIRECTIONAL : KOKSMA__LIGHT_POINT;
+    to->kind = from->far_away ? &koksma__light_directional : &koksma__light_point;
     transform(from->matrix, origin, 1, to->centre);
     transform(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {

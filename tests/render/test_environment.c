@@ -3,15 +3,17 @@
 #include <float.h>
 #include <string.h>
 
-#include "render/lights/lights.h"
+#include "render/lights/light_environment.h"
 #include "rendering.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
 static koksma__environment *opened(koksma_image *image, double scale, double angle_rad)
 {
-    const koksma__light light = {
-        .kind = KOKSMA__LIGHT_ENVIRONMENT, .radiance = {scale, scale, scale}, .angle_rad = angle_rad, .image = image};
+    const koksma__light light = {.kind = &koksma__light_environment,
+                                 .radiance = {scale, scale, scale},
+                                 .angle_rad = angle_rad,
+                                 .image = image};
     koksma__environment *e = NULL;
     assert_ok(koksma__environment_open(&light, &e));
     return e;
@@ -82,7 +84,7 @@ static void choosing_is_unbiased(void **state)
         float w[3], rgb[3];
         const float density = koksma__environment_sample(e, u, w);
         assert_near((double)(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), 1, 1e-6);
-        assert_near((double)(koksma__environment_density(e, w) / density), 1, 1e-5);
+        assert_near((double)(koksma__environment_pdf(e, w) / density), 1, 1e-5);
         koksma__environment_radiance(e, w, rgb);
         sum += (double)rgb[0] / (double)density;
         chosen[lrintf(2 * rgb[0]) - 1] += 1.0 / SIDE / SIDE;
@@ -109,7 +111,7 @@ static void density_is_a_density(void **state)
         const double polar = M_PI * (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS + 0.5) / COLUMNS;
         const float w[3] = {(float)(sin(polar) * cos(azimuth)), (float)cos(polar),
                             (float)(sin(polar) * sin(azimuth))};
-        const double density = (double)koksma__environment_density(e, w);
+        const double density = (double)koksma__environment_pdf(e, w);
         assert_true(density >= 0.0099 / (4 * M_PI));
         sum += density * sin(polar) * (M_PI / ROWS) * (2 * M_PI / COLUMNS);
     }
@@ -143,7 +145,7 @@ static void odd_pixels_are_dark_or_refused(void **state)
     assert_near((double)koksma__environment_mean(e), 3 * 2 / 6.0, 1e-6);
     koksma__environment_close(e);
     for (size_t i = 0; i < 3; i++) {
-        const koksma__light light = {.kind = KOKSMA__LIGHT_ENVIRONMENT, .radiance = {1, 1, 1}, .image = &image};
+        const koksma__light light = {.kind = &koksma__light_environment, .radiance = {1, 1, 1}, .image = &image};
         image.pixels[4] = bad[i];
         assert_int_equal(koksma__environment_open(&light, &e), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "pixel 4,0"));

@@ -155,7 +155,7 @@ static double window_value(int k, int i)
 static koksma_status read_window(const char *name, koksma_image *image)
 {
     char path[1024];
-    snprintf(path, sizeof path, "%s/unit/images/%s", KOKSMA_TESTS, name);
+    snprintf(path, sizeof path, "%s/image/images/%s", KOKSMA_TESTS, name);
     return koksma_image_read(path, image);
 }
 

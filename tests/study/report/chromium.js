@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// check.js REPORT [SCREENSHOTS]: opens a report in headless Chromium: no console error, every picture loads, no network,
+// chromium.js REPORT [SCREENSHOTS]: opens a report in headless Chromium: no console error, every picture loads, no network,
 // the comparer works by keyboard, all pictures have texts, text has contrast, in light and dark. Exit code 77: skipped.
 "use strict";
 const fs = require("fs");

@@ -153,36 +153,6 @@ static void uses_keep_their_numbers(void **state)
     assert_null(koksma_use_at(KOKSMA_N_USES));
 }
 
-/* What a scene calls a material has the rules of the file of that name. */
-static void materials_are_what_scenes_call_them(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *name, *rest;
-        const koksma__material_rules *rules;
-    } all[] = {{"lambert", "\"albedo\": 0.5", &koksma__material_lambert},
-               {"mirror", "\"reflectance\": 0.5", &koksma__material_mirror},
-               {"phong", "\"reflectance\": 0.5, \"exponent\": 9", &koksma__material_phong},
-               {"ggx", "\"reflectance\": 0.5, \"roughness\": 0.5", &koksma__material_ggx},
-               {"dielectric", "\"ior\": 1.5", &koksma__material_dielectric},
-               {"utah", "\"albedo\": 0.5, \"reflectance\": 0.5, \"exponent\": 9", &koksma__material_utah}};
-    size_t lines = 0;
-#define MATERIAL(name, kind) lines++;
-#include "render/materials/materials.def"
-    assert_int_equal(sizeof all / sizeof *all, lines);
-    for (size_t i = 0; i < lines; i++) {
-        char text[512];
-        snprintf(text, sizeof text,
-                 "{\"camera\": {\"eye\": [0, 0, 1], \"target\": [0, 0, 0], \"fov_deg\": 9}, \"shapes\": [],"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"%s\", %s}]}",
-                 all[i].name, all[i].rest);
-        koksma_scene *scene = scene_of(text);
-        assert_ptr_equal(koksma__material_rules_of(scene->materials[0].kind), all[i].rules);
-        assert_int_equal(koksma__substance_of(&scene->materials[0]).lobes, all[i].rules->lobes);
-        koksma_scene_close(scene);
-    }
-}
-
 /* ---- Tables of functions ------------------------------------------------------------------------------------ */
 
 static void every_kernel_is_there(void **state)
@@ -207,11 +177,8 @@ static void every_kernel_is_there(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_those_of_files),
-        cmocka_unit_test(formats_know_their_files_only),
-        cmocka_unit_test(statuses_keep_their_numbers),
-        cmocka_unit_test(uses_keep_their_numbers),
-        cmocka_unit_test(materials_are_what_scenes_call_them),
+        cmocka_unit_test(names_are_those_of_files),    cmocka_unit_test(formats_know_their_files_only),
+        cmocka_unit_test(statuses_keep_their_numbers), cmocka_unit_test(uses_keep_their_numbers),
         cmocka_unit_test(every_kernel_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

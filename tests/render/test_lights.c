@@ -38,7 +38,7 @@ static void choices_are_in_proportion(void **state)
         koksma__lights lights;
         assert_ok(koksma__lights_init(scene, &lights));
         const float p[3] = {0, 0, 0}, n[3] = {0, 1, 0};
-        float estimates[KOKSMA__MAX_LAMPS];
+        float estimates[KOKSMA__MAX_BATCH_LIGHTS];
         koksma__batch()->estimate(lights.estimates, p, n, estimates);
         assert_near((double)estimates[0], 0.1, 1e-5); /* the reflected luminance itself */
         assert_near((double)estimates[1], 0.1, 1e-5);

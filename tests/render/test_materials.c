@@ -24,8 +24,12 @@ static void sharp_highlights_have_their_height(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         enum { TRIES = 2000 };
         const double a = cases[i].roughness * cases[i].roughness;
-        const koksma__substance substance = {
-            .lobes = KOKSMA__LOBE_GLOSSY, .reflectance = {1, 1, 1}, .roughness = (float)cases[i].roughness};
+        koksma__material rough = {.bsdf = &koksma__bsdf_ggx};
+        for (int k = 0; k < 3; k++) {
+            koksma__material_value(&rough, "reflectance")[k] = 1;
+        }
+        *koksma__material_value(&rough, "roughness") = cases[i].roughness;
+        const koksma__shading_material material = koksma__shading_material_of(&rough);
         double sum = 0;
         for (int k = 0; k < TRIES; k++) {
             /* n is any, and out = n: the facet's normal is halfway between n and w */
@@ -41,7 +45,7 @@ static void sharp_highlights_have_their_height(void **state)
             x[1] = n[2] - n[0];
             x[2] = n[0] - n[1];
             const double size = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]), angle = atan(a * uniform(0, 2));
-            koksma__surface s = {.substance = &substance};
+            koksma__surface s = {.material = &material};
             float w[3], value[3] = {0, 0, 0};
             for (int j = 0; j < 3; j++) {
                 s.n[j] = s.out[j] = (float)n[j];
@@ -49,7 +53,7 @@ static void sharp_highlights_have_their_height(void **state)
             }
             const double cosine = cos(angle), sine = sin(angle), t = cosine * cosine * a * a + sine * sine;
             const double tangent = tan(2 * angle), g2 = 1 / (1 + (sqrt(1 + a * a * tangent * tangent) - 1) / 2);
-            koksma__material_rules_of(KOKSMA__MATERIAL_GGX)->value(&s, w, KOKSMA__LOBE_GLOSSY, value);
+            material.bsdf->value(&s, w, KOKSMA__LOBE_GLOSSY, value);
             sum += fabs((double)value[0] / (a * a / (M_PI * t * t) * g2 / 4) - 1);
         }
         if (!(sum / TRIES <= cases[i].error)) {

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Light from far away, the same everywhere or an image of latitude and longitude: row 0 is straight up, columns go
- * round from +z over -x to -z, in the middle, and +x: who looks along -z sees the image as it is, not mirrored. Ways
- * are chosen with a density that is constant on each pixel and in proportion to its luminance times the sine of its
- * row (Pharr, Jakob & Humphreys 2016, section 14.2.4), and a hundredth of it everywhere alike, so that no light is
- * missed by rounding.
+ * environment: light from far away, the same everywhere or an image of latitude and longitude: row 0 is straight up,
+ * columns go round from +z over -x to -z, in the middle, and +x: who looks along -z sees the image as it is, not
+ * mirrored. Directions are chosen with a density that is constant on each pixel and in proportion to its luminance
+ * times the sine of its row (Pharr, Jakob & Humphreys 2016, section 14.2.4), by two binary searches; a hundredth of
+ * the samples is uniform over the sphere, so that no light is missed by rounding.
  */
+#include "render/lights/light_environment.h"
+
 #include <stdlib.h>
 
 #include "core/status.h"
 #include "image/formats.h"
-#include "render/lights/lights.h"
-#include "render/vector3.h"
+#include "render/lights/surface_lights.h"
 
 #define FLOOR 0.01f
 
@@ -122,7 +123,7 @@ static size_t find(const float *cdf, size_t n, float u, float *within)
     return low;
 }
 
-static void way(const koksma__environment *e, float x, float y, float w[3])
+static void direction_of(const koksma__environment *e, float x, float y, float w[3])
 {
     const float azimuth = 2 * KOKSMA__PI_F * (x - e->turn), polar = KOKSMA__PI_F * y;
     w[0] = -sinf(polar) * sinf(azimuth);
@@ -130,8 +131,8 @@ static void way(const koksma__environment *e, float x, float y, float w[3])
     w[2] = sinf(polar) * cosf(azimuth);
 }
 
-/* The place of w in the image, both in [0,1). */
-static void place(const koksma__environment *e, const float w[3], float *x, float *y)
+/* The position of w in the image, both in [0,1). */
+static void position_of(const koksma__environment *e, const float w[3], float *x, float *y)
 {
     const float turns = atan2f(-w[0], w[2]) / (2 * KOKSMA__PI_F) + e->turn;
     *x = turns - floorf(turns);
@@ -147,25 +148,26 @@ float koksma__environment_sample(const koksma__environment *e, const float u[2],
     if (!e->image || y < FLOOR) { /* all directions alike */
         y = e->image ? y / FLOOR : y;
         const float up = 1 - 2 * y;
-        way(e, x, acosf(up) / KOKSMA__PI_F, w);
+        direction_of(e, x, acosf(up) / KOKSMA__PI_F, w);
     } else {
         const size_t width = (size_t)e->image->width;
         float in_row, in_column;
         const size_t row = find(e->row_cdf, (size_t)e->image->height, (y - FLOOR) / (1 - FLOOR), &in_row);
         const size_t column = find(e->column_cdf + row * (width + 1), width, x, &in_column);
-        way(e, ((float)column + in_column) / (float)width, ((float)row + in_row) / (float)e->image->height, w);
+        direction_of(e, ((float)column + in_column) / (float)width, ((float)row + in_row) / (float)e->image->height,
+                     w);
     }
-    return koksma__environment_density(e, w);
+    return koksma__environment_pdf(e, w);
 }
 
-float koksma__environment_density(const koksma__environment *e, const float w[3])
+float koksma__environment_pdf(const koksma__environment *e, const float w[3])
 {
     const float alike = 1 / (4 * KOKSMA__PI_F);
     if (!e->image) {
         return alike;
     }
     float x, y;
-    place(e, w, &x, &y);
+    position_of(e, w, &x, &y);
     const size_t width = (size_t)e->image->width, height = (size_t)e->image->height;
     const size_t column = (size_t)(x * (float)width), row = (size_t)(y * (float)height);
     const float *cdf = e->column_cdf + row * (width + 1);
@@ -181,7 +183,7 @@ void koksma__environment_radiance(const koksma__environment *e, const float w[3]
     float rgb[3] = {1, 1, 1};
     if (e->image) {
         float x, y;
-        place(e, w, &x, &y);
+        position_of(e, w, &x, &y);
         const size_t column = (size_t)(x * (float)e->image->width), row = (size_t)(y * (float)e->image->height);
         pixel(e->image, row * (size_t)e->image->width + column, rgb);
     }
@@ -194,3 +196,90 @@ float koksma__environment_mean(const koksma__environment *e)
 {
     return e->mean;
 }
+
+/* ---- The kind of light ------------------------------------------------------------------------------------- */
+
+static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
+{
+    const char *path = NULL;
+    double angle_deg = 0, scale = 1;
+    for (size_t i = 0; i + 1 < scene->n_lights; i++) {
+        if (scene->lights[i].kind == light->kind) {
+            return koksma__json_fail(f, "a second environment");
+        }
+    }
+    const bool image = koksma__json_has(f, "image");
+    if (image && koksma__json_has(f, "radiance")) {
+        return koksma__json_fail(f, "it takes one of 'radiance' and 'image'");
+    }
+    if (!image && (koksma__json_has(f, "scale") || koksma__json_has(f, "angle_deg"))) {
+        return koksma__json_fail(f, "'scale' and 'angle_deg' need 'image'");
+    }
+    koksma_status status = koksma__json_get_text(f, "image", false, &path);
+    if (!status && !path) {
+        return koksma__parse_colour(f, "radiance", true, BRIGHT, light->radiance);
+    }
+    status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
+    status = status ? status : koksma__json_get_number(f, "scale", false, 0, BRIGHT, &scale);
+    light->angle_rad = angle_deg * TURN / 360;
+    light->radiance[0] = light->radiance[1] = light->radiance[2] = scale;
+    return status ? status : koksma__parse_image(name, f, path, &light->image);
+}
+
+static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
+{
+    (void)scene;
+    koksma__environment *e = NULL;
+    const koksma_status status = koksma__environment_open(from, &e);
+    light->data = e;
+    light->power = status ? 0 : e->mean;
+    return status;
+}
+
+static void close_light(void *data)
+{
+    koksma__environment_close(data);
+}
+
+static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
+{
+    (void)p;
+    out->pdf = koksma__environment_sample(light->data, u, out->w);
+    koksma__environment_radiance(light->data, out->w, out->value);
+    for (int k = 0; k < 3; k++) {
+        out->d[k] = KOKSMA__AWAY * out->w[k];
+        out->value[k] /= out->pdf;
+    }
+    return koksma__max3(out->value) > 0;
+}
+
+static float pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3])
+{
+    (void)p, (void)t, (void)n;
+    return koksma__environment_pdf(light->data, w);
+}
+
+static void radiance(const koksma__shading_light *light, const float w[3], float out[3])
+{
+    koksma__environment_radiance(light->data, w, out);
+}
+
+static const koksma__parameter parameters[] = {
+    {"visible", KOKSMA__FLAG, .optional = true, .fallback = 1, .at = offsetof(koksma__light, visible)}, {0}};
+
+/* It has no centre; ambient light stands for it where only centres count. */
+const koksma__light_kind koksma__light_environment = {
+    .kind = {.name = "environment",
+             .title = "light from all directions that hit nothing, the same or an image",
+             .cite = "pharr2016",
+             .parameters = parameters,
+             .keys = (const char *const[]){"image", "scale", "angle_deg", "radiance", NULL},
+             .example = "\"radiance\": [0.2, 0.3, 0.4]"},
+    .distance = KOKSMA__LIGHT_AROUND,
+    .parse = parse,
+    .open = open_light,
+    .close = close_light,
+    .sample = sample,
+    .pdf = pdf,
+    .radiance = radiance,
+};

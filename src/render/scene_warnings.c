@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "core/status.h"
-#include "scene/scene.h"
+#include "render/materials/materials.h"
 
 /* The warning that is asked for: `left` are still to be passed by. */
 typedef struct asked {
@@ -98,8 +98,7 @@ static bool of_hidden_lights(const koksma_scene *scene, asked *a)
         hidden += !scene->lights[i].visible && !is_dark(scene->lights[i].radiance);
     }
     for (size_t i = 0; i < scene->n_materials && !thrown; i++) {
-        const koksma__material_kind kind = scene->materials[i].kind;
-        thrown = (kind == KOKSMA__MATERIAL_MIRROR || kind == KOKSMA__MATERIAL_DIELECTRIC) && is_used(scene, (int)i);
+        thrown = scene->materials[i].bsdf->lobes & KOKSMA__LOBE_SPECULAR && is_used(scene, (int)i);
     }
     if (!hidden || !thrown || !here(a)) {
         return false;

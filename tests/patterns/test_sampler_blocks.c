@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What koksma/sampler.h promises inside a domain, for every function that draws: nets, runs of the R-sequence, cells
-   and strata. tests/unit/test_sampler_domains.c has what it promises between domains. */
+   and strata. tests/patterns/test_sampler_domains.c has what it promises between domains. */
 #include <koksma/sampler.h>
 
 #include "test.h"

@@ -33,12 +33,12 @@ static void unit_vector(float v[3])
     }
 }
 
-static void random_lamps(koksma__batch_lamps *l)
+static void random_lamps(koksma__batch_lights *l)
 {
     memset(l, 0, sizeof *l);
     l->n = 5 + (int)uniform(0, 60);
     l->whole = (l->n + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
-    for (int i = 0; i < KOKSMA__MAX_LAMPS; i++) {
+    for (int i = 0; i < KOKSMA__MAX_BATCH_LIGHTS; i++) {
         float normal[3];
         unit_vector(normal);
         const int kind = (int)uniform(0, 4);
@@ -61,7 +61,7 @@ static void random_lamps(koksma__batch_lamps *l)
 }
 
 /* The definition of batch.h, in double precision. near_edge: within rounding of going out of sight. */
-static double twin(const koksma__batch_lamps *l, int i, const float p[3], const float n[3], bool *near_edge)
+static double twin(const koksma__batch_lights *l, int i, const float p[3], const float n[3], bool *near_edge)
 {
     const double d[3] = {(double)l->cx[i] - (double)p[0], (double)l->cy[i] - (double)p[1],
                          (double)l->cz[i] - (double)p[2]};
@@ -83,10 +83,10 @@ static double twin(const koksma__batch_lamps *l, int i, const float p[3], const 
 static void estimates_equal_twin(void **state)
 {
     (void)state;
-    static koksma__batch_lamps lamps;
+    static koksma__batch_lights lamps;
     for (int round = 0; round < 300; round++) {
         const float p[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
-        float n[3], out[4][KOKSMA__MAX_LAMPS], totals[4];
+        float n[3], out[4][KOKSMA__MAX_BATCH_LIGHTS], totals[4];
         unit_vector(n);
         random_lamps(&lamps);
         for (int isa = 0; isa < 4; isa++) {
