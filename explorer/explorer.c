@@ -8,6 +8,8 @@
 #include <koksma/series.h>
 #include <koksma/spectrum.h>
 
+#include "study/report/integrands.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -27,6 +29,7 @@ EXPLORER_API const char *explorer_measure(void);
 EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
 EXPLORER_API const char *explorer_rings(void);
+EXPLORER_API const char *explorer_inequality(int x, int y);
 
 static koksma_points points;
 static koksma_spectrum spectrum;
@@ -341,4 +344,63 @@ const char *explorer_rings(void)
     put_value("oscillation", quality.oscillation);
     put("}");
     return finish();
+}
+
+/* ---- Koksma's inequality ------------------------------------------------------------------------------- */
+
+/* The star discrepancy of `dim` coordinates of the points, from the one in `axes` on; NaN: it failed. */
+static double star_of(const int *axes, int dim, koksma_points *made)
+{
+    koksma_spec spec;
+    koksma_value value;
+    if (koksma_points_init(made, points.n, dim)) {
+        return NAN;
+    }
+    for (size_t i = 0; i < points.n; i++) {
+        for (int k = 0; k < dim; k++) {
+            made->xs[i * (size_t)dim + (size_t)k] = points.xs[i * (size_t)points.dim + (size_t)axes[k]];
+        }
+    }
+    return koksma_measure_spec("star", &spec) || koksma_evaluate(&spec, made, &one_thread, &value) ? (double)NAN
+                                                                                                   : value.value;
+}
+
+static double error_of(const koksma__integrand *f, const koksma_points *of)
+{
+    double sum = 0;
+    for (size_t i = 0; i < of->n; i++) {
+        sum += f->at(&of->xs[i * (size_t)of->dim]);
+    }
+    return fabs(sum / (double)of->n - f->integral);
+}
+
+/* The error of every function of known variation over coordinates x and y of the points, beside V(f) D*; functions of
+   x alone over x. A set on a line has those only. */
+const char *explorer_inequality(int x, int y)
+{
+    koksma_points of[2] = {{0}, {0}};
+    const int axes[] = {x, y}, dims = points.dim < 2 ? 1 : 2;
+    double star[2];
+    for (int d = 0; d < dims; d++) {
+        star[d] = star_of(axes, d + 1, &of[d]);
+    }
+    const bool good = !isnan(star[0]) && (dims == 1 || !isnan(star[1]));
+    const koksma__integrand *f;
+    put("{\"functions\":[");
+    for (size_t i = 0, n = 0; good && (f = koksma__integrand_at(i)); i++) {
+        if (f->dim <= dims) {
+            put("%s{\"title\":\"%s\",\"dim\":%d,\"range\":%.17g,", n++ ? "," : "", f->title, f->dim, f->range);
+            put_value("variation", f->variation);
+            put(",");
+            put_value("error", error_of(f, &of[f->dim - 1]));
+            put(",");
+            put_value("bound", f->variation * star[f->dim - 1]);
+            put("}");
+        }
+    }
+    put("]}");
+    koksma_points_fini(&of[0]);
+    koksma_points_fini(&of[1]);
+    const char *text = finish();
+    return good ? text : NULL;
 }

@@ -3,6 +3,7 @@
 import { byId, element } from "./dom.mjs";
 import { Decay } from "./decay.mjs";
 import { commands, save, svgFile } from "./export.mjs";
+import { Inequality } from "./inequality.mjs";
 import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
 import { SetView } from "./set_view.mjs";
@@ -11,8 +12,9 @@ import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
 import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mjs";
 import { exponent, strataOf } from "./strata.mjs";
 
-const ranks = { points: 0, spectrum: 12, quality: 25, decay: 30 };
+const ranks = { points: 0, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
 const names = ["a", "b"];
+const inequality = new Inequality();
 let state = fromHash(location.hash), tables, jobs, measures, decay, hashTimer = 0;
 const views = {}, spectra = {}, frames = new Set();
 
@@ -101,6 +103,8 @@ function measureAll(name) {
   const set = state[name], points = views[name].points;
   measures.wait(name);
   for (const measure of measures.rows.keys()) measureOne(name, measure);
+  jobs.ask(`${name}/inequality`, ranks.inequality, { kind: "inequality", points, axes: axesOf(set) },
+    answer => inequality.show(name, answer));
   const reason = Spectrum.reason(set);
   if (reason) {
     jobs.drop(`${name}/spectrum`);
@@ -144,6 +148,7 @@ function refresh(name) {
     measures.forget(name);
     if (answer.error) {
       measures.clear(name);
+      inequality.show(name, null);
       spectra[name].say("");
       decay.forget(name);
       soon(drawSpectra);
@@ -224,6 +229,7 @@ function showAll() {
       jobs.drop(`${name}/`);
       views[name].points = null;
       measures.clear(name);
+      inequality.show(name, null);
       spectra[name].say("");
       decay.forget(name);
     }

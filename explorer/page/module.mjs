@@ -83,6 +83,12 @@ export async function openKoksma(module) {
       return { half, power, ...json(c.explorer_rings()) };
     },
 
+    // Koksma's inequality over two coordinates: { functions: [{ title, dim, variation, error, bound, range }, ..] }
+    inequality({ points, axes }) {
+      put(points);
+      return json(c.explorer_inequality(...axes));
+    },
+
     // The slope of log value over log n, and theory's; pairs: [[n, value], ..]
     line({ pairs, measure, pattern, dim }) {
       put({ xs: pairs.flat(), n: pairs.length, dim: 2 });

@@ -102,10 +102,10 @@ void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double ra
     stroke_or_fill(canvas, thickness, colour);
 }
 
-void koksma__canvas_dash(koksma__canvas *canvas, bool on)
+void koksma__canvas_dash(koksma__canvas *canvas, koksma__dash dash, double along)
 {
-    static const double dashes[] = {4, 3};
-    cairo_set_dash(canvas->cairo, dashes, on ? 2 : 0, 0);
+    static const double dashes[][2] = {{0, 0}, {9, 3}, {2, 2}, {4, 3}};
+    cairo_set_dash(canvas->cairo, dashes[dash], dash == KOKSMA__DASH_WHOLE ? 0 : 2, along);
 }
 
 bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
@@ -248,9 +248,9 @@ void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double ra
     (void)canvas, (void)x, (void)y, (void)radius, (void)thickness, (void)colour;
 }
 
-void koksma__canvas_dash(koksma__canvas *canvas, bool on)
+void koksma__canvas_dash(koksma__canvas *canvas, koksma__dash dash, double along)
 {
-    (void)canvas, (void)on;
+    (void)canvas, (void)dash, (void)along;
 }
 
 bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,

@@ -24,8 +24,15 @@ void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width
                         koksma__colour colour); /* thickness 0: filled */
 void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
                            koksma__colour colour); /* thickness 0: filled */
-/* Lines are dashed from here on, or whole again. */
-void koksma__canvas_dash(koksma__canvas *canvas, bool on);
+/* How lines are drawn from here on; `along`: how much of the dashes is behind a line where it begins, so that a curve
+   of many lines has even dashes. */
+typedef enum koksma__dash {
+    KOKSMA__DASH_WHOLE,
+    KOKSMA__DASH_LONG,
+    KOKSMA__DASH_DOTS,
+    KOKSMA__DASH_GUIDE
+} koksma__dash;
+void koksma__canvas_dash(koksma__canvas *canvas, koksma__dash dash, double along);
 /* columns x rows squares of red, green and blue bytes, from the upper left corner; false when memory runs out. */
 bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
                            int rows, const unsigned char *rgb);

@@ -125,16 +125,24 @@ static void draw_axes(koksma__canvas *canvas, const koksma_chart *c, const axis 
     }
 }
 
+/* Colours repeat after N_COLOURS curves, with other dashes. */
+static koksma__dash dash_of(const koksma_curve *k)
+{
+    return k->dashed ? KOKSMA__DASH_GUIDE : (koksma__dash)(k->colour / N_COLOURS % KOKSMA__DASH_GUIDE);
+}
+
 static void draw_curve(koksma__canvas *canvas, const koksma_curve *k, const axis *x, const axis *y)
 {
     const koksma__colour colour = k->dashed ? guide : colours[k->colour % N_COLOURS];
-    double last_x = NAN, last_y = NAN;
-    koksma__canvas_dash(canvas, k->dashed);
+    double last_x = NAN, last_y = NAN, along = 0;
     for (size_t j = 0; j < k->n; j++) {
         const double at_x = place(x, k->xs[j]), at_y = place(y, k->ys[j]);
         const bool shown = isfinite(at_x) && isfinite(at_y);
         if (shown && isfinite(last_x)) {
+            koksma__canvas_dash(canvas, dash_of(k), along);
             koksma__canvas_line(canvas, last_x, last_y, at_x, at_y, k->dashed ? 1 : 1.4, colour);
+            koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
+            along += hypot(at_x - last_x, at_y - last_y);
         }
         if (shown && k->marks) {
             koksma__canvas_circle(canvas, at_x, at_y, 2.6, 0, colour);
@@ -146,7 +154,6 @@ static void draw_curve(koksma__canvas *canvas, const koksma_curve *k, const axis
         last_x = shown ? at_x : (double)NAN;
         last_y = at_y;
     }
-    koksma__canvas_dash(canvas, false);
 }
 
 static size_t legend_lines(const koksma_chart *c)
@@ -164,10 +171,10 @@ static void draw_legend(koksma__canvas *canvas, const koksma_chart *c, double le
     for (size_t i = 0; i < c->n_curves; i++) {
         const koksma_curve *k = &c->curves[i];
         if (k->label) {
-            koksma__canvas_dash(canvas, k->dashed);
+            koksma__canvas_dash(canvas, dash_of(k), 0);
             koksma__canvas_line(canvas, left, top - 4, left + 22, top - 4, k->dashed ? 1 : 1.8,
                                 k->dashed ? guide : colours[k->colour % N_COLOURS]);
-            koksma__canvas_dash(canvas, false);
+            koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
             koksma__canvas_text(canvas, left + 28, top, TEXT, 0, k->label, ink);
             top += LINE;
         }
@@ -201,9 +208,9 @@ koksma_status koksma_plot_chart(const koksma_chart *c, koksma_plot_format format
     koksma__canvas_clip(canvas, x.from, y.to, x.to - x.from, y.from - y.to);
     if (c->has_level) {
         const double at = place(&y, c->level);
-        koksma__canvas_dash(canvas, true);
+        koksma__canvas_dash(canvas, KOKSMA__DASH_GUIDE, 0);
         koksma__canvas_line(canvas, x.from, at, x.to, at, 1, guide);
-        koksma__canvas_dash(canvas, false);
+        koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
     }
     for (size_t i = 0; i < c->n_curves; i++) {
         draw_curve(canvas, &c->curves[i], &x, &y);

@@ -76,6 +76,29 @@ check(rescaled.value_text === rows(run("measure", "pattern:random@40", "--seed",
 check(attempt(() => koksma.measure({ points: { xs: [0.5, 2], n: 1, dim: 2 }, measure: "star" })).error, "a point outside of the square");
 check(attempt(() => koksma.generate({ spec: "x".repeat(600), n: 4, dim: 2, seed: 0n })).error, "a spec of 600 letters");
 
+// Koksma's inequality: errors from the functions' definitions, bounds from the measure, of the axes that are asked for.
+const definitions = {
+  "x": [x => x, 1 / 2, 1], "exp(x + y)": [(x, y) => Math.exp(x + y), (Math.E - 1) ** 2, (Math.E - 1) * (3 * Math.E - 1)],
+  "1 in the box [0, .6) x [0, .7)": [(x, y) => +(x < 0.6 && y < 0.7), 0.42, 1],
+  "a checkerboard of 8 x 8 squares": [(x, y) => (Math.floor(8 * x) + Math.floor(8 * y)) % 2, 1 / 2, 112],
+  "1 in the disk of radius .4": [(x, y) => +((x - 0.5) ** 2 + (y - 0.5) ** 2 < 0.16), 0.16 * Math.PI, null],
+};
+for (const [spec, n, dim, axes] of [["random", 64, 2, [0, 1]], ["halton", 50, 3, [2, 0]], ["random", 30, 1, [0, 0]]]) {
+  const { points } = koksma.generate({ spec, n, dim, seed: 4n }), { functions } = koksma.inequality({ points, axes });
+  const at = (i, k) => points.xs[i * dim + axes[k]], of = Math.min(dim, 2);
+  check(functions.length === (dim === 1 ? 4 : 12), `${spec}: ${functions.length} functions`);
+  for (const f of functions.filter(g => definitions[g.title])) {
+    const [value, integral, variation] = definitions[f.title], over = f.dim === 1 ? 1 : of;
+    const xs = Float64Array.from({ length: n * over }, (_, i) => at(Math.floor(i / over), i % over));
+    const star = koksma.measure({ points: { xs, n, dim: over }, measure: "star" }).value;
+    let sum = 0;
+    for (let i = 0; i < n; i++) sum += value(at(i, 0), at(i, 1));
+    check(Math.abs(f.error - Math.abs(sum / n - integral)) < 1e-14, `${spec}, ${f.title}: error ${f.error}`);
+    check(variation === null ? f.variation === null && f.bound === null : Math.abs(f.bound - variation * star) < 1e-12 && f.error <= f.bound,
+      `${spec}, ${f.title}: bound ${f.bound}`);
+  }
+}
+
 problems.forEach(text => console.log(text));
 console.log(`numbers: ${compared} compared, ${problems.length} problems`);
 process.exit(problems.length || compared < 300 ? 1 : 0);

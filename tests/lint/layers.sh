@@ -12,7 +12,9 @@ python3 -B tools/layers.py check || failed=$((failed + 1))
 python3 -B tools/layers.py draw - | cmp -s - docs/pictures/layers.svg ||
   complain "docs/pictures/layers.svg is not what the code has: run 'tools/layers.py draw docs/pictures/layers.svg'"
 
-grep -nE '#include "' explorer/*.c && complain "explorer/ includes include/koksma/ only"
+# The explorer has the report's functions of known variation: a table, without anything of a study.
+grep -nE '#include "' explorer/*.c | grep -v '"study/report/integrands.h"' &&
+  complain "explorer/ includes include/koksma/ and integrands.h only"
 
 # One outside library, one source file.
 only() {

@@ -100,13 +100,58 @@ static void charts_without_labels(void **state)
     assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
 }
 
+/* The stroke and the dashes of the last line drawn: of the legend's last entry. */
+static void last_style(const char *svg, char *out, size_t size)
+{
+    const char *last = NULL; /* versions of cairo write stroke-width:1.8 or stroke-width="1.8" */
+    for (const char *at = svg; (at = strstr(at, "stroke-width")) != NULL; at++) {
+        const char *wide = strstr(at, "1.8");
+        last = wide && wide - at <= 14 ? at : last;
+    }
+    assert_non_null(last);
+    const char *end = strstr(last, " d=\"");
+    const size_t n = (size_t)(end - last);
+    assert_true(end && n < size);
+    memcpy(out, last, n);
+    out[n] = 0;
+}
+
+/* Each of 18 curves has its own colour or its own dashes; those of a curve of many points go on from one to the next.
+ */
+static void eighteen_curves_differ(void **state)
+{
+    enum { CURVES = 18, POINTS = 200 };
+    double xs[POINTS], ys[POINTS];
+    char styles[CURVES][256];
+    (void)state;
+    for (int i = 0; i < POINTS; i++) {
+        xs[i] = ys[i] = i;
+    }
+    for (size_t c = 0; c < CURVES; c++) {
+        unsigned char *bytes;
+        size_t size;
+        const koksma_curve curve = {.label = "a", .n = POINTS, .xs = xs, .ys = ys, .colour = c};
+        const koksma_chart chart = {.curves = &curve, .n_curves = 1};
+        assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_OK);
+        char *svg = calloc(size + 1, 1);
+        assert_non_null(svg);
+        memcpy(svg, bytes, size);
+        last_style(svg, styles[c], sizeof styles[c]);
+        for (size_t other = 0; other < c; other++) {
+            assert_string_not_equal(styles[c], styles[other]);
+        }
+        assert_int_equal(strstr(svg, "stroke-dashoffset") != NULL, c >= 6);
+        free(svg);
+        free(bytes);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_and_grids),
-        cmocka_unit_test(points_of_the_unit_square),
-        cmocka_unit_test(splits_are_marked),
-        cmocka_unit_test(charts_without_labels),
+        cmocka_unit_test(sizes_and_grids),        cmocka_unit_test(points_of_the_unit_square),
+        cmocka_unit_test(splits_are_marked),      cmocka_unit_test(charts_without_labels),
+        cmocka_unit_test(eighteen_curves_differ),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,11 +14,11 @@
 #include "study/run/study.h"
 #include "study/store/store.h"
 
-enum { N_TEXTS = 6, N_WHOLES = 4 };
+enum { N_TEXTS = 6, N_WHOLES = 4, N_VALUES = 7 };
 
 static const char *const text_names[N_TEXTS] = {"kind", "scene", "scene_hash", "options", "pattern", "what"};
 static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"};
-static const char *const value_names[KOKSMA__RESULT_VALUES] = {"value", "sd", "max", "rmse"};
+static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", "p", "frequency_x", "frequency_y"};
 
 typedef struct writer {
     FILE *stream;
@@ -38,11 +38,24 @@ static long long whole_of(const koksma__series *s, int k)
     return wholes[k];
 }
 
+/* A result's values in the columns of its kind; NaN in the others. */
+static void values_of(const koksma__series *s, const koksma__result *result, double values[N_VALUES])
+{
+    const int first = strcmp(s->kind, "coherence") ? 1 : KOKSMA__RESULT_VALUES;
+    for (int k = 0; k < N_VALUES; k++) {
+        values[k] = NAN;
+    }
+    values[0] = result->values[0];
+    memcpy(&values[first], &result->values[1], (KOKSMA__RESULT_VALUES - 1) * sizeof *values);
+}
+
 /* ---- CSV (RFC 4180) ------------------------------------------------------------------------------------ */
 
 static koksma_status put_csv(void *context, const koksma__series *series, const koksma__result *result)
 {
     FILE *f = ((writer *)context)->stream;
+    double values[N_VALUES];
+    values_of(series, result, values);
     for (int k = 0; k < N_TEXTS; k++) {
         koksma__csv_put(f, text_of(series, k));
         putc(',', f);
@@ -51,10 +64,10 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
         fprintf(f, "%lld,", whole_of(series, k));
     }
     fprintf(f, "%lld,%llu", result->trial, (unsigned long long)result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         putc(',', f);
-        if (!isnan(result->values[k])) {
-            koksma__fprintf(f, "%.17g", result->values[k]);
+        if (!isnan(values[k])) {
+            koksma__fprintf(f, "%.17g", values[k]);
         }
     }
     putc('\n', f);
@@ -70,7 +83,7 @@ static void put_csv_header(FILE *f)
         fprintf(f, "%s,", whole_names[k]);
     }
     fputs("trial,seed", f);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         fprintf(f, ",%s", value_names[k]);
     }
     putc('\n', f);
@@ -83,6 +96,8 @@ static koksma_status put_json(void *context, const koksma__series *series, const
 {
     writer *w = context;
     char seed[24];
+    double values[N_VALUES];
+    values_of(series, result, values);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)result->seed);
     koksma__json_begin_object(&w->json, NULL);
     for (int k = 0; k < N_TEXTS; k++) {
@@ -93,8 +108,8 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     }
     koksma__json_write_whole(&w->json, "trial", result->trial);
     koksma__json_write_text(&w->json, "seed", seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
-        koksma__json_write_number(&w->json, value_names[k], result->values[k]);
+    for (int k = 0; k < N_VALUES; k++) {
+        koksma__json_write_number(&w->json, value_names[k], values[k]);
     }
     koksma__json_end(&w->json);
     return koksma__json_line(&w->json, w->stream);
@@ -126,7 +141,7 @@ static void put_npy_header(const writer *w)
         size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '<i8'), ", whole_names[k]);
     }
     size += (size_t)snprintf(descr + size, sizeof descr - size, "('trial', '<i8'), ('seed', '<u8')");
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         size += (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '<f8')", value_names[k]);
     }
     snprintf(descr + size, sizeof descr - size, "]");
@@ -144,6 +159,8 @@ static void put_word(FILE *f, uint64_t word)
 static koksma_status put_npy(void *context, const koksma__series *series, const koksma__result *result)
 {
     const writer *w = context;
+    double values[N_VALUES];
+    values_of(series, result, values);
     for (int k = 0; k < N_TEXTS; k++) {
         const char *text = text_of(series, k);
         const size_t length = strlen(text), width = w->widths[k] ? w->widths[k] : 1;
@@ -157,10 +174,10 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
     }
     put_word(w->stream, (uint64_t)result->trial);
     put_word(w->stream, result->seed);
-    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+    for (int k = 0; k < N_VALUES; k++) {
         uint64_t word;
-        memcpy(&word, &result->values[k], sizeof word);
-        put_word(w->stream, isnan(result->values[k]) ? UINT64_C(0x7ff8000000000000) : word);
+        memcpy(&word, &values[k], sizeof word);
+        put_word(w->stream, isnan(values[k]) ? UINT64_C(0x7ff8000000000000) : word);
     }
     return KOKSMA_OK;
 }

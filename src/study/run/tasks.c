@@ -14,6 +14,7 @@
 #include "api/generate.h"
 #include "core/capacity.h"
 #include "core/status.h"
+#include "image/coherence.h"
 #include "study/run/references.h"
 
 /* ---- The list ------------------------------------------------------------------------------------------ */
@@ -74,12 +75,16 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
                              .n = b->spp.at[i / b->variants.n % b->spp.n],
                              .variant = b->variants.at[i % b->variants.n],
                              .trials = b->trials,
-                             .n_series = b->n_references};
+                             .n_series = b->n_references + 1};
         koksma__block_size(b, scene, &task.width, &task.height);
         status = add_task(tasks, &task);
         for (size_t r = 0; !status && r < b->n_references; r++) {
             status = koksma__reference_index(tasks->study, b, scene, task.variant, r,
                                              &tasks->at[tasks->n - 1].references[r]);
+        }
+        if (!status) { /* the coherence is against the last */
+            koksma__task *added = &tasks->at[tasks->n - 1];
+            added->references[b->n_references] = added->references[b->n_references - 1];
         }
     }
     return status;
@@ -174,7 +179,10 @@ bool koksma__task_is_done(const koksma__task *task, long long trial)
 
 koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KOKSMA__REFERENCE_NAME])
 {
-    koksma__series s = {.kind = t->image ? "image" : "discrepancy",
+    const bool is_error = t->image && k < t->image->n_references;
+    koksma__series s = {.kind = is_error   ? "image"
+                                : t->image ? "coherence"
+                                           : "discrepancy",
                         .scene = t->image ? t->scene->name : "",
                         .scene_hash = t->image ? t->scene->hash : "",
                         .options = t->variant,
@@ -184,7 +192,7 @@ koksma__series koksma__task_series(const koksma__task *t, size_t k, char name[KO
                         .width = t->width,
                         .height = t->height};
     if (t->image) {
-        koksma__reference_name(&t->image->references[k], name);
+        koksma__reference_name(&t->image->references[is_error ? k : k - 1], name);
         s.what = name;
     } else {
         s.what = t->discrepancy->measures.at[k];
@@ -339,6 +347,27 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const 
     return status;
 }
 
+/* The coherence of one image's error. An error that is the same in all pixels, or of so few that they have no two
+   frequencies, has no peak: 0, which all noise exceeds. */
+static koksma_status find_coherence(const koksma_image *image, const koksma_image *reference,
+                                    double values[KOKSMA__RESULT_VALUES])
+{
+    koksma_coherence coherence;
+    koksma_coherence_values found;
+    koksma_status status = koksma_coherence_init(&coherence, image->width, image->height);
+    status = status ? status : koksma_coherence_add(&coherence, image, reference);
+    if (!status) {
+        koksma_coherence_find(&coherence, &found);
+        const bool has_peak = !isnan(found.coherence);
+        values[0] = has_peak ? found.coherence : 0;
+        values[1] = has_peak ? found.p : 1;
+        values[2] = has_peak ? found.frequency_x : 0;
+        values[3] = has_peak ? found.frequency_y : 0;
+    }
+    koksma_coherence_fini(&coherence);
+    return status;
+}
+
 static koksma_status do_image(const koksma_study *study, const koksma__task *t, uint64_t seed, const koksma_run *run,
                               koksma__result *results)
 {
@@ -353,12 +382,15 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
     if (status) {
         return status;
     }
-    for (size_t r = 0; !status && r < t->n_series; r++) {
+    const size_t last = t->n_series - 1;
+    for (size_t r = 0; !status && r < last; r++) {
         koksma_image_error error = {0};
         status = koksma_image_compare(&image, &study->references[t->references[r]].image, &error);
         const double values[KOKSMA__RESULT_VALUES] = {error.mean, error.sd, error.max, error.rmse};
         memcpy(results[r].values, values, sizeof values);
     }
+    status =
+        status ? status : find_coherence(&image, &study->references[t->references[last]].image, results[last].values);
     koksma_image_fini(&image);
     return status;
 }

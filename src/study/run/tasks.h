@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The jobs of a study. A task is everything that differs only in the trial: a pattern's point sets of one size with
- * all their measures, or renders of one scene with all their references. A job is one trial of a task. The order of
+ * all their measures, or renders of one scene with their errors. A job is one trial of a task. The order of
  * the jobs goes over all tasks before it goes to the next trial, so that a run that is cut short has something
  * everywhere.
  */
@@ -19,7 +19,8 @@ typedef struct koksma__task {
     long long n, trials; /* n: points or samples a pixel */
     int width, height;
     size_t place;          /* in the plan */
-    size_t n_series;       /* measures or references: a job gives a result for each */
+    size_t n_series;       /* a job's results: one a measure; or the error against each reference, and its coherence
+                              against the last */
     size_t *references;    /* of an image: indices into study->references */
     long long *series;     /* ids in the store, by koksma__tasks_look_up */
     unsigned char *done;   /* a bit a trial */

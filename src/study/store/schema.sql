@@ -8,7 +8,7 @@ CREATE TABLE IF NOT EXISTS meta (          -- what made this file: 'schema', 've
 
 CREATE TABLE IF NOT EXISTS series (        -- what is measured, all but the trial: one row a mean in a table
   id INTEGER PRIMARY KEY,                  -- of an image a multiple of 4; measures of the same point sets follow it
-  kind TEXT NOT NULL,                      -- 'discrepancy' or 'image'
+  kind TEXT NOT NULL,                      -- 'discrepancy', 'image', or 'coherence' of an image's error
   scene TEXT NOT NULL,                     -- '' for discrepancies, as the next
   scene_hash TEXT NOT NULL,                -- of the scene's text, and of the points of a file: pattern, hexadecimal
   options TEXT NOT NULL,                   -- what differs from the defaults: pairing=aligned, warp=polar-disk
@@ -25,10 +25,12 @@ CREATE TABLE IF NOT EXISTS result (        -- up to four measures of one point s
   id INTEGER PRIMARY KEY,                  -- 2^32 trial + series, a multiple of 4: rows are appended as they are made
   seed INTEGER NOT NULL,                   -- of koksma_generate or koksma_render, as a signed 64-bit number
   v0 REAL,                                 -- that series' measure; of an image the mean over the pixels of the absolute
-                                           -- error in luminance
-  v1 REAL,                                 -- the measure of series + 1; of an image the SD of the absolute error,
-  v2 REAL,                                 -- its maximum,
-  v3 REAL                                  -- and the root of the mean square
+                                           -- error in luminance; of a coherence the peak of the error's power spectrum
+                                           -- over the mean, 0 without an error
+  v1 REAL,                                 -- the measure of series + 1; of an image the SD of the absolute error; of a
+                                           -- coherence p, the probability that white noise has as large a one
+  v2 REAL,                                 -- series + 2; the error's maximum; the peak's frequency in x, cycles a pixel
+  v3 REAL                                  -- series + 3; the root of the mean square; the frequency in y
 );
 
 CREATE TABLE IF NOT EXISTS reference (     -- how good a reference image is
@@ -60,6 +62,9 @@ CREATE VIEW IF NOT EXISTS rows AS
          CASE series.id & 3 WHEN 0 THEN v0 WHEN 1 THEN v1 WHEN 2 THEN v2 ELSE v3 END AS value,
          CASE kind WHEN 'image' THEN v1 END AS sd,
          CASE kind WHEN 'image' THEN v2 END AS max,
-         CASE kind WHEN 'image' THEN v3 END AS rmse
+         CASE kind WHEN 'image' THEN v3 END AS rmse,
+         CASE kind WHEN 'coherence' THEN v1 END AS p,
+         CASE kind WHEN 'coherence' THEN v2 END AS frequency_x,
+         CASE kind WHEN 'coherence' THEN v3 END AS frequency_y
   FROM result JOIN series ON series.id BETWEEN result.id & 4294967295 AND (result.id & 4294967295) + 3
   WHERE value IS NOT NULL;

@@ -10,12 +10,13 @@ typedef struct koksma__store koksma__store;
 
 /* The key of a row, all but the trial. */
 typedef struct koksma__series {
-    const char *kind; /* "discrepancy", "image" */
+    const char *kind; /* "discrepancy", "image", "coherence" */
     const char *scene, *scene_hash, *options, *pattern, *what;
     long long n, dim, width, height;
 } koksma__series;
 
-/* Of a discrepancy only the value; of an image its mean, SD, max and RMSE. NaN is no value. */
+/* Of a discrepancy only the value; of an image its error's mean, SD, max and RMSE; of a coherence the coherence, its
+   p and the peak's frequency in x and y. NaN is no value. */
 enum { KOKSMA__RESULT_VALUES = 4 };
 
 typedef struct koksma__result {

@@ -37,9 +37,10 @@ enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 10 };
    killed run loses what was gathered in this time, or in one job if that takes longer. */
 static const double KOKSMA__WRITE_AFTER_S = 0.2;
 
-/* Results lie four in a row. Of an image its four values are one; of point sets one value each of four measures: the
-   series of one pattern, n, dim and options have ids that follow each other from a multiple of GROUP, as far as they
-   were made one after the other. A row's id is in the order in which a run makes rows, so that they are appended. */
+/* Results lie four in a row. Of an image or a coherence they are one result; of point sets one value each of four
+   measures: the series of one pattern, n, dim and options have ids that follow each other from a multiple of GROUP,
+   as far as they were made one after the other. A row's id is in the order in which a run makes rows, so that they
+   are appended. */
 enum { KOKSMA__GROUP = KOKSMA__RESULT_VALUES };
 
 static inline long long koksma__group_of(long long series)
@@ -59,7 +60,7 @@ typedef struct koksma__rows {
 } koksma__rows;
 
 typedef struct koksma__known_series {
-    bool image;
+    bool alone;           /* its four values are one result; else the results of up to four series share a row */
     long long end, count; /* all its trials are below; how many there are */
 } koksma__known_series;
 
@@ -103,7 +104,7 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */
 
-/* Reads which series are of images, unless that is known. */
+/* Reads which series have rows alone, unless that is known. */
 koksma_status koksma__store_know_series(koksma__store *store);
 void koksma__store_forget(koksma__store *store);
 

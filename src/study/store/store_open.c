@@ -9,7 +9,7 @@
 #include "study/store/schema_upgrade.h"
 #include "study/store/store_internal.h"
 
-#define SCHEMA_VERSION "4"
+#define SCHEMA_VERSION "5"
 #define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height"
 #define SERIES_KEY GROUP_KEY ", what"
 
@@ -65,18 +65,24 @@ static koksma_status check_text(koksma__store *store, const char *key, const cha
     return status;
 }
 
-/* A store of schema 3 is made one of this. */
+/* A store of schema 3 or 4 is made one of this. Schema 4 had no coherence of errors and a view without it: its trials
+   of images lack one, so that the next run renders them again. */
 static koksma_status upgrade(koksma__store *store)
 {
     char *found;
     koksma_status status = koksma__store_find_text(store, "schema", &found);
-    if (!status && found && !strcmp(found, "3")) {
+    const bool is_3 = found && !strcmp(found, "3"), is_4 = found && !strcmp(found, "4");
+    if (!status && (is_3 || is_4)) {
         koksma__database *database = store->database;
-        status =
-            koksma__database_execute(database, "DROP VIEW IF EXISTS rows; ALTER TABLE series RENAME TO series_3; "
-                                               "ALTER TABLE result RENAME TO result_3");
+        status = koksma__database_execute(database, "DROP VIEW IF EXISTS rows");
+        if (!status && is_3) {
+            status = koksma__database_execute(
+                database, "ALTER TABLE series RENAME TO series_3; ALTER TABLE result RENAME TO result_3");
+        }
         status = status ? status : koksma__database_execute(database, koksma__schema_sql);
-        status = status ? status : koksma__database_execute(database, koksma__schema_upgrade_sql);
+        if (!status && is_3) {
+            status = koksma__database_execute(database, koksma__schema_upgrade_sql);
+        }
         status = status ? status : koksma__store_put_text(store, "schema", SCHEMA_VERSION);
     }
     free(found);

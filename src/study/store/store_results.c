@@ -16,7 +16,7 @@ static koksma_status scan(koksma__store *store, void (*see)(void *context, long 
     while (koksma__next_row(store->database, s, &status)) {
         const long long id = koksma__column_whole(s, 0), first = id & 0xffffffff;
         for (int k = 0; id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
-            if (!koksma__column_is_null(s, 1 + k) && (k == 0 || !store->known[first].image)) {
+            if (!koksma__column_is_null(s, 1 + k) && (k == 0 || !store->known[first].alone)) {
                 see(context, first + k, id >> 32);
             }
         }
@@ -76,7 +76,7 @@ static bool read_result(koksma__statement *s, const koksma__store *store, long l
     result->seed = (uint64_t)koksma__column_whole(s, 1);
     result->values[0] = koksma__column_number(s, 2 + place);
     for (int k = 1; k < KOKSMA__RESULT_VALUES; k++) {
-        result->values[k] = store->known[series].image ? koksma__column_number(s, 2 + k) : (double)NAN;
+        result->values[k] = store->known[series].alone ? koksma__column_number(s, 2 + k) : (double)NAN;
     }
     return !isnan(result->values[0]);
 }

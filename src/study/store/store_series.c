@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The ids of series, and which of them are of images. */
+/* The ids of series, and which of them have rows alone. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,7 +117,7 @@ koksma_status koksma__store_know_series(koksma__store *store)
     while (koksma__next_row(store->database, s, &status)) {
         const long long id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
         if (id >= 0 && (size_t)id < store->n_known) {
-            store->known[id].image = !strcmp(koksma__column_text(s, 0), "image");
+            store->known[id].alone = strcmp(koksma__column_text(s, 0), "discrepancy") != 0;
         }
     }
     koksma__statement_reset(s);

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Means of every pattern with their intervals, a table for each block of points (and warp) and for each scene and
- * options of a block of images. The best pattern of the last column comes first.
+ * options of a block of images. The best pattern of the last column comes first. A table of images has the numbers of
+ * samples at which a pattern's error is in visible bands (coherence_rows.h), and names the best pattern without bands.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "study/report/coherence_rows.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 
@@ -45,6 +47,9 @@ static void add_heads(koksma__document *d, const columns *c)
         }
         koksma__doc_head_interval(d, text, 4);
     }
+    if (c->image) {
+        koksma__doc_head(d, "in bands with");
+    }
 }
 
 /* Whether the best of the last column is the largest. */
@@ -76,6 +81,67 @@ static koksma_status order(koksma_study *study, const columns *c, const koksma__
     return KOKSMA_OK;
 }
 
+static koksma_status coherence_of(koksma_study *study, const columns *c, const char *pattern, size_t k,
+                                  koksma__row_coherence *out)
+{
+    return koksma__image_coherence(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], out);
+}
+
+/* The numbers of samples at which a pattern's error is in bands: "4, 16 samples". */
+static koksma_status add_bands(koksma_study *study, koksma__document *d, const columns *c, const char *pattern)
+{
+    koksma_status status = KOKSMA_OK;
+    char text[512] = "";
+    size_t length = 0, known = 0;
+    for (size_t k = 0; !status && k < c->n; k++) {
+        koksma__row_coherence coherence;
+        status = coherence_of(study, c, pattern, k, &coherence);
+        known += coherence.mean.n > 0;
+        if (koksma__in_bands(&coherence) && length < sizeof text) {
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "",
+                                       c->image->spp.at[k]);
+        }
+    }
+    if (length && length < sizeof text) {
+        snprintf(text + length, sizeof text - length, " samples");
+    }
+    koksma__doc_text(d, length ? text : known ? "none" : "not known");
+    return status;
+}
+
+/* Says which pattern has the least error in the last column, and, where that is in bands, which has it without. */
+static koksma_status say_best(koksma_study *study, koksma__document *d, const columns *c,
+                              const koksma__texts *patterns, const double *means, const size_t *by)
+{
+    koksma_status status = KOKSMA_OK;
+    size_t i = 0, known = 0;
+    for (; !status && i < patterns->n && isfinite(means[by[i]]); i++) {
+        koksma__row_coherence coherence;
+        status = coherence_of(study, c, patterns->at[by[i]], c->n - 1, &coherence);
+        known += coherence.mean.n > 0;
+        if (!koksma__in_bands(&coherence)) {
+            break;
+        }
+    }
+    if (status || !known) {
+        return status;
+    }
+    const char *best = patterns->at[by[0]];
+    const long long spp = c->image->spp.at[c->n - 1];
+    if (i == 0) {
+        koksma__doc_paragraph(d, "With %lld samples %s leaves the least error, and no visible bands.", spp, best);
+    } else if (i < patterns->n && isfinite(means[by[i]])) {
+        koksma__doc_paragraph(d,
+                              "With %lld samples %s leaves the least error, but in visible bands; of the patterns "
+                              "without bands %s leaves the least, %.1f %% more.",
+                              spp, best, patterns->at[by[i]], 100 * (means[by[i]] / means[by[0]] - 1));
+    } else {
+        koksma__doc_paragraph(
+            d, "With %lld samples %s leaves the least error, but in visible bands; so do all others.", spp, best);
+    }
+    return status;
+}
+
 static koksma_status add_rows(koksma_study *study, koksma__document *d, const columns *c,
                               const koksma__texts *patterns, const size_t *by)
 {
@@ -87,6 +153,9 @@ static koksma_status add_rows(koksma_study *study, koksma__document *d, const co
             koksma__summary mean = {0};
             status = cell_of(study, c, patterns->at[by[i]], k, &mean);
             koksma__doc_interval(d, koksma__estimate_of(&mean));
+        }
+        if (!status && c->image) {
+            status = add_bands(study, d, c, patterns->at[by[i]]);
         }
     }
     return status;
@@ -106,6 +175,7 @@ static koksma_status add_table(koksma_study *study, koksma__document *d, const c
         add_heads(d, c);
         status = status ? status : add_rows(study, d, c, patterns, by);
         koksma__doc_table_end(d);
+        status = !status && c->image ? say_best(study, d, c, patterns, means, by) : status;
         koksma__doc_end(d);
     }
     free(means);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Published tables of image errors. A row has the printed numbers, our means against the block's first reference (the
- * paper's) with the verdict on the printed mean, and our means against the last one (the converged image) where there
+ * paper's) with the verdict on the printed mean, the coherence of the error, and our means against the last one (the converged image) where there
  * are two. Below a table stands what the choice of the reference changes; below all of them the order of the patterns
  * by their mean rank over the tables, beside the overall order that the paper prints.
  */
@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "study/report/coherence_rows.h"
 #include "study/report/means.h"
 #include "study/report/published_columns.h"
 #include "study/report/report.h"
@@ -62,6 +63,8 @@ static void add_columns(koksma__document *d, const koksma__image_block *block)
     koksma__doc_column(
         d, &(koksma__column){
                .name = "verdict", .title = "mean within 25 %", .group = group, .type = KOKSMA__COLUMN_VERDICT});
+    koksma__doc_head_number(d, "coherence", 3);
+    koksma__doc_head(d, "in bands");
     if (block->n_references > 1) {
         snprintf(group, sizeof group, "against %lld × %lld %s samples (%s)", last->replicates, last->spp,
                  last->pattern, last->name);
@@ -88,10 +91,13 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const kok
     const koksma__image_block *block = koksma__table_images(study, t);
     const koksma__table_row *row = &t->rows[r];
     koksma__cell cell, last = {0};
+    koksma__row_coherence coherence;
     koksma_status status = koksma__table_image(study, t, &block->references[0], row->pattern, &cell);
     if (!status) {
         status = koksma__table_image(study, t, &block->references[block->n_references - 1], row->pattern, &last);
     }
+    status =
+        status ? status : koksma__image_coherence(study, block, t->scene, "", row->pattern, t->n.at[0], &coherence);
     if (status) {
         return status;
     }
@@ -101,6 +107,8 @@ static koksma_status add_row(koksma_study *study, koksma__document *d, const kok
     koksma__published_row(d, t, row);
     add_cell(d, &cell);
     koksma__published_verdict(d, &verdict);
+    koksma__doc_number(d, coherence.mean.n ? coherence.mean.mean : (double)NAN);
+    koksma__doc_text(d, koksma__bands_text(&coherence));
     if (block->n_references > 1) {
         add_cell(d, &last);
     }
