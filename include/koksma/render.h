@@ -33,13 +33,12 @@ KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
 /* Opens a shipped scene by its name, or a file: JSON when the text has a '/' or ends in ".json", a mesh when it
    ends in .obj, .ply, .off, .gltf or .glb. Errors: UNKNOWN (no such name), MISSING, MALFORMED (with file, line, field
-   and reason), UNSUPPORTED (this build has no assimp), MEMORY. */
+   and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
 
-/* What traces and what reads triangle meshes in this build: "Embree 3.13.5", "assimp 5.2.4"; NULL: nothing does. */
+/* What traces triangle meshes in this build: "Embree 3.13.5"; NULL: nothing does. */
 KOKSMA_API const char *koksma_mesh_tracer(void);
-KOKSMA_API const char *koksma_mesh_reader(void);
 
 /* What it shows, in its own words; may be empty. */
 KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);
