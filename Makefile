@@ -1,22 +1,40 @@
-# Koksma's front door: every target sets up what it needs (Debian packages) and says what it does.
+# Koksma's entry points. Each target installs the Debian packages that it needs and then does what its line says.
 #
-#   make demo      install what is missing, build, reproduce both papers' tables and figures, say where the report is
-#   make test      build with sanitizers and with clang, run all tests
-#   make bench     speeds, each beside what it is compared with
-#   make install   install the release build (PREFIX=/usr/local, DESTDIR=), run ldconfig without a DESTDIR
-#   make explorer  one HTML file for a browser: patterns, measures and their witnesses, live
-#   make docs      a page for every pattern, measure, scene, .. in build/docs, with pictures
-#   make deb       Debian packages in build/deb, checked by lintian
-#   make help      this list
+#   Use
+#   make demo        build; reproduce the tables and figures of two papers; print where the report is (2 to 3 minutes)
+#                    DEMO=DIR: where (demo); TRIALS=N: trials for each table row (fewer than in the papers)
+#   make install     install the release build; PREFIX=/usr/local, DESTDIR= as usual
+#   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
+#   make docs        write a page for every pattern, measure, scene, material, ... to build/docs
+#
+#   Develop
+#   make release     build the optimised program: build/release/koksma
+#   make check       for daily work, under 2 minutes from a warm build: unit tests, claims of the patterns that changed,
+#                    tests of the directories that changed, lint; BASE=main: changed since that branch
+#   make test        everything, as continuous integration runs it: with gcc and sanitizers, then with clang (10 to 15 minutes)
+#   make bench       print speeds, each beside a competitor's
+#   make clean       remove build/ and demo/
+#
+#   Release
+#   make dist        write build/dist/koksma-VERSION.tar.gz; the same commit gives the same bytes
+#   make dist-test   build and test from that archive, in an empty directory without git
+#   make deb         write Debian packages to build/deb and check them with lintian
+#   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
+#
+#   make help        print this list
+#
+# One test, a debugger, sanitizers, a profiler: CONTRIBUTING.md has the commands.
 
 PREFIX ?= /usr/local
 DEMO ?= demo
 TRIALS ?=
+BASE ?= main
+MACHINES ?= aarch64
 
-.PHONY: help demo test bench install docs explorer deb release clean
+.PHONY: help demo check test bench install docs explorer deb dist dist-test cross release clean
 
 help:
-	@sed -n 's/^#   //p' Makefile
+	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
 
 release:
 	@scripts/setup build
@@ -26,9 +44,13 @@ release:
 demo: release
 	build/release/koksma reproduce shirley1991 mitchell1992 --papers-only -o $(DEMO) $(if $(TRIALS),--trials $(TRIALS),--quick)
 
+check:
+	@scripts/setup build test
+	@scripts/check $(BASE)
+
 test:
 	@scripts/setup build test
-	@scripts/setup explorer browser || echo "make test: without emcc and Chromium; the tests that want them are skipped" >&2
+	@scripts/setup explorer browser || echo "make test: emcc or Chromium is missing; the tests that need it are skipped" >&2
 	@scripts/test
 
 bench: release
@@ -37,7 +59,7 @@ bench: release
 install: release
 	cmake --install build/release
 	@test -n "$(DESTDIR)" || PATH=$$PATH:/usr/sbin:/sbin ldconfig 2>/dev/null || \
-	  echo "make install: ldconfig did not run, which takes root: until it does, LD_LIBRARY_PATH must name the folder of libkoksma.so" >&2
+	  echo "make install: ldconfig did not run (it needs root); until it does, LD_LIBRARY_PATH must name the directory of libkoksma.so" >&2
 
 explorer:
 	@scripts/setup explorer
@@ -46,9 +68,19 @@ explorer:
 docs: release
 	@tools/make_docs.py build/release/koksma build/docs
 
+dist:
+	@scripts/dist
+
+dist-test:
+	@scripts/setup build test
+	@scripts/dist-test
+
 deb:
 	@scripts/setup build deb
 	@scripts/deb
+
+cross:
+	@scripts/cross $(MACHINES)
 
 clean:
 	rm -rf build demo

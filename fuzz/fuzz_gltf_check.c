@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A glTF file in memory, JSON or binary. Files that it names are looked for in the current folder. */
-#include "meshes/mesh_file.h"
+#include "meshes/gltf_read.h"
 #include "target.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

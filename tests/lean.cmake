@@ -1,6 +1,6 @@
 # The tests of a build without all optional parts, or for another machine: those of libkoksma, and of the files that the
 # leanest program reads and writes.
-file(GLOB tests CONFIGURE_DEPENDS unit/test_*.c claims/test_*.c kernels/test_*.c golden/test_*.c stat/test_*.c)
+file(GLOB_RECURSE tests CONFIGURE_DEPENDS test_*.c)
 foreach(test ${tests})
   file(STRINGS ${test} of_lab REGEX "include.*(image|scene|render|rendering|study|plot|adaptive)[/.]")
   if(NOT of_lab)

@@ -41,8 +41,7 @@ def small_tables(site):
                counts(program, n, size)) for r, n in of("adaptive", "method")])
     sections(site, "warps", "Warps", "from the square to a lens, a triangle, a hemisphere: koksma measure --warp",
              [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
-    names = re.findall(r"^MATERIAL\((\w+),", (ROOT / "src/render/materials/materials.def").read_text(encoding="utf-8"), re.M)
-    names = [n.removeprefix("bsdf_") for n in names]
+    names = re.findall(r"^MATERIAL\((\w+)\)", (ROOT / "src/render/materials/materials.def").read_text(encoding="utf-8"), re.M)
     sections(site, "materials", "Materials", "of scene files",
              [(n, "", "", f"src/render/materials/bsdf_{n}.c", "") for n in names])
     sections(site, "uses", "Uses of a sample", "each may have a pattern of its own: koksma render -p USE=PATTERN",

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* glTF 2.0 as JSON and buffers. gltf_check.c sees that the parts fit together; gltf_read.c opens the file and its
    materials, gltf_buffers.c its buffers and accessors, gltf_meshes.c makes meshes of primitives, gltf_nodes.c places
-   them, and finds lights and the camera. */
+   them, and finds lights and the camera. Here is what these share. */
 #ifndef KOKSMA_MESHES_GLTF_H
 #define KOKSMA_MESHES_GLTF_H
 
@@ -46,15 +46,6 @@ typedef struct koksma__gltf {
     size_t *beyond;      /* of an accessor of indices: 1 + the largest; 0: not looked at yet */
 } koksma__gltf;
 
-/* Where the elements of an accessor are. */
-typedef struct koksma__gltf_elements {
-    const unsigned char *first;
-    size_t n, stride;
-    int component; /* its type: 5120 and so on */
-    int width;     /* components of an element */
-    bool normalised;
-} koksma__gltf_elements;
-
 /* The list `key` of an object, which may have none: then *n is 0. */
 koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key, koksma__json_node *list, size_t *n);
 
@@ -63,34 +54,5 @@ koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
 /* Follows keys into objects; false: one is not there. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *const keys[], koksma__json_node *out);
-
-/* gltf_check.c: the lists of the root; whether every number that names another thing is in range, every piece lies
-   within what holds it, and nodes are trees. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_check(koksma__gltf *g);
-
-/* gltf_buffers.c. Errors: MISSING, MALFORMED, MEMORY. */
-koksma_status koksma__gltf_load_buffers(koksma__gltf *g);
-
-/* The bytes of a data URI in base64, owned by the file; f is for errors. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_decode(koksma__gltf *g, const koksma__json_node *f, const char *uri,
-                                  koksma__gltf_bytes *out);
-
-/* The bytes of a buffer view. Errors: MALFORMED (its buffer is not there). */
-koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out, size_t *stride);
-
-/* The accessor that a member of the object names. Errors: MALFORMED. */
-koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const koksma__json_node *object, const char *key,
-                                       koksma__gltf_elements *out, long long *number);
-
-/* Component k of element i: an integer; or a number, of integers between -1 and 1 if the accessor is normalised. */
-size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i);
-float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k);
-
-/* gltf_nodes.c: the placements of meshes in g->shown, lights and camera into the file. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
-
-/* gltf_meshes.c: checks all meshes and reads those that are shown, with their placements. Errors: MALFORMED, MEMORY.
- */
-koksma_status koksma__gltf_read_meshes(koksma__gltf *g);
 
 #endif

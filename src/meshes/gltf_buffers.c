@@ -5,20 +5,16 @@
  * sections 3.6.1 and 4.4). Numbers are little-endian whatever the machine is. A buffer that isn't there is an error
  * only where something that is read lies in it.
  */
+#include "meshes/gltf_buffers.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/hash.h"
 #include "core/read_file.h"
 #include "core/status.h"
-#include "meshes/gltf.h"
 
 typedef koksma__json_node field;
-
-koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i)
-{
-    return koksma__json_item(&g->lists[which], i);
-}
 
 /* ---- Buffers ------------------------------------------------------------------------------------------------ */
 

@@ -5,11 +5,12 @@
  * items and bytes without looking again; what is in the buffers they check themselves. Linear in the size of the
  * JSON. Specification: Khronos, "glTF 2.0" (2021).
  */
+#include "meshes/gltf_check.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf.h"
 
 typedef koksma__json_node field;
 

@@ -5,11 +5,13 @@
  * here, so v becomes 1 - v. All meshes are checked: attributes have as many elements as there are positions, and
  * every index names one (glTF 2.0, section 3.7.2). Only meshes that a node of the scene shows are kept.
  */
+#include "meshes/gltf_meshes.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf.h"
+#include "meshes/gltf_buffers.h"
 
 typedef koksma__json_node field;
 

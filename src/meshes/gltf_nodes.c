@@ -4,12 +4,13 @@
  * stands where the product of the matrices from its root down to it puts it; all are in double precision.
  * gltf_check.c saw that nodes are trees.
  */
+#include "meshes/gltf_nodes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf.h"
 
 typedef koksma__json_node field;
 

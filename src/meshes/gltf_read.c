@@ -5,40 +5,21 @@
  * and the textures of colour and emission. What the file has that is not read is counted, for the warnings.
  * Specification: Khronos, "glTF 2.0" (2021), KHR_lights_punctual, KHR_materials_emissive_strength.
  */
+#include "meshes/gltf_read.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf.h"
+#include "meshes/gltf_buffers.h"
+#include "meshes/gltf_check.h"
+#include "meshes/gltf_meshes.h"
+#include "meshes/gltf_nodes.h"
 
 typedef koksma__json_node field;
 
 #define WIDEST 1e30 /* of a material's numbers; they are clamped later */
-
-koksma_status koksma__gltf_list(const field *object, const char *key, field *list, size_t *n)
-{
-    *n = 0;
-    if (!koksma__json_has(object, key)) {
-        return KOKSMA_OK;
-    }
-    const koksma_status status = koksma__json_member(object, key, list);
-    return status ? status : koksma__json_length(list, KOKSMA__GLTF_ITEMS, n);
-}
-
-/* Follows keys into objects; false: one is not there. */
-bool koksma__gltf_find(const field *from, const char *const keys[], field *out)
-{
-    field at = *from;
-    for (; *keys; keys++) {
-        const field object = at;
-        if (!koksma__json_has(&object, *keys) || koksma__json_member(&object, *keys, &at)) {
-            return false;
-        }
-    }
-    *out = at;
-    return true;
-}
 
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
 

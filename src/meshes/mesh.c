@@ -237,6 +237,13 @@ void koksma__normal_matrix(const double m[12], double out[9])
     }
 }
 
+bool koksma__matrix_mirrors(const double m[12])
+{
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+               m[2] * (m[4] * m[9] - m[5] * m[8]) <
+           0;
+}
+
 /* The determinant over the columns' lengths: the volume of the parallelepiped over that of a box with its edges. Its
    entries may have been rounded to 24 bits. */
 bool koksma__matrix_flattens(const double m[12])

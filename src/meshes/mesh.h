@@ -79,11 +79,4 @@ typedef struct koksma__unread {
     char library[256], material[256]; /* the first of each */
 } koksma__unread;
 
-/* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
-bool koksma__is_mesh_file(const char *path);
-
-/* All triangles of a file as one mesh, checked. out is zeroed but for its name. Errors: MISSING, MALFORMED, MEMORY.
- */
-koksma_status koksma__mesh_read(const char *path, koksma__mesh *out);
-
 #endif

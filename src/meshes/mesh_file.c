@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Opens mesh files: finds the reader by the name's ending, finds the files that a model names, and holds what the
- * readers share: lists that grow, the limits of a file, fans of triangles. The time is linear in the file's size. A
- * reader takes at most 36 bytes of memory for a byte of text (an OBJ file whose corners are all "1 "), and 3 GiB for
- * any file, since all meshes together have at most 64 Mi vertices and triangles.
+ * What the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and how the files
+ * are found that a model names. The readers' time is linear in the file's size. They take at most 36 bytes of memory
+ * for a byte of text (an OBJ file whose corners are all "1 "), and all meshes of a file together have at most 64 Mi
+ * vertices and triangles, whatever the file says.
  */
 #include "meshes/mesh_file.h"
 
@@ -12,41 +12,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/hash.h"
 #include "core/status.h"
 
 enum { MAX_PLACEMENTS = 1 << 20 };
-
-/* A reader by the ending of a file's name. The hash of a bare model's scene is the sum over its files, the model's
-   own so many `times`: stored studies find their scenes by it, and the reader that made them opened the file so
-   often. */
-typedef struct reader {
-    const char *ending;
-    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
-    uint64_t times;
-} reader;
-
-static const reader readers[] = {{".obj", koksma__obj_read, 3},
-                                 {".ply", koksma__ply_read, 3},
-                                 {".off", koksma__off_read, 3},
-                                 {".gltf", koksma__gltf_read, 5},
-                                 {".glb", koksma__gltf_read, 5}};
-
-static const reader *find_reader(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof readers / sizeof *readers; i++) {
-        if (!strcmp(dot, readers[i].ending)) {
-            return &readers[i];
-        }
-    }
-    return NULL;
-}
-
-bool koksma__is_mesh_file(const char *path)
-{
-    return find_reader(path) != NULL;
-}
 
 /* ---- Files beside a model ----------------------------------------------------------------------------------- */
 
@@ -192,35 +160,6 @@ void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh)
         mesh->n_triangles = indices->n / 3;
         *indices = (koksma__list){0};
     }
-}
-
-/* ---- Whole files --------------------------------------------------------------------------------------------- */
-
-koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
-{
-    unsigned char *bytes = NULL;
-    size_t size = 0;
-    const reader *how = find_reader(path);
-    *out = (koksma__mesh_file){.path = path};
-    if (!how) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
-    }
-    const bool plain = koksma__is_plain_file(path); /* where not, reading says why */
-    koksma_status status = koksma__read_file(path, plain ? KOKSMA__MAX_MESH_FILE : 1, &bytes, &size);
-    if (status) {
-        return status;
-    }
-    unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
-    if (!kept) {
-        free(bytes);
-        return KOKSMA_MEMORY;
-    }
-    *kept = bytes;
-    if (!plain || !size) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, plain ? "empty" : "no plain file");
-    }
-    out->hash = how->times * koksma__hash(bytes, size);
-    return how->read(bytes, size, out);
 }
 
 void koksma__mesh_file_fini(koksma__mesh_file *f)

@@ -62,9 +62,7 @@ typedef struct koksma__mesh_file {
     koksma__list owned; /* blocks of memory that textures' bytes lie in */
 } koksma__mesh_file;
 
-/* Reads a mesh file and the files that it names. Whatever comes of it, the caller calls fini. Errors: MISSING,
-   MALFORMED, MEMORY. */
-koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out);
+/* Frees all that the file owns. */
 void koksma__mesh_file_fini(koksma__mesh_file *file);
 
 /* Items by number. */
@@ -91,13 +89,6 @@ koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, cons
 
 /* One more material: Lambert of this grey. *out holds until the next call. Errors: MEMORY. */
 koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out);
-
-/* The readers: the whole file is in memory, with a zero byte behind its end, and is not empty. Errors: MALFORMED,
-   MEMORY; of OBJ and glTF also those of the files that they name. */
-koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
-koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
-koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
-koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
 
 /* Adds a fan of triangles around the polygon's first corner to a list of 3 indices a triangle: exact for convex
    polygons; of a concave one some triangles may reach outside of it or overlap. Errors, which name path: MALFORMED

@@ -6,12 +6,13 @@
  * is rendered here. A colour is one to three numbers; the missing ones are as the first. Format: Wavefront's
  * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
  */
+#include "meshes/mesh_mtl.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <strings.h>
 
 #include "core/hash.h"
-#include "meshes/mesh_obj.h"
 #include "meshes/mesh_text.h"
 
 enum { MAX_LINE = 1000, SLOTS = 64 };

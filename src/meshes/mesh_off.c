@@ -6,9 +6,10 @@
  * prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are refused by their first line.
  * Format: http://www.geomview.org/docs/html/OFF.html.
  */
+#include "meshes/mesh_off.h"
+
 #include <stdlib.h>
 
-#include "meshes/mesh_file.h"
 #include "meshes/mesh_text.h"
 
 typedef struct off {

@@ -11,11 +11,12 @@
  *
  * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
  */
+#include "meshes/mesh_ply.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "meshes/mesh_file.h"
 #include "meshes/mesh_text.h"
 
 enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, NAME = 64 };

@@ -1,23 +1,85 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A mesh file as one mesh: its meshes one after the other, each where its nodes place it. A file of one mesh that is
- * placed once at the identity, as all but glTF and OBJ files are, is handed over without a copy. The mesh has normals
- * (texture coordinates) where all its parts have them.
+ * Opens mesh files by the reader that the name's ending says, and joins what it reads to one mesh: the file's meshes
+ * one after the other, each where its nodes place it. A file of one mesh that is placed once at the identity, as all
+ * but glTF and OBJ files are, is handed over without a copy. The mesh has normals (texture coordinates) where all its
+ * parts have them.
  */
-#include <math.h>
+#include "meshes/mesh_read.h"
+
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/hash.h"
 #include "core/status.h"
-#include "meshes/mesh_file.h"
+#include "meshes/gltf_read.h"
+#include "meshes/mesh_obj.h"
+#include "meshes/mesh_off.h"
+#include "meshes/mesh_ply.h"
+
+/* ---- Readers -------------------------------------------------------------------------------- */
+
+/* A reader by the ending of a file's name. The hash of a bare model's scene is the sum over its files, the model's
+   own so many `times`: stored studies find their scenes by it, and the reader that made them opened the file so
+   often. */
+typedef struct reader {
+    const char *ending;
+    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+    uint64_t times;
+} reader;
+
+static const reader readers[] = {{".obj", koksma__obj_read, 3},
+                                 {".ply", koksma__ply_read, 3},
+                                 {".off", koksma__off_read, 3},
+                                 {".gltf", koksma__gltf_read, 5},
+                                 {".glb", koksma__gltf_read, 5}};
+
+static const reader *find_reader(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof readers / sizeof *readers; i++) {
+        if (!strcmp(dot, readers[i].ending)) {
+            return &readers[i];
+        }
+    }
+    return NULL;
+}
+
+bool koksma__is_mesh_file(const char *path)
+{
+    return find_reader(path) != NULL;
+}
+
+koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    const reader *how = find_reader(path);
+    *out = (koksma__mesh_file){.path = path};
+    if (!how) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
+    }
+    const bool plain = koksma__is_plain_file(path); /* where not, reading says why */
+    koksma_status status = koksma__read_file(path, plain ? KOKSMA__MAX_MESH_FILE : 1, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(bytes);
+        return KOKSMA_MEMORY;
+    }
+    *kept = bytes;
+    if (!plain || !size) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, plain ? "empty" : "no plain file");
+    }
+    out->hash = how->times * koksma__hash(bytes, size);
+    return how->read(bytes, size, out);
+}
+
+/* ---- One mesh ------------------------------------------------------------------------------- */
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-
-bool koksma__matrix_mirrors(const double m[12])
-{
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-               m[2] * (m[4] * m[9] - m[5] * m[8]) <
-           0;
-}
 
 /* x -> matrix x for a vertex, and for a normal by the inverse transposed; sign undoes the determinant's. */
 static void append_vertices(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)

@@ -2,7 +2,7 @@
 /*
  * Lines, words and numbers of text in memory, for the readers of OBJ, MTL, PLY and OFF.
  *
- * A decimal number w 10^e of up to 19 digits, w below 2^53 and |e| <= 22, is one correctly rounded operation of two
+ * A decimal number w 10^e of up to 19 digits, w below 2^53 and |e| <= 18, is one correctly rounded operation of two
  * exact doubles (Clinger, "How to read floating point numbers accurately", 1990). Rounding that double to a float is
  * a second rounding, which goes wrong only when the double lies halfway between two floats. Those numbers, and all
  * others, go to strtof, which takes about ten times as long.
@@ -110,9 +110,9 @@ static size_t take_digits(const char **at, const char *end, uint64_t *w, int *le
 /* 10 to the e-th power times w, where that is rounded once and safely; else false. */
 static bool scale(uint64_t w, int e, float *out)
 {
-    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-    if (w >> 53 || e < -22 || e > 22) {
+    static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
+                                    1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+    if (w >> 53 || e < -18 || e > 18) {
         return false;
     }
     const double value = e < 0 ? (double)w / powers[-e] : (double)w * powers[e];

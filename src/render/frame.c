@@ -43,13 +43,13 @@ static koksma_status make_materials(koksma__frame *f)
 {
     const size_t n = f->scene->n_materials;
     f->materials = calloc(n + 1, sizeof *f->materials);
-    f->substances = calloc(n + 1, sizeof *f->substances);
-    if (!f->substances || !f->materials) {
-        return koksma__fail_memory((n + 1) * sizeof *f->substances);
+    f->shading_materials = calloc(n + 1, sizeof *f->shading_materials);
+    if (!f->shading_materials || !f->materials) {
+        return koksma__fail_memory((n + 1) * sizeof *f->shading_materials);
     }
     for (size_t i = 0; i < n; i++) {
         f->materials[i] = make_material(&f->scene->materials[i]);
-        f->substances[i] = koksma__substance_of(&f->scene->materials[i]);
+        f->shading_materials[i] = koksma__shading_material_of(&f->scene->materials[i]);
     }
     return KOKSMA_OK;
 }
@@ -63,10 +63,10 @@ static int depth_of(const koksma_render_options *options)
 
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
 {
-    const koksma__rules *rules = options->integrator->rules;
+    const koksma__integrator_flags *rules = options->integrator->rules;
     unsigned lobes = 0;
     for (size_t i = 0; i < scene->n_materials; i++) {
-        lobes |= koksma__substance_of(&scene->materials[i]).lobes;
+        lobes |= scene->materials[i].bsdf->lobes;
     }
     const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
     const int lights = one ? 1 : (int)scene->n_lights;
@@ -134,13 +134,13 @@ static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);
     }
-    return !status && f->rules->open ? f->rules->open(f, run) : status;
+    return !status && f->flags->open ? f->flags->open(f, run) : status;
 }
 
 void koksma__frame_close(koksma__frame *f)
 {
-    if (f->rules && f->rules->close) {
-        f->rules->close(f);
+    if (f->flags && f->flags->close) {
+        f->flags->close(f);
     }
     if (f->sampler.release) {
         f->sampler.release(&f->sampler);
@@ -149,7 +149,7 @@ void koksma__frame_close(koksma__frame *f)
     koksma__filter_close(f->filter);
     koksma__lights_fini(&f->lights);
     free(f->materials);
-    free(f->substances);
+    free(f->shading_materials);
 }
 
 static koksma_status check(const koksma_render_options *o)
@@ -187,7 +187,7 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     if (status) {
         return status;
     }
-    out->rules = options->integrator->rules;
+    out->flags = options->integrator->rules;
     out->depth = depth_of(options);
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();

@@ -19,8 +19,8 @@
 typedef struct koksma__frame {
     const koksma_scene *scene;
     const koksma_render_options *options;
-    const koksma__rules *rules; /* of the integrator */
-    int depth;                  /* bounces at most */
+    const koksma__integrator_flags *flags; /* of the integrator */
+    int depth;                             /* bounces at most */
     int channels;
     const koksma__batch_table *batch;
     koksma__geometry geometry; /* the scene's own */
@@ -30,7 +30,7 @@ typedef struct koksma__frame {
     koksma__batch_camera camera;
     koksma__lights lights;
     koksma__batch_material *materials;
-    koksma__substance *substances;
+    koksma__shading_material *shading_materials;
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* the integrator's own */
 } koksma__frame;

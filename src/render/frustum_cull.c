@@ -21,7 +21,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "scene/scene.h"
+#include "render/scene.h"
 
 #define UNIT 0x1p-24 /* relative rounding of a float */
 #define SPARE 64     /* units of it that are allowed for */

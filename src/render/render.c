@@ -145,7 +145,7 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
 bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i, char *text,
                            size_t size)
 {
-    const koksma__rules *rules = options->integrator->rules;
+    const koksma__integrator_flags *rules = options->integrator->rules;
     return koksma__scene_warning(scene, (rules->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
 }
 
@@ -193,7 +193,7 @@ koksma_status koksma_render(const koksma_scene *scene, const koksma_render_optio
 
 bool koksma__rows_stand_alone(const koksma_render_options *options)
 {
-    const koksma__rules *rules = options->integrator->rules;
+    const koksma__integrator_flags *rules = options->integrator->rules;
     return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat && !rules->open;
 }
 

@@ -56,7 +56,7 @@ static inline void koksma__mirror3(const float w[3], const float n[3], float out
 }
 
 /* A way about n with density cosine / pi: the concentric map of the square to the disk, lifted (Malley's method). */
-static inline void koksma__cosine_way(const float n[3], const float u[2], float w[3])
+static inline void koksma__cosine_direction(const float n[3], const float u[2], float w[3])
 {
     const double square[2] = {(double)u[0], (double)u[1]};
     double disk[3];

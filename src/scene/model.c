@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What a bare mesh file lacks as a scene: a picture's size, and where it has none a camera and light. */
 #include "scene/model.h"
+#include "render/lights/lights.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,7 +76,7 @@ koksma_status koksma__model_parse(const char *path, koksma_scene *scene)
     }
     koksma__light *sky = NULL;
     if (!scene->n_lights && !koksma__scene_add_light(scene, &sky)) {
-        sky->kind = KOKSMA__LIGHT_ENVIRONMENT;
+        sky->kind = &koksma__light_environment;
         sky->visible = true;
         sky->radiance[0] = sky->radiance[1] = sky->radiance[2] = 1;
     }

@@ -12,7 +12,9 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "image/formats.h"
-#include "meshes/mesh_file.h"
+#include "meshes/mesh_read.h"
+#include "render/lights/lights.h"
+#include "render/materials/materials.h"
 #include "scene/model.h"
 #include "scene/parse.h"
 
@@ -97,7 +99,7 @@ static koksma_status tint(koksma_image *image, const double colour[3])
 /* A texture that isn't there leaves the colour alone. */
 static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
-    if (m->kind != KOKSMA__MATERIAL_LAMBERT) {
+    if (m->bsdf != &koksma__bsdf_lambert) {
         snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
         return;
     }
@@ -146,9 +148,12 @@ static void build_material(builder *build, size_t i)
     koksma__material *m = &build->scene->materials[build->scene->n_materials++];
     double *glow = build->glows[i];
     snprintf(m->name, sizeof m->name, "%zu", i);
-    m->kind = from->metallic > 0.5f ? KOKSMA__MATERIAL_GGX : KOKSMA__MATERIAL_LAMBERT;
-    m->roughness = fmin(fmax((double)from->roughness, 0.03), 1);
-    double *to = m->kind == KOKSMA__MATERIAL_GGX ? m->reflectance : m->albedo[0];
+    double *to = m->albedo[0];
+    m->bsdf = from->metallic > 0.5f ? &koksma__bsdf_ggx : &koksma__bsdf_lambert;
+    if (m->bsdf == &koksma__bsdf_ggx) {
+        *koksma__material_value(m, "roughness") = fmin(fmax((double)from->roughness, 0.03), 1);
+        to = koksma__material_value(m, "reflectance");
+    }
     for (int k = 0; k < 3; k++) {
         to[k] = clamp01(from->colour[k]);
         glow[k] = fmax(from->glow[k], 0);
@@ -292,7 +297,7 @@ static koksma_status build_light(builder *build, size_t i)
     if (status) {
         return status;
     }
-    to->kind = from->far_away ? KOKSMA__LIGHT_DIRECTIONAL : KOKSMA__LIGHT_POINT;
+    to->kind = from->far_away ? &koksma__light_directional : &koksma__light_point;
     transform(from->matrix, origin, 1, to->centre);
     transform(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {

@@ -7,18 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/hash.h"
-
-int koksma__find_material(const koksma_scene *scene, const char *name)
-{
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        if (!strcmp(scene->materials[i].name, name)) {
-            return (int)i;
-        }
-    }
-    return -1;
-}
-
 static koksma_status parse_image(const field *root, koksma_scene *scene)
 {
     field image;
@@ -80,54 +68,6 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
         status = koksma__parse_light(name, &item, scene);
     }
     return status;
-}
-
-static bool is_grey(const double rgb[3])
-{
-    return rgb[0] == rgb[1] && rgb[1] == rgb[2];
-}
-
-static uint64_t image_hash(const koksma_image *image)
-{
-    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
-    return koksma__hash(image->pixels, n * sizeof *image->pixels);
-}
-
-/* Images are files of their own, as meshes are: another picture is another scene. */
-static void add_pixels(koksma_scene *scene)
-{
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        scene->hash ^= scene->materials[i].image ? image_hash(scene->materials[i].image) + i : 0;
-    }
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        scene->hash ^= scene->lights[i].image ? image_hash(scene->lights[i].image) + scene->n_materials + i : 0;
-    }
-}
-
-/* What follows from the rest. */
-void koksma__scene_finish(koksma_scene *scene)
-{
-    scene->grey = is_grey(scene->background) && is_grey(scene->ambient);
-    for (size_t i = 0; i < scene->n_materials; i++) {
-        const koksma__material *m = &scene->materials[i];
-        scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && is_grey(m->reflectance) &&
-                       !(m->image && m->image->channels == 3);
-    }
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        const koksma__light *l = &scene->lights[i];
-        scene->grey &= is_grey(l->radiance) && !(l->image && l->image->channels == 3);
-    }
-    add_pixels(scene);
-    const double *m = scene->camera.motion;
-    scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
-    for (size_t i = 0; i < scene->n_shapes; i++) {
-        m = scene->shapes[i].motion;
-        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
-    }
-    for (size_t i = 0; i < scene->n_placements; i++) {
-        m = scene->placements[i].motion;
-        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
-    }
 }
 
 static koksma_status parse_root(const char *name, const field *root, koksma_scene *scene)

@@ -1,10 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Materials of a scene file. The kinds, their parameters and what they refuse come from the table of
+ * render/materials; here are the fields that several kinds share: the name, and the diffuse part, which is one
+ * albedo, two in the squares of a checker, or an image.
+ */
 #include <string.h>
 
+#include "render/materials/materials.h"
 #include "scene/parse.h"
 
 /* "albedo", or "albedos" of a checker and how its squares lie. */
-static koksma_status parse_diffuse(const field *f, koksma__material *m)
+static koksma_status parse_albedo(const field *f, koksma__material *m)
 {
     field pair, item;
     size_t n = 0;
@@ -29,12 +35,6 @@ static koksma_status parse_diffuse(const field *f, koksma__material *m)
     status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
     m->angle_rad = angle_deg * TURN / 360;
     return status;
-}
-
-static koksma_status parse_lambert(const field *f, koksma__material *m)
-{
-    const koksma_status status = koksma__json_only(f, KEYS("name", "kind", "albedo"));
-    return status || m->image ? status : parse_diffuse(f, m);
 }
 
 /* "albedo": {"image": FILE} of a Lambert surface; its mean colour stands where one number must do. */
@@ -65,97 +65,55 @@ void koksma__material_mean(koksma__material *m)
     }
 }
 
-static koksma_status parse_checker(const field *f, koksma__material *m)
+/* The diffuse part, in one of the forms that the kind takes. */
+static koksma_status parse_diffuse(const char *scene_name, const field *f, koksma__material *m)
 {
-    const koksma_status status =
-        koksma__json_only(f, KEYS("name", "kind", "albedos", "period", "phase", "angle_deg"));
-    m->checker = true;
-    return status ? status : parse_diffuse(f, m);
-}
-
-static koksma_status parse_mirror(const field *f, koksma__material *m)
-{
-    const koksma_status status = koksma__json_only(f, KEYS("name", "kind", "reflectance"));
-    m->kind = KOKSMA__MATERIAL_MIRROR;
-    return status ? status : koksma__parse_colour(f, "reflectance", true, 1, m->reflectance);
-}
-
-static koksma_status parse_phong(const field *f, koksma__material *m)
-{
-    koksma_status status = koksma__json_only(f, KEYS("name", "kind", "reflectance", "exponent"));
-    m->kind = KOKSMA__MATERIAL_PHONG;
-    status = status ? status : koksma__parse_colour(f, "reflectance", true, 1, m->reflectance);
-    return status ? status : koksma__json_get_number(f, "exponent", true, 0, 1e6, &m->exponent);
-}
-
-static koksma_status parse_ggx(const field *f, koksma__material *m)
-{
-    koksma_status status = koksma__json_only(f, KEYS("name", "kind", "reflectance", "roughness"));
-    m->kind = KOKSMA__MATERIAL_GGX;
-    status = status ? status : koksma__parse_colour(f, "reflectance", true, 1, m->reflectance);
-    return status ? status : koksma__json_get_number(f, "roughness", true, 1e-3, 1, &m->roughness);
-}
-
-static koksma_status parse_dielectric(const field *f, koksma__material *m)
-{
-    koksma_status status = koksma__json_only(f, KEYS("name", "kind", "ior", "tint"));
-    m->kind = KOKSMA__MATERIAL_DIELECTRIC;
-    m->reflectance[0] = m->reflectance[1] = m->reflectance[2] = 1;
-    status = status ? status : koksma__parse_colour(f, "tint", false, 1, m->reflectance);
-    return status ? status : koksma__json_get_number(f, "ior", true, 1.0001, 10, &m->ior);
-}
-
-static koksma_status parse_utah(const field *f, koksma__material *m)
-{
-    koksma_status status = koksma__json_only(
-        f, KEYS("name", "kind", "albedo", "albedos", "period", "phase", "angle_deg", "reflectance", "exponent"));
-    m->kind = KOKSMA__MATERIAL_UTAH;
-    m->checker = koksma__json_has(f, "albedos");
-    status = status ? status : parse_diffuse(f, m);
-    status = status ? status : koksma__parse_colour(f, "reflectance", true, 1, m->reflectance);
-    status = status ? status : koksma__json_get_number(f, "exponent", true, 0, 1e6, &m->exponent);
-    for (int i = 0; !status && i < 6; i++) {
-        if (m->albedo[i / 3][i % 3] + m->reflectance[i % 3] > 1) {
-            return koksma__json_fail(f, "albedo + reflectance is above 1: it would reflect more than it gets");
-        }
+    const unsigned forms = m->bsdf->diffuse;
+    if (!forms) {
+        return KOKSMA_OK;
     }
-    return status;
+    if (forms & KOKSMA__IMAGE && koksma__json_is_object_at(f, "albedo")) {
+        return parse_texture(scene_name, f, m);
+    }
+    m->checker = forms & KOKSMA__CHECKER && (!(forms & KOKSMA__ALBEDO) || koksma__json_has(f, "albedos"));
+    return parse_albedo(f, m);
 }
 
-static const struct {
-    const char *name;
-    koksma_status (*parse)(const field *f, koksma__material *m);
-} kinds[] = {{"lambert", parse_lambert}, {"checker", parse_checker}, {"mirror", parse_mirror},
-             {"phong", parse_phong},     {"ggx", parse_ggx},         {"dielectric", parse_dielectric},
-             {"utah", parse_utah}};
+/* The fields that a kind with these forms of the diffuse part has beside its parameters. */
+static const char *const *common_keys(unsigned forms)
+{
+    static const char *const keys[4][8] = {
+        {"name", "kind"},
+        {"name", "kind", "albedo"},
+        {"name", "kind", "albedos", "period", "phase", "angle_deg"},
+        {"name", "kind", "albedo", "albedos", "period", "phase", "angle_deg"},
+    };
+    return keys[(forms & (KOKSMA__ALBEDO | KOKSMA__IMAGE) ? 1 : 0) + (forms & KOKSMA__CHECKER ? 2 : 0)];
+}
 
 koksma_status koksma__parse_material(const char *scene_name, const field *f, koksma_scene *scene)
 {
-    const char *kind = "", *name = "";
-    koksma__material *material = &scene->materials[scene->n_materials];
+    const char *name = "", *problem;
+    size_t kind = 0;
+    koksma__material *m = &scene->materials[scene->n_materials];
     koksma_status status = koksma__json_get_text(f, "name", true, &name);
-    if (!status && (!*name || strlen(name) >= sizeof material->name)) {
-        return koksma__json_fail(f, "a name has 1 to %zu letters", sizeof material->name - 1);
+    if (!status && (!*name || strlen(name) >= sizeof m->name)) {
+        return koksma__json_fail(f, "a name has 1 to %zu letters", sizeof m->name - 1);
     }
     if (!status && koksma__find_material(scene, name) >= 0) {
         return koksma__json_fail(f, "a second material '%s'", name);
     }
-    status = status ? status : koksma__parse_kind(f, "lambert checker mirror phong ggx dielectric utah", &kind);
+    status = status ? status : koksma__parse_kind(f, koksma__material_kinds, &kind);
     if (status) {
         return status;
     }
-    strcpy(material->name, name);
+    strcpy(m->name, name);
+    m->bsdf = koksma__bsdfs[kind];
     scene->n_materials++;
-    if (!strcmp(kind, "lambert") && koksma__json_is_object_at(f, "albedo")) {
-        status = parse_texture(scene_name, f, material);
+    status = koksma__parse_fields(f, &m->bsdf->kind, common_keys(m->bsdf->diffuse), m);
+    status = status ? status : parse_diffuse(scene_name, f, m);
+    if (!status && m->bsdf->check && (problem = m->bsdf->check(m))) {
+        return koksma__json_fail(f, "%s", problem);
     }
-    if (status) {
-        return status;
-    }
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        if (!strcmp(kinds[i].name, kind)) {
-            return kinds[i].parse(f, material);
-        }
-    }
-    return koksma__json_fail(f, "no kind '%s'", kind);
+    return status;
 }

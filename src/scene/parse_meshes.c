@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "core/vector.h"
-#include "meshes/mesh.h"
+#include "meshes/mesh_read.h"
+#include "render/lights/lights.h"
 #include "scene/parse.h"
 
 enum { MAX_PLACEMENTS = 1 << 16 };
@@ -113,7 +114,7 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, 
     }
     const koksma_status status = koksma__scene_add_light(scene, &light);
     if (!status) {
-        light->kind = KOKSMA__LIGHT_MESH;
+        light->kind = &koksma__light_mesh;
         light->placement = (int)(p - scene->placements);
         light->visible = true;
         memcpy(light->radiance, radiance, sizeof light->radiance);

@@ -1,89 +1,38 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Shapes of a scene file: kinds as rows with their parameters, and what makes shapes of the renderer of them. A box
+ * becomes six rectangles; meshes and instances are parse_meshes.c.
+ */
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/capacity.h"
 #include "core/vector.h"
 #include "scene/parse.h"
 
-koksma_status koksma__parse_room(const field *f, koksma_scene *scene, koksma__shape **out)
-{
-    if (scene->n_shapes == KOKSMA__MAX_SHAPES) {
-        return koksma__json_fail(f, "more than %d shapes", KOKSMA__MAX_SHAPES);
-    }
-    koksma__shape *shapes =
-        koksma__room_for_one(scene->shapes, scene->n_shapes, &scene->shape_room, 16, sizeof *shapes);
-    if (!shapes) {
-        return KOKSMA_MEMORY;
-    }
-    scene->shapes = shapes;
-    *out = &scene->shapes[scene->n_shapes++];
-    memset(*out, 0, sizeof **out);
-    (*out)->light = -1;
-    return KOKSMA_OK;
-}
+/* A row: the fields of a kind, and what they become. material: the number of the shape's material. */
+typedef struct shape_row {
+    koksma__kind kind;
+    koksma__shape_kind shape;
+    bool takes_image;
+    koksma_status (*finish)(const field *f, koksma_scene *scene, koksma__shape *shape);
+} shape_row;
 
-static koksma_status parse_flat_frame(const field *f, koksma__shape *shape)
+static koksma_status finish_plane(const field *f, koksma_scene *scene, koksma__shape *shape)
 {
-    koksma_status status = koksma__parse_point(f, "centre", shape->centre);
-    status = status ? status : koksma__parse_direction(f, "normal", shape->normal);
-    return status ? status : koksma__parse_axes(f, shape->normal, shape->axis_u, shape->axis_v);
-}
-
-/* A new shape from an object with no other fields than `keys`. */
-static koksma_status begin(const field *f, const char *const *keys, koksma__shape_kind kind, int material,
-                           koksma_scene *scene, koksma__shape **out)
-{
-    koksma_status status = koksma__json_only(f, keys);
-    status = status ? status : koksma__parse_room(f, scene, out);
-    if (!status) {
-        (*out)->kind = kind;
-        (*out)->material = material;
-    }
-    return status;
-}
-
-static koksma_status parse_plane(const field *f, int material, koksma_scene *scene)
-{
-    koksma__shape *shape = NULL;
-    const koksma_status status =
-        begin(f, KEYS("kind", "material", "centre", "normal", "up"), KOKSMA__SHAPE_PLANE, material, scene, &shape);
-    if (status) {
-        return status;
-    }
+    (void)scene;
     shape->half[0] = shape->half[1] = INFINITY;
-    return parse_flat_frame(f, shape);
+    return koksma__parse_axes(f, shape->normal, shape->axis_u, shape->axis_v);
 }
 
-static koksma_status parse_rectangle(const field *f, int material, koksma_scene *scene)
+static koksma_status finish_flat(const field *f, koksma_scene *scene, koksma__shape *shape)
 {
-    koksma__shape *shape = NULL;
-    koksma_status status = begin(f, KEYS("kind", "material", "centre", "normal", "up", "half"),
-                                 KOKSMA__SHAPE_RECTANGLE, material, scene, &shape);
-    status = status ? status : koksma__parse_half(f, shape->half);
-    return status ? status : parse_flat_frame(f, shape);
+    (void)scene;
+    return koksma__parse_axes(f, shape->normal, shape->axis_u, shape->axis_v);
 }
 
-static koksma_status parse_disk(const field *f, int material, koksma_scene *scene)
+static koksma_status finish_sphere(const field *f, koksma_scene *scene, koksma__shape *shape)
 {
-    koksma__shape *shape = NULL;
-    koksma_status status = begin(f, KEYS("kind", "material", "centre", "normal", "up", "radius"), KOKSMA__SHAPE_DISK,
-                                 material, scene, &shape);
-    status = status ? status : koksma__parse_radius(f, shape->half);
-    return status ? status : parse_flat_frame(f, shape);
-}
-
-static koksma_status parse_sphere(const field *f, int material, koksma_scene *scene)
-{
-    koksma__shape *shape = NULL;
-    koksma_status status = begin(f, KEYS("kind", "material", "centre", "radius", "motion"), KOKSMA__SHAPE_SPHERE,
-                                 material, scene, &shape);
-    if (!status && scene->materials[material].checker) {
-        return koksma__json_fail(f, "a sphere takes no checker");
-    }
-    status = status ? status : koksma__parse_radius(f, shape->half);
-    status = status ? status : koksma__parse_point(f, "centre", shape->centre);
-    return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", shape->motion) : status;
+    return scene->materials[shape->material].checker ? koksma__json_fail(f, "a sphere takes no checker") : KOKSMA_OK;
 }
 
 /* Side `side` (0 to 5: -x +x -y +y -z +z of its own axes) of a box: a rectangle that faces outwards, in the frame
@@ -103,21 +52,22 @@ static void make_side(koksma__shape *shape, const double centre[3], double axes[
     shape->half[1] = half[along == 1 ? 2 : 1];
 }
 
-static koksma_status parse_box(const field *f, int material, koksma_scene *scene)
+/* `first` becomes the first side; five more are added. */
+static koksma_status finish_box(const field *f, koksma_scene *scene, koksma__shape *first)
 {
     double centre[3], half[3], angle_deg = 0;
-    koksma_status status = koksma__json_only(f, KEYS("kind", "material", "centre", "half", "angle_deg"));
-    status = status ? status : koksma__parse_point(f, "centre", centre);
-    status = status ? status : koksma__json_get_numbers(f, "half", true, 0, FAR, 3, half);
+    const int material = first->material;
+    koksma_status status = koksma__json_get_numbers(f, "half", true, 0, FAR, 3, half);
     status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
     if (!status && !(half[0] > TINY && half[1] > TINY && half[2] > TINY)) {
         return koksma__json_fail(f, "zero volume");
     }
+    memcpy(centre, first->centre, sizeof centre);
     const double c = cos(angle_deg * TURN / 360), s = sin(angle_deg * TURN / 360);
     double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int side = 0; !status && side < 6; side++) {
-        koksma__shape *shape = NULL;
-        status = koksma__parse_room(f, scene, &shape);
+        koksma__shape *shape = first;
+        status = side ? koksma__scene_add_shape(scene, &shape) : KOKSMA_OK;
         if (!status) {
             make_side(shape, centre, axes, half, side);
             shape->material = material;
@@ -126,23 +76,86 @@ static koksma_status parse_box(const field *f, int material, koksma_scene *scene
     return status;
 }
 
-static const struct {
-    const char *name;
-    koksma_status (*parse)(const field *f, int material, koksma_scene *scene);
-} kinds[] = {{"plane", parse_plane},
-             {"rectangle", parse_rectangle},
-             {"disk", parse_disk},
-             {"sphere", parse_sphere},
-             {"box", parse_box}};
+#define CENTRE                                                                                                       \
+    {                                                                                                                \
+        "centre", KOKSMA__POINT, .at = offsetof(koksma__shape, centre)                                               \
+    }
+#define NORMAL                                                                                                       \
+    {                                                                                                                \
+        "normal", KOKSMA__DIRECTION, .at = offsetof(koksma__shape, normal)                                           \
+    }
+
+static const char *const up[] = {"up", NULL};
+
+static const shape_row rows[] = {
+    {{.name = "plane",
+      .title = "an endless plane",
+      .parameters = (const koksma__parameter[]){CENTRE, NORMAL, {0}},
+      .keys = up},
+     KOKSMA__SHAPE_PLANE,
+     .finish = finish_plane},
+    {{.name = "rectangle",
+      .title = "a rectangle of half sides `half` along u and v",
+      .parameters =
+          (const koksma__parameter[]){
+              {"half", KOKSMA__HALF, .at = offsetof(koksma__shape, half)}, CENTRE, NORMAL, {0}},
+      .keys = up},
+     KOKSMA__SHAPE_RECTANGLE,
+     .takes_image = true,
+     .finish = finish_flat},
+    {{.name = "disk",
+      .title = "a disk",
+      .parameters =
+          (const koksma__parameter[]){
+              {"radius", KOKSMA__RADIUS, .at = offsetof(koksma__shape, half)}, CENTRE, NORMAL, {0}},
+      .keys = up},
+     KOKSMA__SHAPE_DISK,
+     .finish = finish_flat},
+    {{.name = "sphere",
+      .title = "a sphere, which may move",
+      .parameters =
+          (const koksma__parameter[]){{"radius", KOKSMA__RADIUS, .at = offsetof(koksma__shape, half)},
+                                      CENTRE,
+                                      {"motion", KOKSMA__POINT, true, .at = offsetof(koksma__shape, motion)},
+                                      {0}}},
+     KOKSMA__SHAPE_SPHERE,
+     .finish = finish_sphere},
+    {{.name = "box",
+      .title = "six rectangles, turned about y",
+      .parameters = (const koksma__parameter[]){CENTRE, {0}},
+      .keys = (const char *const[]){"half", "angle_deg", NULL}},
+     KOKSMA__SHAPE_RECTANGLE,
+     .takes_image = true,
+     .finish = finish_box},
+};
+
+static const koksma__kind mesh = {.name = "mesh", .title = "the triangles of a file"};
+static const koksma__kind instance = {.name = "instance", .title = "the mesh of that name once more"};
+static const koksma__kind *const kinds[] = {&rows[0].kind, &rows[1].kind, &rows[2].kind, &rows[3].kind,
+                                            &rows[4].kind, &mesh,         &instance,     NULL};
+
+static koksma_status parse_row(const field *f, const shape_row *row, int material, koksma_scene *scene)
+{
+    koksma__shape *shape = NULL;
+    koksma_status status = koksma__scene_add_shape(scene, &shape);
+    if (status) {
+        return koksma__json_fail_in(f, status);
+    }
+    shape->kind = row->shape;
+    shape->material = material;
+    status = koksma__parse_fields(f, &row->kind, KEYS("kind", "material"), shape);
+    return status ? status : row->finish(f, scene, shape);
+}
 
 koksma_status koksma__parse_shape(const char *scene_name, const field *f, koksma_scene *scene)
 {
-    const char *kind = "", *name = "";
-    koksma_status status = koksma__parse_kind(f, "plane rectangle disk sphere box mesh instance", &kind);
-    if (!status && !strcmp(kind, "mesh")) {
+    size_t kind = 0;
+    const char *name = "";
+    koksma_status status = koksma__parse_kind(f, kinds, &kind);
+    if (!status && kinds[kind] == &mesh) {
         return koksma__parse_mesh(scene_name, f, scene);
     }
-    if (!status && !strcmp(kind, "instance")) {
+    if (!status && kinds[kind] == &instance) {
         return koksma__parse_instance(f, scene);
     }
     status = status ? status : koksma__json_get_text(f, "material", true, &name);
@@ -150,13 +163,8 @@ koksma_status koksma__parse_shape(const char *scene_name, const field *f, koksma
     if (!status && material < 0) {
         return koksma__json_fail(f, "no material '%s'", name);
     }
-    if (!status && scene->materials[material].image && strcmp(kind, "rectangle") && strcmp(kind, "box")) {
+    if (!status && scene->materials[material].image && !rows[kind].takes_image) {
         return koksma__json_fail(f, "only rectangles, boxes and meshes take an image");
     }
-    for (size_t i = 0; !status && i < sizeof kinds / sizeof *kinds; i++) {
-        if (!strcmp(kinds[i].name, kind)) {
-            return kinds[i].parse(f, material, scene);
-        }
-    }
-    return status;
+    return status ? status : parse_row(f, &rows[kind], material, scene);
 }

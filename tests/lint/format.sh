@@ -1,4 +1,5 @@
 #!/bin/sh
 # Sources are as clang-format leaves them.
 cd "$(dirname "$0")/../.." || exit 1
-git ls-files '*.c' '*.h' | xargs clang-format --dry-run --Werror
+. tests/lint/files.sh
+files '*.c' '*.h' | xargs clang-format --dry-run --Werror

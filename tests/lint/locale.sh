@@ -3,7 +3,8 @@
 # follow the host program's locale, where 0.5 may be 0,5. Whole numbers and words may go by libc's.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-git ls-files 'src/*.[ch]' | grep -vxF src/core/c_locale.c | xargs perl -0777 -ne '
+. tests/lint/files.sh
+files 'src/*.[ch]' | grep -vxF src/core/c_locale.c | xargs perl -0777 -ne '
   my $string = qr/"(?:[^"\\]|\\.)*"/s;
   my $float = qr/%[-+ #0\x27]*[\d*]*(?:\.[\d*]*)?[lL]?[aefgAEFG]/;
   my $character = qr/\x27(?:[^\x27\\]|\\.)+\x27/;

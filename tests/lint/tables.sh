@@ -1,9 +1,10 @@
 #!/bin/sh
 # tables.sh CC: where lines of a table have numbers or kinds, their order means nothing: what the compiler makes of the
 # table is the same with the lines from the last to the first. Tables that are lists (patterns, measures and the like)
-# have lines of one name each, and what is listed is in their order; tests/unit/test_tables.c has what they stand for.
+# have lines of one name each, and what is listed is in their order; tests/test_tables.c has what they stand for.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
+. tests/lint/files.sh
 cc=$1
 folder=$(mktemp -d) || exit 4
 trap 'rm -rf "$folder"' EXIT INT TERM
@@ -22,16 +23,15 @@ same() {
   cmp -s "$folder/.s" "$folder/turned.s" || complain "$2/$1: the order of its lines changes $3"
   rm -f "$folder"/*.s
 }
-same render/materials/materials.def src src/render/materials/material_table.c
 same render/samples/uses.def src src/render/samples/uses.c
 same koksma/status.def include src/core/status.c
 
 # Every other table is a list of names, a list of functions that structs call by name, or names and numbers that are
 # made together.
-for table in $(git ls-files 'src/*.def' 'cli/*.def' 'include/*.def'); do
+for table in $(files 'src/*.def' 'cli/*.def' 'include/*.def'); do
   case $table in
-    */materials.def | */uses.def | */status.def) ;;
-    */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */adaptive.def | */formats.def | \
+    */uses.def | */status.def) ;;
+    */patterns.def | */measures.def | */warps.def | */filters.def | */integrators.def | */materials.def | */lights.def | */adaptive.def | */formats.def | \
       */commands.def) grep -nE '^[A-Z]+\([^)]*,' "$table" && complain "$table: lines of more than a name" ;;
     */kernels.def | */batch.def) ;;
     */properties.def) ;;

@@ -10,6 +10,7 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "render/accel/intersect.h"
+#include "render/lights/lights.h"
 
 typedef struct shapes {
     const koksma_scene *scene;
@@ -88,10 +89,9 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
     }
     for (size_t i = 0; all && i < scene->n_lights; i++) {
         const koksma__light *l = &scene->lights[i];
-        const bool flat_light = l->kind == KOKSMA__LIGHT_RECTANGLE || l->kind == KOKSMA__LIGHT_DISK;
-        all = flat_light ? depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny
-                         : l->kind != KOKSMA__LIGHT_DIRECTIONAL && l->kind != KOKSMA__LIGHT_ENVIRONMENT &&
-                               depth(flat, sign, l->centre, none, none, l->half[0]) < tiny;
+        all = l->kind->is_flat ? depth_of_rectangle(flat, sign, l->centre, l->axis_u, l->axis_v, l->half) < tiny
+                               : l->kind->distance == KOKSMA__LIGHT_NEAR &&
+                                     depth(flat, sign, l->centre, none, none, l->half[0]) < tiny;
     }
     return all;
 }

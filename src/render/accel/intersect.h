@@ -8,7 +8,7 @@
 #define KOKSMA_RENDER_ACCEL_INTERSECT_H
 
 #include "render/pipelines/batch.h"
-#include "scene/scene.h"
+#include "render/scene.h"
 
 typedef struct koksma__geometry {
     void *made;

@@ -10,7 +10,7 @@
  */
 #include "render/integrators/integrators.h"
 
-static const koksma__rules rules = {
+static const koksma__integrator_flags rules = {
     .followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY, .areas = true, .shadows = true, .ambient = true};
 
 const koksma_integrator koksma__integrator_distribution = {

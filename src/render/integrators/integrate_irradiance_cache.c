@@ -38,18 +38,18 @@ typedef struct cache {
     koksma__frame paths; /* the frame, with path tracing and samples of its own */
     koksma_render_options options;
     record *records;
-    size_t n, room;
+    size_t n, capacity;
     float smallest; /* cell of level 0; level k has 2^k of it */
     bool used[LEVELS];
     int32_t buckets[BUCKETS]; /* the last record of each, or -1 */
     float pixel;              /* size of a pixel at distance 1 */
 } cache;
 
-static const koksma__rules path_rules = {.followed =
-                                             KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
-                                         .areas = true,
-                                         .shadows = true,
-                                         .roulette = true};
+static const koksma__integrator_flags path_rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY |
+                                                                KOKSMA__LOBE_DIFFUSE,
+                                                    .areas = true,
+                                                    .shadows = true,
+                                                    .roulette = true};
 
 /* ---- Looking up ------------------------------------------------------------------------------------------- */
 
@@ -138,14 +138,14 @@ static bool look_up(const cache *c, const float p[3], const float n[3], float ou
 
 static koksma_status enter(cache *c, const record *from)
 {
-    if (c->n == c->room) {
-        const size_t room = c->room ? 2 * c->room : 1024;
-        record *records = room <= MAX_RECORDS ? realloc(c->records, room * sizeof *records) : NULL;
+    if (c->n == c->capacity) {
+        const size_t capacity = c->capacity ? 2 * c->capacity : 1024;
+        record *records = capacity <= MAX_RECORDS ? realloc(c->records, capacity * sizeof *records) : NULL;
         if (!records) {
-            return koksma__fail_memory(room * sizeof *records);
+            return koksma__fail_memory(capacity * sizeof *records);
         }
         c->records = records;
-        c->room = room;
+        c->capacity = capacity;
     }
     record *r = &c->records[c->n];
     int64_t cell[3];
@@ -166,13 +166,13 @@ static koksma_status enter(cache *c, const record *from)
 
 /* Room for the paths of one record. */
 typedef struct desk {
-    void *room;
+    void *scratch;
     koksma__values values;
 } desk;
 
 static void close_desk(desk *d)
 {
-    koksma__tracer_close(d->room);
+    koksma__tracer_close(d->scratch);
     free(d->values.albedo);
     free(d->values.normal);
     free(d->values.depth);
@@ -187,7 +187,7 @@ static koksma_status open_desk(const cache *c, desk *d)
         close_desk(d);
         return koksma__fail_memory(7 * RAYS * sizeof(float));
     }
-    const koksma_status status = koksma__tracer_open(&c->paths, RAYS, &d->room);
+    const koksma_status status = koksma__tracer_open(&c->paths, RAYS, &d->scratch);
     if (status) {
         close_desk(d);
     }
@@ -197,28 +197,28 @@ static koksma_status open_desk(const cache *c, desk *d)
 /* E / pi at (p, n) on a primitive, and R. key: of the place's random numbers. */
 static koksma_status compute(const cache *c, desk *d, uint64_t key, const koksma__surface *s, float time, record *out)
 {
-    koksma__tracer_room *room = d->room;
+    koksma__wavefront_scratch *scratch = d->scratch;
     const koksma__group group = {.first = (size_t)key, .count = 1, .start = {0, RAYS}};
-    koksma__trace trace = {.frame = &c->paths, .room = room, .group = &group, .bounce = 1};
+    koksma__trace trace = {.frame = &c->paths, .scratch = scratch, .group = &group, .bounce = 1};
     const float *us;
-    memset(room->sums, 0, 3 * RAYS * sizeof *room->sums);
-    for (size_t i = 0; i < room->n_drawn; i++) {
-        room->drawn[i].done = false;
+    memset(scratch->sums, 0, 3 * RAYS * sizeof *scratch->sums);
+    for (size_t i = 0; i < scratch->n_drawn; i++) {
+        scratch->drawn[i].done = false;
     }
-    room->queues[0].n = 0;
+    scratch->queues[0].n = 0;
     koksma_status status = koksma__tracer_draw(&trace, KOKSMA__USE_LOBE, &us);
     for (uint32_t i = 0; !status && i < RAYS; i++) {
-        koksma__path path = {.beta = {1, 1, 1}, .density = -1, .time = time, .from = s->primitive, .sample = i};
+        koksma__path path = {.beta = {1, 1, 1}, .pdf = -1, .time = time, .from = s->primitive, .sample = i};
         memcpy(path.o, s->p, sizeof path.o);
         memcpy(path.n, s->n, sizeof path.n);
-        koksma__cosine_way(s->n, us + 2 * i, path.d);
-        status = koksma__tracer_push(&room->queues[0], &path);
+        koksma__cosine_direction(s->n, us + 2 * i, path.d);
+        status = koksma__tracer_push(&scratch->queues[0], &path);
     }
     status = status ? status : koksma__tracer_follow(&trace, &d->values);
     double sums[3] = {0, 0, 0}, inverse = 0;
     for (size_t i = 0; !status && i < RAYS; i++) {
         for (size_t k = 0; k < 3; k++) {
-            sums[k] += (double)room->sums[3 * i + k];
+            sums[k] += (double)scratch->sums[3 * i + k];
         }
         inverse += d->values.depth[i] > 0 ? 1 / (double)d->values.depth[i] : 0;
     }
@@ -280,12 +280,12 @@ static bool look(const cache *c, int x, int y, float time, koksma__surface *s, f
     if (hits.primitive[0] < 0 || hits.material[0] < 0) {
         return false;
     }
-    *s = (koksma__surface){.substance = &f->substances[hits.material[0]],
+    *s = (koksma__surface){.material = &f->shading_materials[hits.material[0]],
                            .p = {hits.px[0], hits.py[0], hits.pz[0]},
                            .n = {hits.nx[0], hits.ny[0], hits.nz[0]},
                            .primitive = hits.primitive[0]};
     *far = hits.t[0];
-    return (s->substance->lobes & KOKSMA__LOBE_DIFFUSE) != 0;
+    return (s->material->bsdf->lobes & KOKSMA__LOBE_DIFFUSE) != 0;
 }
 
 static koksma_status compute_row(void *context, size_t row)
@@ -359,7 +359,7 @@ static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
     frame->cache = c;
     c->paths = *frame;
     c->paths.cache = NULL;
-    c->paths.rules = &path_rules;
+    c->paths.flags = &path_rules;
     c->paths.sampler = (koksma__sampler){0};
     c->options = *frame->options;
     c->paths.options = &c->options;
@@ -383,12 +383,12 @@ static koksma_status open_cache(koksma__frame *frame, const koksma_run *run)
     return status;
 }
 
-static const koksma__rules rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
-                                    .areas = true,
-                                    .shadows = true,
-                                    .open = open_cache,
-                                    .close = close_cache,
-                                    .indirect = indirect};
+static const koksma__integrator_flags rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY,
+                                               .areas = true,
+                                               .shadows = true,
+                                               .open = open_cache,
+                                               .close = close_cache,
+                                               .indirect = indirect};
 
 const koksma_integrator koksma__integrator_irradiance_cache = {
     .name = "irradiance-cache",

@@ -8,10 +8,11 @@
  */
 #include "render/integrators/integrators.h"
 
-static const koksma__rules rules = {.followed = KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
-                                    .areas = true,
-                                    .shadows = true,
-                                    .roulette = true};
+static const koksma__integrator_flags rules = {.followed =
+                                                   KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,
+                                               .areas = true,
+                                               .shadows = true,
+                                               .roulette = true};
 
 const koksma_integrator koksma__integrator_path = {
     .name = "path",

@@ -11,7 +11,7 @@
  */
 #include "render/integrators/integrators.h"
 
-static const koksma__rules rules = {.ambient = true};
+static const koksma__integrator_flags rules = {.ambient = true};
 
 const koksma_integrator koksma__integrator_utah = {
     .name = "utah",

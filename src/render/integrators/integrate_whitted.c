@@ -12,7 +12,7 @@
  */
 #include "render/integrators/integrators.h"
 
-static const koksma__rules rules = {
+static const koksma__integrator_flags rules = {
     .followed = KOKSMA__LOBE_SPECULAR, .shadows = true, .ambient = true, .branches = true};
 
 const koksma_integrator koksma__integrator_whitted = {

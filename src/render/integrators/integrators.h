@@ -7,7 +7,7 @@
 struct koksma__frame;
 
 /* What an integrator does at a vertex; wavefront.c does it. */
-typedef struct koksma__rules {
+typedef struct koksma__integrator_flags {
     unsigned followed; /* lobes whose ways are followed further; the others see luminaires only */
     bool areas;        /* luminaires are sampled all over; else from their centres */
     bool shadows;
@@ -19,7 +19,7 @@ typedef struct koksma__rules {
     koksma_status (*open)(struct koksma__frame *frame, const koksma_run *run);
     void (*close)(struct koksma__frame *frame);
     koksma_status (*indirect)(const struct koksma__frame *frame, const koksma__surface *s, float time, float out[3]);
-} koksma__rules;
+} koksma__integrator_flags;
 
 #define INTEGRATOR(name) extern const koksma_integrator koksma__integrator_##name;
 #include "render/integrators/integrators.def"

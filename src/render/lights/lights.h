@@ -1,82 +1,94 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Luminaires, place by place: what comes from one of them to a point, from a place that two numbers choose. Densities
- * are over solid angle as seen from the point; a luminaire without extent (point, directional) has density 0 and
- * counts in full.
+ * Lights: what comes from one of them to a point, from a position that two numbers choose. A kind of light is one
+ * file, light_<name>.c, and one line of lights.def: its name and parameters in scene files, its power, its sampling
+ * and its density. Densities are over solid angle as seen from the point; a light without extent (point, directional)
+ * has density 0 and counts in full.
+ *
+ * tests/unit/test_light_kinds.c checks every line of the table: samples match the density, the power is that of the
+ * emitted light, and all ways of choosing among lights give the same pictures.
  */
 #ifndef KOKSMA_RENDER_LIGHTS_LIGHTS_H
 #define KOKSMA_RENDER_LIGHTS_LIGHTS_H
 
+#include "render/fields.h"
 #include "render/pipelines/batch.h"
-#include "scene/scene.h"
+#include "render/scene.h"
 
-typedef struct koksma__environment koksma__environment;
-
-typedef struct koksma__lamp_mesh koksma__lamp_mesh;
-
-typedef struct koksma__lamp {
-    koksma__light_kind kind;
+/* A light in floats, as the renderer reads it. */
+typedef struct koksma__shading_light {
+    const struct koksma__light_kind *kind;
     bool visible;
-    float centre[3], axis_u[3], axis_v[3], normal[3], half[2], area;
+    float centre[3], axis_u[3], axis_v[3], normal[3], half[2];
     float radiance[3];
+    float values[KOKSMA__MAX_VALUES]; /* of the kind's own parameters */
+    float area;
+    float reach; /* no part of it is further from its centre */
     float
         power; /* luminous, for choosing: all that it emits, over pi^2; of one that is far away, irradiance over pi */
-    int light_shape; /* id of its own surface, or -1 */
-    const koksma__environment *environment;
-    koksma__lamp_mesh *mesh; /* of a luminous mesh, or NULL */
-} koksma__lamp;
-
-typedef struct koksma__lights {
-    size_t n;
-    koksma__lamp *lamps;
-    float *cdf;                       /* of the powers; n + 1 numbers */
-    koksma__batch_lamps *estimates;   /* for choosing by place */
-    koksma__batch_light *rectangles;  /* for lambert_lanes.c; only where all are rectangles */
-    koksma__environment *environment; /* or NULL */
-    int environment_lamp;             /* its number, or -1 */
-} koksma__lights;
-
-/* Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
-koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
-void koksma__lights_fini(koksma__lights *lights);
+    int shape; /* id of its own surface, or -1 */
+    void *data; /* the kind's own, released by its close() */
+} koksma__shading_light;
 
 /* Light on its way to a point. */
 typedef struct koksma__beam {
-    float d[3];     /* from the point to the luminaire, which is met at t = 1 */
-    float w[3];     /* the same way, of length 1 */
-    float value[3]; /* radiance over density; for the cosine law and the material still to be applied */
-    float density;  /* of w, or 0 */
+    float d[3];     /* from the point to the light, which is met at t = 1 */
+    float w[3];     /* the same direction, of length 1 */
+    float value[3]; /* radiance over pdf; for the cosine law and the material still to be applied */
+    float pdf;      /* of w, or 0 */
 } koksma__beam;
 
-/* False when nothing comes. */
-bool koksma__lamp_sample(const koksma__lamp *lamp, const float p[3], const float u[2], koksma__beam *out);
+/* How the estimate of a light's contribution at a point (koksma__batch_lights) depends on the point. */
+typedef enum koksma__light_distance {
+    KOKSMA__LIGHT_NEAR,     /* falls with the distance from its centre */
+    KOKSMA__LIGHT_PARALLEL, /* comes from one direction, -normal */
+    KOKSMA__LIGHT_AROUND    /* comes from all directions that hit nothing */
+} koksma__light_distance;
 
-/* The luminaire as a point at its centre (Whitted's); false for an environment, which has none. */
-bool koksma__lamp_centre(const koksma__lamp *lamp, const float p[3], koksma__beam *out);
+typedef struct koksma__light_kind {
+    koksma__kind kind; /* parameters are written to koksma__light; its own at KOKSMA__LIGHT_VALUE(i) */
+    koksma__light_distance distance;
+    bool is_flat; /* shines to the side of its normal only; u, v along its axes, as far as half */
+    /* NULL, or: reads the fields that are no parameters; name is the scene file's. */
+    koksma_status (*parse)(const char *name, const field *f, koksma_scene *scene, koksma__light *light);
+    /* Sets area, reach, power and data. Errors: MALFORMED (an image or a mesh can't be a light), MEMORY. */
+    koksma_status (*open)(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light);
+    void (*close)(void *data); /* NULL: there is no data */
+    /* A sample of the light that comes to p, by u; false when nothing comes. */
+    bool (*sample)(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out);
+    /* The light as a point at its centre (Whitted's), with pdf 0; NULL or false: it has none. */
+    bool (*centre)(const koksma__shading_light *light, const float p[3], koksma__beam *out);
+    /* The density with which sample() would choose the direction w (of length 1) from p, which meets the light at
+       distance t, where its normal is n (unused far away). NULL: 0 everywhere. */
+    float (*pdf)(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3]);
+    /* NULL, or, of light from all around: the radiance along w. */
+    void (*radiance)(const koksma__shading_light *light, const float w[3], float out[3]);
+    /* NULL, or: sets what lambert_lanes.c samples, if the light is seen by no ray. */
+    void (*lanes)(const koksma__light *from, koksma__batch_light *out);
+} koksma__light_kind;
 
-/* The density with which sample() would choose the way w (of length 1) from p, which meets the luminaire at distance
-   t, where its normal is n (idle for the environment). */
-float koksma__lamp_density(const koksma__lamp *lamp, const float p[3], const float w[3], float t, const float n[3]);
+/* Where number i of a kind's own parameters is written. */
+#define KOKSMA__LIGHT_VALUE(i) (offsetof(koksma__light, values) + (i) * sizeof(double))
 
-/* Radiance along the way w from far away. */
-void koksma__environment_radiance(const koksma__environment *environment, const float w[3], float out[3]);
+/* All kinds in the order of lights.def, then NULL. */
+extern const koksma__light_kind *const koksma__light_types[];
+extern const koksma__kind *const koksma__light_kinds[];
 
-/* ---- mesh_light.c --------------------------------------------------------------------------------------- */
+typedef struct koksma__lights {
+    size_t n;
+    koksma__shading_light *lights;
+    float *cdf;                      /* of the powers; n + 1 numbers */
+    koksma__batch_lights *estimates; /* for choosing by position */
+    koksma__batch_light *rectangles; /* for lambert_lanes.c; only where all kinds have lanes */
+    size_t first_around;             /* the first light from all around, or n */
+} koksma__lights;
 
-/* Sets what a lamp has of its mesh. Errors: MALFORMED (no area), MEMORY. */
-koksma_status koksma__lamp_mesh_open(const koksma_scene *scene, const koksma__light *light, koksma__lamp *lamp);
-void koksma__lamp_mesh_close(koksma__lamp_mesh *mesh);
-bool koksma__lamp_mesh_sample(const koksma__lamp *lamp, const float p[3], const float u[2], koksma__beam *out);
+/* The lights of a scene, ready for sampling; fini also after a failure. Errors: those of open(). */
+koksma_status koksma__lights_init(const koksma_scene *scene, koksma__lights *out);
+void koksma__lights_fini(koksma__lights *lights);
 
-/* ---- environment.c ------------------------------------------------------------------------------------- */
-
-/* Errors: MALFORMED (a pixel that is infinite or no number), MEMORY. */
-koksma_status koksma__environment_open(const koksma__light *light, koksma__environment **out);
-void koksma__environment_close(koksma__environment *environment);
-/* A way by importance; its density. */
-float koksma__environment_sample(const koksma__environment *environment, const float u[2], float w[3]);
-float koksma__environment_density(const koksma__environment *environment, const float w[3]);
-/* The mean radiance over all directions, as luminance. */
-float koksma__environment_mean(const koksma__environment *environment);
+#define LIGHT(name) extern const koksma__light_kind koksma__light_##name;
+#include "render/lights/lights.def"
+#undef LIGHT
 
 #endif

@@ -7,6 +7,8 @@
  */
 #include "render/materials/lobes.h"
 
+enum { TINT, IOR = 3 };
+
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
 {
     (void)s, (void)w, (void)lobes, (void)value_out;
@@ -28,10 +30,10 @@ static float reflected_share(float cosine, float ratio, float *inner)
 
 static void set(const koksma__surface *s, float share, koksma__scatter *out)
 {
-    out->density = 0;
+    out->pdf = 0;
     out->lobe = KOKSMA__LOBE_SPECULAR;
     for (int k = 0; k < 3; k++) {
-        out->weight[k] = share * s->substance->reflectance[k];
+        out->weight[k] = share * s->material->values[TINT + k];
     }
 }
 
@@ -42,12 +44,9 @@ static void refract(const koksma__surface *s, float cosine, float ratio, float i
     }
 }
 
-bool koksma__dielectric_split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted)
+static void split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted)
 {
-    if (s->substance->kind != KOKSMA__MATERIAL_DIELECTRIC) {
-        return false;
-    }
-    const float ratio = s->inside ? s->substance->ior : 1 / s->substance->ior; /* from this side to the other */
+    const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior; /* from this side to the other */
     const float cosine = koksma__dot3(s->n, s->out);
     float inner;
     const float share = reflected_share(cosine, ratio, &inner);
@@ -55,7 +54,6 @@ bool koksma__dielectric_split(const koksma__surface *s, koksma__scatter *reflect
     set(s, 1 - share, refracted);
     koksma__mirror3(s->out, s->n, reflected->w);
     refract(s, cosine, ratio, inner, refracted->w);
-    return true;
 }
 
 static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
@@ -65,8 +63,8 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
     if (!(lobes & KOKSMA__LOBE_SPECULAR)) {
         return false;
     }
-    koksma__dielectric_split(s, &reflected, &refracted);
-    const float ratio = s->inside ? s->substance->ior : 1 / s->substance->ior;
+    split(s, &reflected, &refracted);
+    const float ior = s->material->values[IOR], ratio = s->inside ? ior : 1 / ior;
     float inner;
     const float share = reflected_share(koksma__dot3(s->n, s->out), ratio, &inner);
     *out = choice < share ? reflected : refracted;
@@ -74,9 +72,18 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
     return true;
 }
 
-const koksma__material_rules koksma__material_dielectric = {
-    .cite = "whitted1980 veach1997",
+static const koksma__parameter parameters[] = {
+    {"tint", KOKSMA__COLOUR, .high = 1, .optional = true, .fallback = 1, .at = KOKSMA__VALUE(TINT)},
+    {"ior", KOKSMA__NUMBER, .low = 1.0001, .high = 10, .at = KOKSMA__VALUE(IOR)},
+    {0}};
+
+const koksma__bsdf koksma__bsdf_dielectric = {
+    .kind = {.name = "dielectric",
+             .title = "smooth glass in air",
+             .cite = "whitted1980 veach1997",
+             .parameters = parameters},
     .lobes = KOKSMA__LOBE_SPECULAR,
     .value = value,
     .sample = sample,
+    .split = split,
 };

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mirror: reflects a share `reflectance` of what comes along the one mirrored way (Whitted 1980).
+ * mirror: reflects a share `reflectance` of what comes along the one mirrored direction (Whitted 1980).
  *
  *     L(out) = reflectance L(2 (n.out) n - out)
  */
 #include "render/materials/lobes.h"
+
+enum { REFLECTANCE };
 
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
 {
@@ -19,16 +21,19 @@ static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], f
         return false;
     }
     koksma__mirror3(s->out, s->n, out->w);
-    out->density = 0;
+    out->pdf = 0;
     out->lobe = KOKSMA__LOBE_SPECULAR;
     for (int k = 0; k < 3; k++) {
-        out->weight[k] = s->substance->reflectance[k];
+        out->weight[k] = s->material->values[REFLECTANCE + k];
     }
     return true;
 }
 
-const koksma__material_rules koksma__material_mirror = {
-    .cite = "whitted1980",
+static const koksma__parameter parameters[] = {
+    {"reflectance", KOKSMA__COLOUR, .high = 1, .at = KOKSMA__VALUE(REFLECTANCE)}, {0}};
+
+const koksma__bsdf koksma__bsdf_mirror = {
+    .kind = {.name = "mirror", .title = "a smooth mirror", .cite = "whitted1980", .parameters = parameters},
     .lobes = KOKSMA__LOBE_SPECULAR,
     .value = value,
     .sample = sample,

@@ -1,45 +1,46 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of materials, by kind; the order of the lines of materials.def means nothing. */
+/*
+ * The table of materials, and the conversion of a description in doubles to what the renderer shades with. Kinds are
+ * known by the address of their entry, never by a number, so the order of the lines of materials.def decides nothing
+ * but the order of lists.
+ */
 #include "render/materials/materials.h"
-#include "render/vector3.h"
 
-static const koksma__material_rules *const table[] = {
-#define MATERIAL(name, kind) [KOKSMA__MATERIAL_##kind] = &koksma__material_##name,
+#include <string.h>
+
+const koksma__bsdf *const koksma__bsdfs[] = {
+#define MATERIAL(name) &koksma__bsdf_##name,
 #include "render/materials/materials.def"
 #undef MATERIAL
-};
+    NULL};
 
-enum {
-    LINES = 0
-#define MATERIAL(name, kind) +1
+const koksma__kind *const koksma__material_kinds[] = {
+#define MATERIAL(name) &koksma__bsdf_##name.kind,
 #include "render/materials/materials.def"
 #undef MATERIAL
-};
+    NULL};
 
-_Static_assert((int)LINES == (int)KOKSMA__N_MATERIAL_KINDS &&
-                   sizeof table / sizeof *table == KOKSMA__N_MATERIAL_KINDS,
-               "materials.def has one line a kind");
-
-const koksma__material_rules *koksma__material_rules_of(koksma__material_kind kind)
+double *koksma__material_value(koksma__material *material, const char *name)
 {
-    return table[kind];
+    const koksma__parameter *p = material->bsdf->kind.parameters;
+    while (strcmp(p->name, name) != 0) {
+        p++;
+    }
+    return (double *)(void *)((char *)material + p->at);
 }
 
-koksma__substance koksma__substance_of(const koksma__material *from)
+koksma__shading_material koksma__shading_material_of(const koksma__material *from)
 {
-    koksma__substance s = {.kind = from->kind,
-                           .image = from->image,
-                           .lobes = table[from->kind]->lobes,
-                           .exponent = (float)from->exponent,
-                           .roughness = (float)from->roughness,
-                           .ior = (float)from->ior};
+    koksma__shading_material m = {.bsdf = from->bsdf, .image = from->image};
     for (int k = 0; k < 3; k++) {
-        s.albedo[0][k] = (float)from->albedo[0][k];
-        s.albedo[1][k] = (float)from->albedo[1][k];
-        s.reflectance[k] = (float)from->reflectance[k];
+        m.albedo[0][k] = (float)from->albedo[0][k];
+        m.albedo[1][k] = (float)from->albedo[1][k];
     }
-    const float diffuse = koksma__luminance3(s.albedo[0]) + koksma__luminance3(s.albedo[1]);
-    const float all = diffuse + 2 * koksma__luminance3(s.reflectance);
-    s.diffuse_share = all > 0 ? diffuse / all : 1;
-    return s;
+    for (int i = 0; i < KOKSMA__MAX_VALUES; i++) {
+        m.values[i] = (float)from->values[i];
+    }
+    if (m.bsdf->prepare) {
+        m.bsdf->prepare(&m);
+    }
+    return m;
 }

@@ -1,29 +1,37 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a surface does with light, direction by direction. All ways are of length 1 and lead away from the surface;
- * n.out > 0. A material's lobes are told apart, because integrators follow some and not others.
+ * What a surface does with light, direction by direction. A kind of material is one file, bsdf_<name>.c, and one line
+ * of materials.def: its name and parameters in scene files, its value, its sampling and its density. All directions
+ * are of length 1 and lead away from the surface; n.out > 0. A material's lobes are told apart, because integrators
+ * follow some and not others.
+ *
+ * tests/unit/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
+ * integrate to what sampling returns, no energy is gained, reciprocity holds where it is claimed.
  */
 #ifndef KOKSMA_RENDER_MATERIALS_MATERIALS_H
 #define KOKSMA_RENDER_MATERIALS_MATERIALS_H
 
-#include "scene/scene.h"
+#include "render/fields.h"
+#include "render/scene.h"
 
 /* Lobes. */
 enum { KOKSMA__LOBE_DIFFUSE = 1, KOKSMA__LOBE_GLOSSY = 2, KOKSMA__LOBE_SPECULAR = 4 };
 
-/* A material in floats. */
-typedef struct koksma__substance {
-    koksma__material_kind kind;
-    unsigned lobes; /* that it has */
-    float albedo[2][3], reflectance[3];
-    float exponent, roughness, ior;
-    const koksma_image *image; /* of the albedo, or NULL */
-    float diffuse_share;       /* of the choice between a diffuse and a glossy lobe */
-} koksma__substance;
+/* Fields of the diffuse part: "albedo"; "albedos" in the squares of a checker; "albedo": {"image": FILE}. */
+enum { KOKSMA__ALBEDO = 1, KOKSMA__CHECKER = 2, KOKSMA__IMAGE = 4 };
 
-/* A place on it, seen from `out`. */
+/* A material in floats, as the renderer reads it. */
+typedef struct koksma__shading_material {
+    const struct koksma__bsdf *bsdf;
+    float albedo[2][3];
+    float values[KOKSMA__MAX_VALUES]; /* of the kind's parameters */
+    float derived;                    /* what prepare() makes of them */
+    const koksma_image *image;        /* of the albedo, or NULL */
+} koksma__shading_material;
+
+/* A point on it, seen from `out`. */
 typedef struct koksma__surface {
-    const koksma__substance *substance;
+    const koksma__shading_material *material;
     float p[3], n[3]; /* n towards the side that it is seen from */
     float out[3];
     float albedo[3]; /* of the diffuse part, here */
@@ -31,34 +39,45 @@ typedef struct koksma__surface {
     int32_t primitive;
 } koksma__surface;
 
-/* A way that light may come from. */
+/* A direction that light may come from. */
 typedef struct koksma__scatter {
     float w[3];
-    float weight[3]; /* material times cosine over density */
-    float density;   /* over solid angle, of the lobes that were asked for; 0 for specular ones */
+    float weight[3]; /* material times cosine over pdf */
+    float pdf;       /* over solid angle, of the lobes that were asked for; 0 for specular ones */
     unsigned lobe;
 } koksma__scatter;
 
-typedef struct koksma__material_rules {
-    const char *cite;
-    unsigned lobes;
+typedef struct koksma__bsdf {
+    koksma__kind kind; /* parameters are written to koksma__material: at = KOKSMA__VALUE(i) */
+    unsigned lobes;    /* that it has */
+    unsigned diffuse;  /* which fields of the diffuse part it takes; 0: none */
+    bool is_lambert;   /* its value is albedo cosine / pi and nothing else, so that lambert_lanes.c can shade it */
+    bool reciprocal;   /* value / cosine is the same with w and out exchanged */
+    /* NULL, or: why these parameters are refused together; NULL if they are not. */
+    const char *(*check)(const koksma__material *material);
+    void (*prepare)(koksma__shading_material *material); /* NULL, or sets derived */
     /* value += material times cosine for light from w, of these lobes; the density with which sample() would choose w
        among these lobes. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
-    /* Chooses a way among these lobes: u for the direction, choice for the lobe. False: the light is lost. */
+    /* Chooses a direction among these lobes: u for the direction, choice for the lobe. False: the light is lost. */
     bool (*sample)(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out);
-} koksma__material_rules;
+    /* NULL, or, for integrators that follow both directions of glass: both, weighed by Fresnel's share. */
+    void (*split)(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
+} koksma__bsdf;
 
-/* By koksma__material_kind. */
-const koksma__material_rules *koksma__material_rules_of(koksma__material_kind kind);
+/* Where parameter i of a material is written. */
+#define KOKSMA__VALUE(i) (offsetof(koksma__material, values) + (i) * sizeof(double))
 
-koksma__substance koksma__substance_of(const koksma__material *from);
+/* All kinds in the order of materials.def, then NULL. */
+extern const koksma__bsdf *const koksma__bsdfs[];
+extern const koksma__kind *const koksma__material_kinds[];
 
-/* Whether branching integrators should follow both ways of a dielectric: the reflected share and both ways. False:
-   the material has one way only. */
-bool koksma__dielectric_split(const koksma__surface *s, koksma__scatter *reflected, koksma__scatter *refracted);
+/* The values of the parameter of this name, which the material's kind has. */
+double *koksma__material_value(koksma__material *material, const char *name);
 
-#define MATERIAL(name, kind) extern const koksma__material_rules koksma__material_##name;
+koksma__shading_material koksma__shading_material_of(const koksma__material *from);
+
+#define MATERIAL(name) extern const koksma__bsdf koksma__bsdf_##name;
 #include "render/materials/materials.def"
 #undef MATERIAL
 

@@ -15,7 +15,7 @@
 
 enum { KOKSMA__BLOCK = 64, KOKSMA__LANE_STEP = 16 };
 
-#define KOKSMA__LAMPS(name) _Alignas(64) float name[KOKSMA__MAX_LAMPS]
+#define KOKSMA__LIGHT_LANES(name) _Alignas(64) float name[KOKSMA__MAX_BATCH_LIGHTS]
 #define KOKSMA__LANES(type, name) _Alignas(64) type name[KOKSMA__BLOCK]
 
 /* Rays o + t d, t > 0; d need not have length 1. time is read only where something moves. */
@@ -103,25 +103,25 @@ typedef struct koksma__batch_light {
     float power;
 } koksma__batch_light;
 
-enum { KOKSMA__MAX_LAMPS = 256 };
+enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
 
 /* Luminaires for choosing one, in lanes: the estimate is
      fixed + power max(least, n.d / r) max(least, cosine at the luminaire) / r^2,  0 when all of it is out of sight,
    with d from p to the centre and r = max(|d|, reach). Those far away have their way in (nx, ny, nz) and power 0. */
-typedef struct koksma__batch_lamps {
+typedef struct koksma__batch_lights {
     int n, whole; /* of them; up to whole lanes, the rest being dark */
-    KOKSMA__LAMPS(cx);
-    KOKSMA__LAMPS(cy);
-    KOKSMA__LAMPS(cz);
-    KOKSMA__LAMPS(nx);
-    KOKSMA__LAMPS(ny);
-    KOKSMA__LAMPS(nz);
-    KOKSMA__LAMPS(flat);  /* 1: it shines along its normal, 0: all around */
-    KOKSMA__LAMPS(power); /* of those that have a place */
-    KOKSMA__LAMPS(reach);
-    KOKSMA__LAMPS(far);   /* irradiance of a directional one on a surface that faces it */
-    KOKSMA__LAMPS(fixed); /* of an environment */
-} koksma__batch_lamps;
+    KOKSMA__LIGHT_LANES(cx);
+    KOKSMA__LIGHT_LANES(cy);
+    KOKSMA__LIGHT_LANES(cz);
+    KOKSMA__LIGHT_LANES(nx);
+    KOKSMA__LIGHT_LANES(ny);
+    KOKSMA__LIGHT_LANES(nz);
+    KOKSMA__LIGHT_LANES(flat);  /* 1: it shines along its normal, 0: all around */
+    KOKSMA__LIGHT_LANES(power); /* of those that have a place */
+    KOKSMA__LIGHT_LANES(reach);
+    KOKSMA__LIGHT_LANES(far);   /* irradiance of a directional one on a surface that faces it */
+    KOKSMA__LIGHT_LANES(fixed); /* of an environment */
+} koksma__batch_lights;
 
 typedef struct koksma__batch_table {
 #define KERNEL(result, name, arguments) result(*name) arguments;

@@ -6,7 +6,7 @@
 
 #define LEAST 0.05f /* of a cosine where any place of a luminaire is above the horizon */
 
-float BATCH_NAME(estimate)(const koksma__batch_lamps *l, const float p[3], const float normal[3], float *out)
+float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], const float normal[3], float *out)
 {
     const float px = p[0], py = p[1], pz = p[2], nx = normal[0], ny = normal[1], nz = normal[2];
     float sums[KOKSMA__LANE_STEP] = {0};

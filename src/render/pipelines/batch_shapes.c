@@ -12,7 +12,7 @@
 #include <math.h>
 
 #include "render/pipelines/batch_kernel.h"
-#include "scene/scene.h"
+#include "render/scene.h"
 
 typedef enum bounds { ENDLESS, IN_RECTANGLE, IN_DISK } bounds;
 

@@ -24,13 +24,13 @@ typedef struct room {
 bool koksma__direct_can(const koksma__frame *frame)
 {
     const koksma_scene *scene = frame->scene;
-    bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && frame->rules->areas &&
-               frame->rules->ambient && !frame->rules->indirect && frame->options->lights == KOKSMA_LIGHTS_ALL;
+    bool can = scene->grey && !scene->moves && !(scene->camera.lens_radius > 0) && frame->flags->areas &&
+               frame->flags->ambient && !frame->flags->indirect && frame->options->lights == KOKSMA_LIGHTS_ALL;
     for (size_t i = 0; can && i < scene->n_lights; i++) {
-        can = scene->lights[i].kind == KOKSMA__LIGHT_RECTANGLE && !scene->lights[i].visible;
+        can = scene->lights[i].kind->lanes && !scene->lights[i].visible;
     }
     for (size_t i = 0; can && i < scene->n_materials; i++) {
-        can = scene->materials[i].kind == KOKSMA__MATERIAL_LAMBERT && !scene->materials[i].image;
+        can = scene->materials[i].bsdf->is_lambert && !scene->materials[i].image;
     }
     return can;
 }

@@ -53,7 +53,7 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
         koksma__path path = {.from = -1, .sample = (uint32_t)i};
         aim(frame, values->film + 2 * i, lens ? lens + 2 * i : NULL, times ? open + interval * times[2 * i] : open,
             &path);
-        status = koksma__tracer_push(&trace->room->queues[0], &path);
+        status = koksma__tracer_push(&trace->scratch->queues[0], &path);
     }
     return status;
 }
@@ -75,17 +75,18 @@ static void gather(const koksma__path *paths, int n, int whole, koksma__rays *ra
     }
 }
 
-/* The part of the light that a ray brings which met its luminaire by chance: the power heuristic against sampling it.
- */
-static float chance_weight(const koksma__frame *frame, const koksma__path *path, int lamp, const float w[3], float t,
-                           const float n[3])
+/* The part of the light that counts for a ray which met a light by its own direction: the power heuristic against
+   sampling that light. */
+static float met_weight(const koksma__frame *frame, const koksma__path *path, size_t light, const float w[3], float t,
+                        const float n[3])
 {
-    if (!(path->density > 0)) {
-        return path->density < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
+    if (!(path->pdf > 0)) {
+        return path->pdf < 0 ? 0 : 1; /* 1: from the eye or a mirror, no other way to see it */
     }
-    const float sampled = koksma__lamp_density(&frame->lights.lamps[lamp], path->o, w, t, n) *
-                          koksma__lamp_chance(frame, path->o, path->n, lamp);
-    return path->density * path->density / (path->density * path->density + sampled * sampled);
+    const koksma__shading_light *l = &frame->lights.lights[light];
+    const float pdf = l->kind->pdf ? l->kind->pdf(l, path->o, w, t, n) : 0;
+    const float sampled = pdf * koksma__light_probability(frame, path->o, path->n, (int)light);
+    return path->pdf * path->pdf / (path->pdf * path->pdf + sampled * sampled);
 }
 
 static void add_scaled(const float beta[3], const float value[3], float scale, float *sum)
@@ -99,34 +100,37 @@ static void add_miss(const koksma__frame *frame, const koksma__path *path, float
 {
     const float background[3] = {(float)frame->scene->background[0], (float)frame->scene->background[1],
                                  (float)frame->scene->background[2]};
-    const int lamp = frame->lights.environment_lamp;
+    const koksma__lights *lights = &frame->lights;
     add_scaled(path->beta, background, 1, sum);
-    if (lamp >= 0 && frame->lights.lamps[lamp].visible) {
-        float w[3] = {path->d[0], path->d[1], path->d[2]}, radiance[3];
-        koksma__unit3(w);
-        koksma__environment_radiance(frame->lights.environment, w, radiance);
-        add_scaled(path->beta, radiance, chance_weight(frame, path, lamp, w, 0, w), sum);
+    for (size_t i = lights->first_around; i < lights->n; i++) {
+        const koksma__shading_light *l = &lights->lights[i];
+        if (l->kind->radiance && l->visible) {
+            float w[3] = {path->d[0], path->d[1], path->d[2]}, radiance[3];
+            koksma__unit3(w);
+            l->kind->radiance(l, w, radiance);
+            add_scaled(path->beta, radiance, met_weight(frame, path, i, w, 0, w), sum);
+        }
     }
 }
 
-static void add_luminaire(const koksma__frame *frame, const koksma__path *path, const koksma__hits *hits, int i,
-                          float *sum)
+static void add_emission(const koksma__frame *frame, const koksma__path *path, const koksma__hits *hits, int i,
+                         float *sum)
 {
-    const int lamp = frame->geometry.light(&frame->geometry, hits->primitive[i]);
+    const size_t light = (size_t)frame->geometry.light(&frame->geometry, hits->primitive[i]);
     if (!hits->back[i]) {
         float w[3] = {path->d[0], path->d[1], path->d[2]};
         const float n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
         const float length = sqrtf(koksma__dot3(w, w));
         koksma__unit3(w);
-        add_scaled(path->beta, frame->lights.lamps[lamp].radiance,
-                   chance_weight(frame, path, lamp, w, hits->t[i] * length, n), sum);
+        add_scaled(path->beta, frame->lights.lights[light].radiance,
+                   met_weight(frame, path, light, w, hits->t[i] * length, n), sum);
     }
 }
 
 static void set_surface(const koksma__frame *frame, const koksma__path *path, const koksma__hits *h, int i,
                         koksma__surface *s)
 {
-    const koksma__substance *substance = &frame->substances[h->material[i]];
+    const koksma__shading_material *material = &frame->shading_materials[h->material[i]];
     const koksma__batch_material *m = &frame->materials[h->material[i]];
     int which = 0;
     if (m->checker) {
@@ -134,18 +138,18 @@ static void set_surface(const koksma__frame *frame, const koksma__path *path, co
         const float half = 0.5f * (floorf(m->su * u + m->sv * v + m->s0) + floorf(m->tu * u + m->tv * v + m->t0));
         which = half != floorf(half);
     }
-    *s = (koksma__surface){.substance = substance,
+    *s = (koksma__surface){.material = material,
                            .p = {h->px[i], h->py[i], h->pz[i]},
                            .n = {h->nx[i], h->ny[i], h->nz[i]},
                            .out = {-path->d[0], -path->d[1], -path->d[2]},
                            .inside = h->back[i] != 0,
                            .primitive = h->primitive[i]};
     koksma__unit3(s->out);
-    memcpy(s->albedo, substance->albedo[which], sizeof s->albedo);
-    if (substance->image) {
+    memcpy(s->albedo, material->albedo[which], sizeof s->albedo);
+    if (material->image) {
         const size_t shape = (size_t)h->primitive[i];
         const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
-        koksma__texture(substance->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+        koksma__texture(material->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
                         half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
     }
 }
@@ -166,26 +170,26 @@ static void note_first(koksma__values *values, size_t sample, const koksma__path
 
 /* Paths that start on a diffuse surface (of a record of the irradiance cache) see no luminaires in mirrors. */
 static koksma_status go_on(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
-                           const koksma__scatter *way, float scale)
+                           const koksma__scatter *chosen, float scale)
 {
-    const float density = trace->first > 0 && !(way->density > 0) ? -1 : way->density;
-    koksma__path next = {.density = density, .time = path->time, .from = s->primitive, .sample = path->sample};
+    const float pdf = trace->first > 0 && !(chosen->pdf > 0) ? -1 : chosen->pdf;
+    koksma__path next = {.pdf = pdf, .time = path->time, .from = s->primitive, .sample = path->sample};
     for (int k = 0; k < 3; k++) {
         next.o[k] = s->p[k];
-        next.d[k] = way->w[k];
+        next.d[k] = chosen->w[k];
         next.n[k] = s->n[k];
-        next.beta[k] = path->beta[k] * way->weight[k] * scale;
+        next.beta[k] = path->beta[k] * chosen->weight[k] * scale;
     }
     return koksma__max3(next.beta) > 0 ? koksma__tracer_push(trace->next, &next) : KOKSMA_OK;
 }
 
 static koksma_status branch(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s,
-                            const koksma__scatter ways[2])
+                            const koksma__scatter directions[2])
 {
     koksma_status status = KOKSMA_OK;
     for (int i = 0; !status && i < 2; i++) {
-        if (koksma__max3(path->beta) * koksma__max3(ways[i].weight) > 0.001f) {
-            status = go_on(trace, path, s, &ways[i], 1);
+        if (koksma__max3(path->beta) * koksma__max3(directions[i].weight) > 0.001f) {
+            status = go_on(trace, path, s, &directions[i], 1);
         }
     }
     return status;
@@ -193,39 +197,40 @@ static koksma_status branch(const koksma__trace *trace, const koksma__path *path
 
 static koksma_status scatter(const koksma__trace *trace, const koksma__path *path, const koksma__surface *s)
 {
-    const koksma__rules *rules = trace->frame->rules;
-    const unsigned lobes = rules->followed & s->substance->lobes;
+    const koksma__integrator_flags *flags = trace->frame->flags;
+    const unsigned lobes = flags->followed & s->material->bsdf->lobes;
     const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
     const float *us, *choices, *ends;
-    koksma__scatter ways[2];
+    koksma__scatter directions[2];
     if (!lobes || trace->bounce >= trace->frame->depth) {
         return KOKSMA_OK;
     }
-    if (rules->branches && koksma__dielectric_split(s, &ways[0], &ways[1])) {
-        return branch(trace, path, s, ways);
+    if (flags->branches && s->material->bsdf->split) {
+        s->material->bsdf->split(s, &directions[0], &directions[1]);
+        return branch(trace, path, s, directions);
     }
     koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE, &us);
     status = status ? status : koksma__tracer_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &choices);
-    if (status || !koksma__material_rules_of(s->substance->kind)
-                       ->sample(s, lobes, us + 2 * path->sample, choices[2 * path->sample], &ways[0])) {
+    if (status ||
+        !s->material->bsdf->sample(s, lobes, us + 2 * path->sample, choices[2 * path->sample], &directions[0])) {
         return status;
     }
-    float chance = 1;
-    if (rules->roulette && trace->bounce >= 4) {
+    float survival_probability = 1;
+    if (flags->roulette && trace->bounce >= 4) {
         float beta[3];
         for (int k = 0; k < 3; k++) {
-            beta[k] = path->beta[k] * ways[0].weight[k];
+            beta[k] = path->beta[k] * directions[0].weight[k];
         }
         const float weight = koksma__max3(beta);
         if (weight < 1) { /* a path that has lost nothing goes on: ending it would only add variance */
-            chance = weight;
+            survival_probability = weight;
             status = koksma__tracer_draw(trace, base + KOKSMA__USE_ROULETTE, &ends);
-            if (status || !(ends[2 * path->sample] < chance)) {
+            if (status || !(ends[2 * path->sample] < survival_probability)) {
                 return status;
             }
         }
     }
-    return go_on(trace, path, s, &ways[0], 1 / chance);
+    return go_on(trace, path, s, &directions[0], 1 / survival_probability);
 }
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
@@ -235,13 +240,13 @@ static koksma_status add_local(const koksma__frame *frame, const koksma__path *p
 {
     float light[3] = {0, 0, 0};
     koksma_status status = KOKSMA_OK;
-    if (frame->rules->ambient) {
+    if (frame->flags->ambient) {
         for (int k = 0; k < 3; k++) {
             light[k] = (float)frame->scene->ambient[k];
         }
     }
-    if (frame->rules->indirect && s->substance->lobes & KOKSMA__LOBE_DIFFUSE) {
-        status = frame->rules->indirect(frame, s, path->time, light);
+    if (frame->flags->indirect && s->material->bsdf->lobes & KOKSMA__LOBE_DIFFUSE) {
+        status = frame->flags->indirect(frame, s, path->time, light);
     }
     for (int k = 0; k < 3; k++) {
         light[k] *= s->albedo[k];
@@ -264,7 +269,7 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
     values->rays += (uint64_t)n;
     for (int i = 0; i < n; i++) {
         const koksma__path *path = &paths[i];
-        float *sum = trace->room->sums + 3 * path->sample;
+        float *sum = trace->scratch->sums + 3 * path->sample;
         v.lit[i] = hits.primitive[i] >= 0 && hits.material[i] >= 0;
         if (v.lit[i]) {
             set_surface(frame, path, &hits, i, &v.surfaces[i]);
@@ -273,7 +278,7 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
                 return status;
             }
         } else if (hits.primitive[i] >= 0) {
-            add_luminaire(frame, path, &hits, i, sum);
+            add_emission(frame, path, &hits, i, sum);
         } else {
             add_miss(frame, path, sum);
         }
@@ -305,12 +310,12 @@ static void hand_over(const koksma__frame *frame, const float *sums, size_t n, k
 
 koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values)
 {
-    koksma__tracer_room *room = trace->room;
+    koksma__wavefront_scratch *scratch = trace->scratch;
     koksma_status status = KOKSMA_OK;
     trace->first = trace->bounce;
-    for (int now = 0; !status && room->queues[now].n; now = 1 - now) {
-        const koksma__queue *queue = &room->queues[now];
-        trace->next = &room->queues[1 - now];
+    for (int now = 0; !status && scratch->queues[now].n; now = 1 - now) {
+        const koksma__queue *queue = &scratch->queues[now];
+        trace->next = &scratch->queues[1 - now];
         trace->next->n = 0;
         for (size_t start = 0; !status && start < queue->n; start += KOKSMA__BLOCK) {
             const size_t left = queue->n - start;
@@ -325,7 +330,7 @@ koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values
 /* Samples first .. end - 1 of the group, through all their bounces. */
 static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t end, koksma__values *values)
 {
-    trace->room->queues[0].n = 0;
+    trace->scratch->queues[0].n = 0;
     trace->bounce = 0;
     const koksma_status status = start_paths(trace, values, first, end);
     return status ? status : koksma__tracer_follow(trace, values);
@@ -334,18 +339,18 @@ static koksma_status trace_samples(koksma__trace *trace, size_t first, size_t en
 static koksma_status trace_group(const koksma__frame *frame, void *opened, const koksma__group *group,
                                  koksma__values *values)
 {
-    koksma__tracer_room *room = opened;
-    koksma__trace trace = {.frame = frame, .room = room, .group = group};
+    koksma__wavefront_scratch *scratch = opened;
+    koksma__trace trace = {.frame = frame, .scratch = scratch, .group = group};
     const size_t n = group->start[group->count];
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < room->n_drawn; i++) {
-        room->drawn[i].done = false;
+    for (size_t i = 0; i < scratch->n_drawn; i++) {
+        scratch->drawn[i].done = false;
     }
-    memset(room->sums, 0, 3 * n * sizeof *room->sums);
+    memset(scratch->sums, 0, 3 * n * sizeof *scratch->sums);
     for (size_t first = 0; !status && first < n; first += TOGETHER) {
         status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
     }
-    hand_over(frame, room->sums, n, values);
+    hand_over(frame, scratch->sums, n, values);
     return status;
 }
 

@@ -12,8 +12,7 @@
 typedef struct koksma__path {
     float o[3], d[3], beta[3];
     float n[3]; /* of the surface that it leaves */
-    float
-        density; /* with which its way was chosen; 0: by a mirror, or from the eye; -1: it must not see luminaires */
+    float pdf;  /* of its direction; 0: from a mirror, or from the eye; -1: it must not see lights */
     float time;
     int32_t from; /* the primitive that it starts on, or -1 */
     uint32_t sample;
@@ -21,7 +20,7 @@ typedef struct koksma__path {
 
 typedef struct koksma__queue {
     koksma__path *paths;
-    size_t n, room;
+    size_t n, capacity;
 } koksma__queue;
 
 /* The pairs of a use, drawn for all samples of the group when the first of them needs it. */
@@ -31,18 +30,18 @@ typedef struct koksma__drawn {
     float *pairs;
 } koksma__drawn;
 
-typedef struct koksma__tracer_room {
+typedef struct koksma__wavefront_scratch {
     koksma__sample_room draw;
     koksma__drawn *drawn;
     size_t n_drawn, capacity;
     koksma__queue queues[2];
     float *sums; /* 3 a sample */
-} koksma__tracer_room;
+} koksma__wavefront_scratch;
 
 /* One group at one bounce. */
 typedef struct koksma__trace {
     const koksma__frame *frame;
-    koksma__tracer_room *room;
+    koksma__wavefront_scratch *scratch;
     const koksma__group *group;
     koksma__queue *next;
     int bounce, first; /* the bounce at which paths started: 0 at the eye */
@@ -72,7 +71,7 @@ koksma_status koksma__tracer_follow(koksma__trace *trace, koksma__values *values
 /* Adds the light of the luminaires at the vertices to the sums of their samples. */
 koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__vertices *v, koksma__values *values);
 
-/* The chance that luminaire `lamp` is among those that a vertex at p with normal n samples. */
-float koksma__lamp_chance(const koksma__frame *frame, const float p[3], const float n[3], int lamp);
+/* The probability that light `light` is among those that a vertex at p with normal n samples. */
+float koksma__light_probability(const koksma__frame *frame, const float p[3], const float n[3], int light);
 
 #endif

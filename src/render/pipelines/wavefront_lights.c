@@ -10,20 +10,20 @@
 #include "render/pipelines/wavefront.h"
 #include "render/vector3.h"
 
-/* Which luminaire a vertex asks, and with which chance; lamp -1: none. */
+/* Which light a vertex samples, and with which probability; light -1: none. */
 typedef struct choice {
-    int lamp;
-    float chance;
+    int light;
+    float probability;
 } choice;
 
 static choice choose_by_estimate(const koksma__frame *frame, const float p[3], const float n[3], float u)
 {
-    float estimates[KOKSMA__MAX_LAMPS];
-    const koksma__batch_lamps *lamps = frame->lights.estimates;
-    const float total = frame->batch->estimate(lamps, p, n, estimates);
+    float estimates[KOKSMA__MAX_BATCH_LIGHTS];
+    const koksma__batch_lights *all = frame->lights.estimates;
+    const float total = frame->batch->estimate(all, p, n, estimates);
     choice chosen = {-1, 0};
     float rest = u * total;
-    for (int l = 0; l < lamps->n && total > 0; l++) {
+    for (int l = 0; l < all->n && total > 0; l++) {
         if (estimates[l] > 0) {
             chosen = (choice){l, estimates[l] / total}; /* the last one that can be, when rounding eats the rest */
             if (rest < estimates[l]) {
@@ -39,65 +39,65 @@ static choice choose(const koksma__frame *frame, const koksma__surface *s, float
 {
     const koksma__lights *lights = &frame->lights;
     const int last = (int)lights->n - 1;
-    int lamp = 0;
+    int light = 0;
     switch (frame->options->lights) {
     case KOKSMA_LIGHTS_UNIFORM:
-        lamp = (int)(u * (float)lights->n);
-        return (choice){lamp < last ? lamp : last, 1 / (float)lights->n};
+        light = (int)(u * (float)lights->n);
+        return (choice){light < last ? light : last, 1 / (float)lights->n};
     case KOKSMA_LIGHTS_POWER:
-        while (lamp < last && lights->cdf[lamp + 1] <= u) {
-            lamp++;
+        while (light < last && lights->cdf[light + 1] <= u) {
+            light++;
         }
-        return (choice){lamp, lights->cdf[lamp + 1] - lights->cdf[lamp]};
+        return (choice){light, lights->cdf[light + 1] - lights->cdf[light]};
     default:
         return choose_by_estimate(frame, s->p, s->n, u);
     }
 }
 
-float koksma__lamp_chance(const koksma__frame *frame, const float p[3], const float n[3], int lamp)
+float koksma__light_probability(const koksma__frame *frame, const float p[3], const float n[3], int light)
 {
     const koksma__lights *lights = &frame->lights;
-    float estimates[KOKSMA__MAX_LAMPS], total;
+    float estimates[KOKSMA__MAX_BATCH_LIGHTS], total;
     switch (frame->options->lights) {
     case KOKSMA_LIGHTS_ALL:
         return 1;
     case KOKSMA_LIGHTS_UNIFORM:
         return 1 / (float)lights->n;
     case KOKSMA_LIGHTS_POWER:
-        return lights->cdf[lamp + 1] - lights->cdf[lamp];
+        return lights->cdf[light + 1] - lights->cdf[light];
     default:
         total = frame->batch->estimate(lights->estimates, p, n, estimates);
-        return total > 0 ? estimates[lamp] / total : 0;
+        return total > 0 ? estimates[light] / total : 0;
     }
 }
 
 /* What surface s reflects of the beam, which was chosen with this chance. */
-static void reflect(const koksma__trace *trace, const koksma__surface *s, const koksma__lamp *lamp,
-                    const koksma__beam *beam, float chance, float out[3])
+static void reflect(const koksma__trace *trace, const koksma__surface *s, const koksma__shading_light *light,
+                    const koksma__beam *beam, float probability, float out[3])
 {
-    const koksma__material_rules *material = koksma__material_rules_of(s->substance->kind);
+    const koksma__bsdf *bsdf = s->material->bsdf;
     const bool goes_on = trace->bounce < trace->frame->depth;
-    const unsigned followed = goes_on && lamp->visible ? trace->frame->rules->followed & s->substance->lobes : 0;
+    const unsigned followed = goes_on && light->visible ? trace->frame->flags->followed & bsdf->lobes : 0;
     float alone[3] = {0, 0, 0}, shared[3] = {0, 0, 0}, weight = 1;
-    material->value(s, beam->w, s->substance->lobes & ~followed, alone);
+    bsdf->value(s, beam->w, bsdf->lobes & ~followed, alone);
     if (followed) {
-        const float met = material->value(s, beam->w, followed, shared), sampled = beam->density * chance;
-        weight = beam->density > 0 ? sampled * sampled / (sampled * sampled + met * met) : 1;
+        const float met = bsdf->value(s, beam->w, followed, shared), sampled = beam->pdf * probability;
+        weight = beam->pdf > 0 ? sampled * sampled / (sampled * sampled + met * met) : 1;
     }
     for (int k = 0; k < 3; k++) {
-        out[k] = (alone[k] + weight * shared[k]) * beam->value[k] / chance;
+        out[k] = (alone[k] + weight * shared[k]) * beam->value[k] / probability;
     }
 }
 
 /* One luminaire a vertex, chosen[i], with the places us[2 i], …; its light, shaded, is added. */
-static void ask(const koksma__trace *trace, const koksma__vertices *v, const choice *chosen, const float *us,
-                koksma__values *values)
+static void add_samples(const koksma__trace *trace, const koksma__vertices *v, const choice *chosen, const float *us,
+                        koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
     koksma__shadows shadows;
     KOKSMA__LANES(int32_t, aimed);
-    float light[KOKSMA__BLOCK][3];
-    int asked = 0;
+    float reflected[KOKSMA__BLOCK][3];
+    int sampled = 0;
     memset(shadows.light, 0, sizeof shadows.light);
     shadows.aimed = aimed;
     for (int i = 0; i < v->whole; i++) {
@@ -106,39 +106,39 @@ static void ask(const koksma__trace *trace, const koksma__vertices *v, const cho
     }
     for (int i = 0; i < v->n; i++) {
         koksma__beam beam;
-        if (!v->lit[i] || chosen[i].lamp < 0) {
+        if (!v->lit[i] || chosen[i].light < 0) {
             continue;
         }
         const koksma__surface *s = &v->surfaces[i];
-        const koksma__lamp *lamp = &frame->lights.lamps[chosen[i].lamp];
-        const bool lit = frame->rules->areas ? koksma__lamp_sample(lamp, s->p, us + 2 * v->paths[i].sample, &beam)
-                                             : koksma__lamp_centre(lamp, s->p, &beam);
+        const koksma__shading_light *light = &frame->lights.lights[chosen[i].light];
+        const bool lit = frame->flags->areas ? light->kind->sample(light, s->p, us + 2 * v->paths[i].sample, &beam)
+                                             : light->kind->centre && light->kind->centre(light, s->p, &beam);
         if (lit) {
-            reflect(trace, s, lamp, &beam, chosen[i].chance, light[i]);
+            reflect(trace, s, light, &beam, chosen[i].probability, reflected[i]);
         }
-        if (lit && koksma__max3(light[i]) > 0) {
+        if (lit && koksma__max3(reflected[i]) > 0) {
             shadows.dx[i] = beam.d[0];
             shadows.dy[i] = beam.d[1];
             shadows.dz[i] = beam.d[2];
             shadows.light[i] = 1;
-            aimed[i] = lamp->light_shape;
-            asked++;
+            aimed[i] = light->shape;
+            sampled++;
         }
     }
-    if (asked && frame->rules->shadows) {
+    if (sampled && frame->flags->shadows) {
         frame->geometry.occlude(&frame->geometry, v->hits, v->whole, &shadows);
-        values->rays += (uint64_t)asked;
+        values->rays += (uint64_t)sampled;
     }
-    for (int i = 0; asked && i < v->n; i++) {
-        float *sum = trace->room->sums + 3 * v->paths[i].sample;
+    for (int i = 0; sampled && i < v->n; i++) {
+        float *sum = trace->scratch->sums + 3 * v->paths[i].sample;
         for (int k = 0; shadows.light[i] > 0 && k < 3; k++) {
-            sum[k] += v->paths[i].beta[k] * light[i][k];
+            sum[k] += v->paths[i].beta[k] * reflected[i][k];
         }
     }
 }
 
-static koksma_status ask_all(const koksma__trace *trace, const koksma__vertices *v, uint32_t base,
-                             koksma__values *values)
+static koksma_status sample_all(const koksma__trace *trace, const koksma__vertices *v, uint32_t base,
+                                koksma__values *values)
 {
     choice chosen[KOKSMA__BLOCK];
     koksma_status status = KOKSMA_OK;
@@ -147,11 +147,11 @@ static koksma_status ask_all(const koksma__trace *trace, const koksma__vertices 
         for (int i = 0; i < v->n; i++) {
             chosen[i] = (choice){(int)l, 1};
         }
-        if (trace->frame->rules->areas) {
+        if (trace->frame->flags->areas) {
             status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT + (uint32_t)l, &us);
         }
         if (!status) {
-            ask(trace, v, chosen, us, values);
+            add_samples(trace, v, chosen, us, values);
         }
     }
     return status;
@@ -171,17 +171,17 @@ koksma_status koksma__tracer_light(const koksma__trace *trace, const koksma__ver
         return KOKSMA_OK;
     }
     if (frame->options->lights == KOKSMA_LIGHTS_ALL) {
-        return ask_all(trace, v, base, values);
+        return sample_all(trace, v, base, values);
     }
     koksma_status status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices);
-    if (!status && frame->rules->areas) {
+    if (!status && frame->flags->areas) {
         status = koksma__tracer_draw(trace, base + KOKSMA__USE_LIGHT, &us);
     }
     for (int i = 0; !status && i < v->n; i++) {
         chosen[i] = v->lit[i] ? choose(frame, &v->surfaces[i], choices[2 * v->paths[i].sample]) : (choice){-1, 0};
     }
     if (!status) {
-        ask(trace, v, chosen, us, values);
+        add_samples(trace, v, chosen, us, values);
     }
     return status;
 }

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* JSON text for exports, reports and the program's --json. A value is a comma if another one stands before it, its
+   key if it has one, and its text; a stack of closing brackets knows what is open. Texts are copied byte by byte:
+   quotes, backslashes and control characters are escaped, and what is not valid UTF-8 (RFC 3629: no overlong forms,
+   no surrogates, nothing above U+10FFFF) is replaced by U+FFFD, because file names may hold any bytes and JSON may
+   not. Numbers do not follow the host's locale. */
+#include "core/json_writer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+
+static void append(koksma__json_writer *w, const char *text, size_t size)
+{
+    if (w->status) {
+        return;
+    }
+    if (w->capacity - w->size <= size) {
+        const size_t capacity = 2 * (w->size + size + 1);
+        char *grown = realloc(w->text, capacity);
+        if (!grown) {
+            w->status = koksma__fail_memory(capacity);
+            return;
+        }
+        w->text = grown;
+        w->capacity = capacity;
+    }
+    memcpy(w->text + w->size, text, size);
+    w->size += size;
+    w->text[w->size] = '\0';
+}
+
+/* The bytes of the UTF-8 character at the text's start; 0 where none is. */
+static size_t utf8_length(const unsigned char *text)
+{
+    const unsigned char c = text[0];
+    const size_t length = c < 0x80                ? 1
+                          : c >= 0xc2 && c < 0xe0 ? 2
+                          : c >= 0xe0 && c < 0xf0 ? 3
+                          : c >= 0xf0 && c < 0xf5 ? 4
+                                                  : 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((text[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const bool overlong = (c == 0xe0 && text[1] < 0xa0) || (c == 0xf0 && text[1] < 0x90);
+    const bool no_character = (c == 0xed && text[1] > 0x9f) || (c == 0xf4 && text[1] > 0x8f);
+    return overlong || no_character ? 0 : length;
+}
+
+static void append_quoted(koksma__json_writer *w, const char *text)
+{
+    append(w, "\"", 1);
+    while (*text) {
+        const size_t length = utf8_length((const unsigned char *)text);
+        const unsigned char c = (unsigned char)*text;
+        char escape[8] = {'\\', *text};
+        if (!length) {
+            append(w, "\xef\xbf\xbd", 3);
+        } else if (c == '"' || c == '\\') {
+            append(w, escape, 2);
+        } else if (c < 0x20 || (w->in_html && strchr("<>&", c))) {
+            append(w, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", c));
+        } else {
+            append(w, text, length);
+        }
+        text += length ? length : 1;
+    }
+    append(w, "\"", 1);
+}
+
+/* What comes before a value: the comma and the key. */
+static void begin_value(koksma__json_writer *w, const char *key)
+{
+    if (w->comma) {
+        append(w, ",", 1);
+    }
+    if (key) {
+        append_quoted(w, key);
+        append(w, ":", 1);
+    }
+    w->comma = true;
+}
+
+static void begin(koksma__json_writer *w, const char *key, const char *bracket, char end)
+{
+    begin_value(w, key);
+    append(w, bracket, 1);
+    if (w->depth == KOKSMA__JSON_DEPTH) {
+        w->status =
+            koksma__fail(KOKSMA_ARGUMENT, "JSON: more than %d objects and arrays in each other", KOKSMA__JSON_DEPTH);
+        return;
+    }
+    w->ends[w->depth++] = end;
+    w->comma = false;
+}
+
+void koksma__json_begin_object(koksma__json_writer *w, const char *key)
+{
+    begin(w, key, "{", '}');
+}
+
+void koksma__json_begin_array(koksma__json_writer *w, const char *key)
+{
+    begin(w, key, "[", ']');
+}
+
+void koksma__json_end(koksma__json_writer *w)
+{
+    if (w->depth > 0) {
+        append(w, &w->ends[--w->depth], 1);
+        w->comma = true;
+    }
+}
+
+void koksma__json_write_json(koksma__json_writer *w, const char *key, const char *json)
+{
+    begin_value(w, key);
+    append(w, json, strlen(json));
+}
+
+void koksma__json_write_text(koksma__json_writer *w, const char *key, const char *text)
+{
+    begin_value(w, key);
+    if (text) {
+        append_quoted(w, text);
+    } else {
+        append(w, "null", 4);
+    }
+}
+
+void koksma__json_write_rounded(koksma__json_writer *w, const char *key, double value, int digits)
+{
+    char text[40];
+    koksma__snprintf(text, sizeof text, isfinite(value) ? "%.*g" : "null", digits, value);
+    koksma__json_write_json(w, key, text);
+}
+
+void koksma__json_write_number(koksma__json_writer *w, const char *key, double value)
+{
+    koksma__json_write_rounded(w, key, value, 17);
+}
+
+void koksma__json_write_whole(koksma__json_writer *w, const char *key, int64_t value)
+{
+    char text[24];
+    snprintf(text, sizeof text, "%lld", (long long)value);
+    koksma__json_write_json(w, key, text);
+}
+
+void koksma__json_write_flag(koksma__json_writer *w, const char *key, bool value)
+{
+    koksma__json_write_json(w, key, value ? "true" : "false");
+}
+
+koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream)
+{
+    append(w, "\n", 1);
+    if (!w->status) {
+        fwrite(w->text, 1, w->size, stream);
+    }
+    w->size = 0;
+    w->comma = false;
+    return w->status;
+}
+
+koksma_status koksma__json_finish(koksma__json_writer *w, char **text, size_t *size)
+{
+    append(w, "", 0);
+    const koksma_status status = w->status;
+    if (!status) {
+        *text = w->text;
+        *size = w->size;
+        w->text = NULL;
+    }
+    koksma__json_writer_fini(w);
+    return status;
+}
+
+void koksma__json_writer_fini(koksma__json_writer *w)
+{
+    free(w->text);
+    *w = (koksma__json_writer){.in_html = w->in_html};
+}

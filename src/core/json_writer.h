@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The one writer of JSON text (RFC 8259): a buffer that grows, with commas, quotes and escapes in the right places.
+
+       koksma__json_writer w = {0};
+       koksma__json_begin_object(&w, NULL);
+       koksma__json_write_text(&w, "name", name);
+       koksma__json_begin_array(&w, "values");
+       koksma__json_write_number(&w, NULL, 0.25);
+       koksma__json_end(&w);
+       koksma__json_end(&w);
+       status = koksma__json_finish(&w, &text, &size);      {"name":"…","values":[0.25]}
+
+   Every value takes a key: its name in an object, NULL in an array and at the top. Calls after a failure do nothing,
+   so that only the end asks for the status. */
+#ifndef KOKSMA_CORE_JSON_WRITER_H
+#define KOKSMA_CORE_JSON_WRITER_H
+
+#include <koksma/koksma.h>
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "core/visibility.h"
+
+enum { KOKSMA__JSON_DEPTH = 32 };
+
+typedef struct koksma__json_writer {
+    char *text; /* ends with '\0' as soon as something is written */
+    size_t size, capacity;
+    bool in_html; /* set by the caller: write < > & as \u003c and so on, for text inside <script> */
+    bool comma;   /* a value stands before the next one */
+    int depth;
+    char ends[KOKSMA__JSON_DEPTH]; /* the brackets to come */
+    koksma_status status;          /* of the first failure; koksma_error_text() is its text */
+} koksma__json_writer;
+
+/* Begins an object or an array, which koksma__json_end ends. */
+KOKSMA__LAB void koksma__json_begin_object(koksma__json_writer *w, const char *key);
+KOKSMA__LAB void koksma__json_begin_array(koksma__json_writer *w, const char *key);
+
+/* Ends the innermost object or array. */
+KOKSMA__LAB void koksma__json_end(koksma__json_writer *w);
+
+/* A text; each byte that is not part of valid UTF-8 becomes U+FFFD, so that every reader takes the result. NULL:
+ * null. */
+KOKSMA__LAB void koksma__json_write_text(koksma__json_writer *w, const char *key, const char *text);
+
+/* A number with 17 digits, which reads back as the same double; JSON has no NaN and no infinity: null. */
+KOKSMA__LAB void koksma__json_write_number(koksma__json_writer *w, const char *key, double value);
+
+/* A number with so many significant digits (1 to 17). */
+KOKSMA__LAB void koksma__json_write_rounded(koksma__json_writer *w, const char *key, double value, int digits);
+
+/* An integer. Readers that take numbers for doubles lose digits beyond 2^53: write seeds and hashes as text. */
+KOKSMA__LAB void koksma__json_write_whole(koksma__json_writer *w, const char *key, int64_t value);
+
+/* true or false. */
+KOKSMA__LAB void koksma__json_write_flag(koksma__json_writer *w, const char *key, bool value);
+
+/* A value that is JSON text already. */
+KOKSMA__LAB void koksma__json_write_json(koksma__json_writer *w, const char *key, const char *json);
+
+/* Writes what there is and a newline to the stream and empties the buffer, for one value a line; gives the status. */
+KOKSMA__LAB koksma_status koksma__json_line(koksma__json_writer *w, FILE *stream);
+
+/* Hands the text over, which the caller frees; after a failure frees it and gives the status. The writer is empty. */
+KOKSMA__LAB koksma_status koksma__json_finish(koksma__json_writer *w, char **text, size_t *size);
+
+/* Frees the buffer of a writer that is not finished. */
+KOKSMA__LAB void koksma__json_writer_fini(koksma__json_writer *w);
+
+#endif

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * sphere: a Lambert emitter that shines outwards. Directions are uniform over the cone in which the sphere is seen
+ * (Shirley, Wang & Zimmerman 1996): with sin = r / d, the density is 1 / (2 pi (1 - cos)). 1 - cos is computed as
+ * sin^2 / (1 + cos), which doesn't cancel for a small sphere far away. Nothing comes to a point inside.
+ */
+#include "render/lights/surface_lights.h"
+
+static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
+{
+    (void)name;
+    return light->visible ? koksma__light_add_surface(f, scene, light, KOKSMA__SHAPE_SPHERE) : KOKSMA_OK;
+}
+
+static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)
+{
+    (void)scene;
+    koksma__emitter_open(light, 4 * M_PI * from->half[0] * from->half[0], light->half[0]);
+    return KOKSMA_OK;
+}
+
+static bool sample(const koksma__shading_light *light, const float p[3], const float u[2], koksma__beam *out)
+{
+    float axis[3], a[3], b[3];
+    const float radius = light->half[0];
+    for (int k = 0; k < 3; k++) {
+        axis[k] = light->centre[k] - p[k];
+    }
+    const float square = koksma__dot3(axis, axis), distance = sqrtf(square), part = radius * radius / square;
+    if (!(part < 1)) {
+        return false; /* inside */
+    }
+    for (int k = 0; k < 3; k++) {
+        axis[k] /= distance;
+    }
+    koksma__frame3(axis, a, b);
+    const float rest = part / (1 + sqrtf(1 - part)), off = u[0] * rest;
+    const float cosine = 1 - off, sine = sqrtf(off * (2 - off)), turn = 2 * KOKSMA__PI_F * u[1];
+    const float x = sine * cosf(turn), y = sine * sinf(turn);
+    const float inside = radius * radius - square * sine * sine;
+    const float t = distance * cosine - sqrtf(inside > 0 ? inside : 0);
+    for (int k = 0; k < 3; k++) {
+        out->w[k] = x * a[k] + y * b[k] + cosine * axis[k];
+        out->d[k] = t * out->w[k];
+    }
+    out->pdf = 1 / (2 * KOKSMA__PI_F * rest);
+    koksma__set_value(light, 1 / out->pdf, out);
+    return true;
+}
+
+/* It shows a disk of its radius. */
+static bool centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
+{
+    return koksma__point_beam(light, p, KOKSMA__PI_F * light->half[0] * light->half[0], out);
+}
+
+static float pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t, const float n[3])
+{
+    float axis[3];
+    (void)w, (void)t, (void)n;
+    for (int k = 0; k < 3; k++) {
+        axis[k] = light->centre[k] - p[k];
+    }
+    const float part = light->half[0] * light->half[0] / koksma__dot3(axis, axis);
+    return part < 1 ? (1 + sqrtf(1 - part)) / (2 * KOKSMA__PI_F * part) : 0;
+}
+
+static const koksma__parameter parameters[] = {
+    {"centre", KOKSMA__POINT, .at = offsetof(koksma__light, centre)},
+    {"radius", KOKSMA__RADIUS, .at = offsetof(koksma__light, half)},
+    {"visible", KOKSMA__FLAG, .optional = true, .at = offsetof(koksma__light, visible)},
+    {"radiance", KOKSMA__COLOUR, .high = BRIGHT, .at = offsetof(koksma__light, radiance)},
+    {0}};
+
+const koksma__light_kind koksma__light_sphere = {
+    .kind = {.name = "sphere",
+             .title = "a sphere that shines outwards",
+             .cite = "shirley1996",
+             .parameters = parameters},
+    .parse = parse,
+    .open = open_light,
+    .sample = sample,
+    .centre = centre,
+    .pdf = pdf,
+};

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What several kinds of lights share: the fields of flat ones ("facing" or "normal"; "radiance" or "strength"), the
+ * surface that rays see, and samples of an emitting surface. A position that is uniform over the area A has the
+ * density t^2 / (cos' A) over solid angle, with cos' at the light and t the distance.
+ */
+#include "render/lights/surface_lights.h"
+
+#include <string.h>
+
+#include "core/vector.h"
+
+static double luminance(const double rgb[3])
+{
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/* "radiance" of the surface, or "strength": what a surface of albedo 1 reflects of it that faces it in the point that
+   the light faces, were the light small. towards: from the light to that point; NULL with a "normal". */
+static koksma_status parse_power(const field *f, const double *towards, double area, koksma__light *light)
+{
+    const bool by_radiance = koksma__json_has(f, "radiance");
+    if (by_radiance == koksma__json_has(f, "strength")) {
+        return koksma__json_fail(f, "it takes one of 'radiance' and 'strength'");
+    }
+    if (!by_radiance && !towards) {
+        return koksma__json_fail(f, "'strength' needs 'facing'");
+    }
+    const koksma_status status =
+        koksma__parse_colour(f, by_radiance ? "radiance" : "strength", true, BRIGHT, light->radiance);
+    const double square = by_radiance ? 0 : koksma__dot(towards, towards);
+    /* one product for the grey power, so that strengths in files keep their digits */
+    light->power = by_radiance ? luminance(light->radiance) * area / M_PI : light->radiance[1] * square;
+    for (int k = 0; !by_radiance && k < 3; k++) {
+        light->radiance[k] *= square * M_PI / area;
+    }
+    return status;
+}
+
+/* "normal", or "facing": the point that the light looks at; towards is the vector to it. */
+static koksma_status parse_aim(const field *f, bool has_target, double towards[3], koksma__light *light)
+{
+    double target[3];
+    if (has_target == koksma__json_has(f, "normal")) {
+        return koksma__json_fail(f, "it takes one of 'facing' and 'normal'");
+    }
+    koksma_status status =
+        has_target ? koksma__parse_point(f, "facing", target) : koksma__parse_direction(f, "normal", light->normal);
+    if (!status && has_target) {
+        koksma__subtract(target, light->centre, towards);
+        memcpy(light->normal, towards, sizeof light->normal);
+        if (!koksma__normalise(light->normal)) {
+            return koksma__json_fail(f, "it faces its own centre");
+        }
+    }
+    return status ? status : koksma__parse_axes(f, light->normal, light->axis_u, light->axis_v);
+}
+
+koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, const koksma__light *light,
+                                        koksma__shape_kind kind)
+{
+    koksma__shape *shape = NULL;
+    const koksma_status status = koksma__scene_add_shape(scene, &shape);
+    if (status) {
+        return koksma__json_fail_in(f, status);
+    }
+    shape->kind = kind;
+    memcpy(shape->centre, light->centre, sizeof shape->centre);
+    memcpy(shape->normal, light->normal, sizeof shape->normal);
+    memcpy(shape->axis_u, light->axis_u, sizeof shape->axis_u);
+    memcpy(shape->axis_v, light->axis_v, sizeof shape->axis_v);
+    memcpy(shape->half, light->half, sizeof shape->half);
+    shape->material = -1;
+    shape->light = (int)(light - scene->lights);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
+                                       koksma__shape_kind shape)
+{
+    const bool has_target = koksma__json_has(f, "facing");
+    double towards[3] = {0};
+    koksma_status status = parse_aim(f, has_target, towards, light);
+    status = status ? status : parse_power(f, has_target ? towards : NULL, area, light);
+    return !status && light->visible ? koksma__light_add_surface(f, scene, light, shape) : status;
+}
+
+void koksma__emitter_open(koksma__shading_light *light, double area, float reach)
+{
+    light->area = (float)area;
+    light->reach = reach;
+    light->power = koksma__luminance3(light->radiance) * light->area / KOKSMA__PI_F;
+}
+
+bool koksma__flat_light_sample(const koksma__shading_light *light, const float p[3], float u, float v,
+                               koksma__beam *out)
+{
+    for (int k = 0; k < 3; k++) {
+        out->d[k] = light->centre[k] + u * light->axis_u[k] + v * light->axis_v[k] - p[k];
+    }
+    const float square = koksma__dot3(out->d, out->d), at_light = -koksma__dot3(light->normal, out->d);
+    if (!(at_light > 0)) {
+        return false;
+    }
+    const float length = sqrtf(square);
+    for (int k = 0; k < 3; k++) {
+        out->w[k] = out->d[k] / length;
+    }
+    out->pdf = square * length / (at_light * light->area);
+    koksma__set_value(light, 1 / out->pdf, out);
+    return true;
+}
+
+bool koksma__flat_light_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out)
+{
+    const bool lit = koksma__flat_light_sample(light, p, 0, 0, out);
+    out->pdf = 0;
+    return lit;
+}
+
+float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
+                       const float n[3])
+{
+    (void)p;
+    const float cosine = -koksma__dot3(n, w);
+    return cosine > 0 ? t * t / (cosine * light->area) : 0;
+}
+
+bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out)
+{
+    for (int k = 0; k < 3; k++) {
+        out->d[k] = light->centre[k] - p[k];
+    }
+    const float square = koksma__dot3(out->d, out->d), length = sqrtf(square);
+    if (!(length > 0)) {
+        return false;
+    }
+    for (int k = 0; k < 3; k++) {
+        out->w[k] = out->d[k] / length;
+    }
+    out->pdf = 0;
+    koksma__set_value(light, strength / square, out);
+    return true;
+}

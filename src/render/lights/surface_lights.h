@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What several kinds of lights share: surfaces that emit, and lights taken as points. */
+#ifndef KOKSMA_RENDER_LIGHTS_SURFACE_LIGHTS_H
+#define KOKSMA_RENDER_LIGHTS_SURFACE_LIGHTS_H
+
+#include "render/lights/lights.h"
+#include "render/vector3.h"
+
+/* Further than anything in a scene. */
+#define KOKSMA__AWAY 4e6f
+
+/* The fields of a flat light that are no parameters: "facing" or "normal", "up", "radiance" or "strength". */
+#define KOKSMA__FLAT_KEYS ((const char *const[]){"normal", "facing", "up", "radiance", "strength", NULL})
+#define KOKSMA__FLAT_EXAMPLE "\"facing\": [0.1, -0.2, 0.3], \"radiance\": [3, 2, 1]"
+
+/* Reads those, and adds the surface of a visible light. */
+koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
+                                       koksma__shape_kind shape);
+
+/* The surface of a light that rays see: a shape of this kind with the light's frame. */
+koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, const koksma__light *light,
+                                        koksma__shape_kind shape);
+
+/* Sets area and the power of a Lambert emitter of that area. */
+void koksma__emitter_open(koksma__shading_light *light, double area, float reach);
+
+/* A sample at u, v of the surface's own coordinates, whose density over the area is 1 / area; the same as a point at
+   the centre; the density of both over solid angle, for any surface that is sampled by area. */
+bool koksma__flat_light_sample(const koksma__shading_light *light, const float p[3], float u, float v,
+                               koksma__beam *out);
+bool koksma__flat_light_centre(const koksma__shading_light *light, const float p[3], koksma__beam *out);
+float koksma__area_pdf(const koksma__shading_light *light, const float p[3], const float w[3], float t,
+                       const float n[3]);
+
+/* All of it from the centre: intensity `strength` times radiance, falling with the square of the distance. */
+bool koksma__point_beam(const koksma__shading_light *light, const float p[3], float strength, koksma__beam *out);
+
+/* value = scale times the light's radiance */
+static inline void koksma__set_value(const koksma__shading_light *light, float scale, koksma__beam *out)
+{
+    for (int k = 0; k < 3; k++) {
+        out->value[k] = scale * light->radiance[k];
+    }
+}
+
+#endif

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Builds the description of a scene: whoever reads a file (src/scene) or parses a kind's fields (src/render/lights
+ * and shapes) appends here. koksma__scene_finish() derives what depends on all parts: whether pictures have one
+ * channel, whether anything moves, and the part of the hash that comes from images in other files.
+ */
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/hash.h"
+#include "render/materials/materials.h"
+
+int koksma__find_material(const koksma_scene *scene, const char *name)
+{
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        if (!strcmp(scene->materials[i].name, name)) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+koksma_status koksma__scene_add_shape(koksma_scene *scene, koksma__shape **out)
+{
+    if (scene->n_shapes == KOKSMA__MAX_SHAPES) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d shapes", KOKSMA__MAX_SHAPES);
+    }
+    koksma__shape *shapes =
+        koksma__room_for_one(scene->shapes, scene->n_shapes, &scene->shape_capacity, 16, sizeof *shapes);
+    if (!shapes) {
+        return KOKSMA_MEMORY;
+    }
+    scene->shapes = shapes;
+    *out = &scene->shapes[scene->n_shapes++];
+    memset(*out, 0, sizeof **out);
+    (*out)->light = -1;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out)
+{
+    if (scene->n_lights == KOKSMA__MAX_LIGHTS) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
+    }
+    *out = &scene->lights[scene->n_lights++];
+    return KOKSMA_OK;
+}
+
+static bool is_grey(const double rgb[3])
+{
+    return rgb[0] == rgb[1] && rgb[1] == rgb[2];
+}
+
+static bool has_grey_values(const koksma__material *m)
+{
+    bool grey = true;
+    for (const koksma__parameter *p = m->bsdf->kind.parameters; p && p->name; p++) {
+        grey &= p->type != KOKSMA__COLOUR || is_grey((const double *)(const void *)((const char *)m + p->at));
+    }
+    return grey;
+}
+
+static uint64_t image_hash(const koksma_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    return koksma__hash(image->pixels, n * sizeof *image->pixels);
+}
+
+/* Images are files of their own, as meshes are: another picture is another scene. */
+static void add_pixels(koksma_scene *scene)
+{
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        scene->hash ^= scene->materials[i].image ? image_hash(scene->materials[i].image) + i : 0;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        scene->hash ^= scene->lights[i].image ? image_hash(scene->lights[i].image) + scene->n_materials + i : 0;
+    }
+}
+
+/* What follows from the rest. */
+void koksma__scene_finish(koksma_scene *scene)
+{
+    scene->grey = is_grey(scene->background) && is_grey(scene->ambient);
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const koksma__material *m = &scene->materials[i];
+        scene->grey &= is_grey(m->albedo[0]) && is_grey(m->albedo[1]) && has_grey_values(m) &&
+                       !(m->image && m->image->channels == 3);
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        const koksma__light *l = &scene->lights[i];
+        scene->grey &= is_grey(l->radiance) && !(l->image && l->image->channels == 3);
+    }
+    add_pixels(scene);
+    const double *m = scene->camera.motion;
+    scene->moves = m[0] != 0 || m[1] != 0 || m[2] != 0;
+    for (size_t i = 0; i < scene->n_shapes; i++) {
+        m = scene->shapes[i].motion;
+        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
+    }
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        m = scene->placements[i].motion;
+        scene->moves |= m[0] != 0 || m[1] != 0 || m[2] != 0;
+    }
+}

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is odd in a scene that can be rendered all the same. */
+#include <stdio.h>
+
+#include "core/status.h"
+#include "render/materials/materials.h"
+
+/* The warning that is asked for: `left` are still to be passed by. */
+typedef struct asked {
+    size_t left;
+    char *text;
+    size_t size;
+} asked;
+
+/* Whether this is the one. */
+static bool here(asked *a)
+{
+    return !a->left--;
+}
+
+static bool is_used(const koksma_scene *scene, int material)
+{
+    for (size_t i = 0; i < scene->n_shapes; i++) {
+        if (scene->shapes[i].material == material) {
+            return true;
+        }
+    }
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        if (scene->placements[i].material == material) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_dark(const double rgb[3])
+{
+    return !(rgb[0] > 0) && !(rgb[1] > 0) && !(rgb[2] > 0);
+}
+
+static bool of_meshes(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_meshes; i++) {
+        const koksma__mesh *m = &scene->meshes[i];
+        if (m->n_degenerate && here(a)) {
+            snprintf(a->text, a->size, "mesh %zu%s%s: %zu of %zu triangles have no area", i, *m->name ? " " : "",
+                     m->name, m->n_degenerate, m->n_triangles);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool of_placements(const koksma_scene *scene, asked *a)
+{
+    size_t n = 0, first = 0;
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        if (koksma__matrix_flattens(scene->placements[i].matrix)) {
+            first = n ? first : i;
+            n++;
+        }
+    }
+    if (!n || !here(a)) {
+        return false;
+    }
+    const int mesh = scene->placements[first].mesh;
+    snprintf(a->text, a->size, "mesh %d%s%s: its placement by a matrix without an inverse flattens it%s", mesh,
+             *scene->meshes[mesh].name ? " " : "", scene->meshes[mesh].name, n > 1 ? ", and so do others" : "");
+    return true;
+}
+
+static bool of_lights(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        if (is_dark(scene->lights[i].radiance) && here(a)) {
+            snprintf(a->text, a->size, "luminaire %zu gives no light", i);
+            return true;
+        }
+    }
+    if (scene->unread.too_bright && here(a)) {
+        snprintf(a->text, a->size, "luminaires or glowing materials brighter than 1e6 (%zu) are dimmed to it",
+                 scene->unread.too_bright);
+        return true;
+    }
+    if (!scene->n_lights && is_dark(scene->ambient) && is_dark(scene->background) && here(a)) {
+        snprintf(a->text, a->size, "no luminaire, no ambient light, no background: the picture will be black");
+        return true;
+    }
+    return false;
+}
+
+/* Only a path that meets a luminaire brings its light round by a mirror or through glass. */
+static bool of_hidden_lights(const koksma_scene *scene, asked *a)
+{
+    size_t hidden = 0;
+    bool thrown = false;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        hidden += !scene->lights[i].visible && !is_dark(scene->lights[i].radiance);
+    }
+    for (size_t i = 0; i < scene->n_materials && !thrown; i++) {
+        thrown = scene->materials[i].bsdf->lobes & KOKSMA__LOBE_SPECULAR && is_used(scene, (int)i);
+    }
+    if (!hidden || !thrown || !here(a)) {
+        return false;
+    }
+    snprintf(a->text, a->size,
+             "no ray meets some luminaires (%zu): with path, mirrors and glass throw none of their light on other "
+             "surfaces",
+             hidden);
+    return true;
+}
+
+static bool of_materials(const koksma_scene *scene, asked *a)
+{
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        const koksma__material *m = &scene->materials[i];
+        if (!scene->is_model && !is_used(scene, (int)i) && here(a)) {
+            snprintf(a->text, a->size, "material '%s' is used by nothing", m->name);
+            return true;
+        }
+        if (*m->lost && here(a)) {
+            snprintf(a->text, a->size, "material %zu is without its texture: %s", i, m->lost);
+            return true;
+        }
+        if (*m->dark && here(a)) {
+            snprintf(a->text, a->size, "material %zu doesn't glow, for want of its emissive texture: %s", i, m->dark);
+            return true;
+        }
+        if (*m->evened && here(a)) {
+            snprintf(a->text, a->size, "material %zu glows evenly, with its emissive texture's mean: %s", i,
+                     m->evened);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool of_unread(const koksma__unread *u, asked *a)
+{
+    const struct {
+        size_t n;
+        const char *what, *so;
+    } all[] = {
+        {u->animations, "animations", "everything stays where its node puts it"},
+        {u->skins, "skins", "their meshes stand as they were modelled"},
+        {u->vertex_colours, "meshes' vertex colours", "materials alone say the colour"},
+        {u->second_uvs, "other texture coordinates than the first", "textures lie by the first"},
+        {u->transforms, "transforms of textures", "textures lie as if there were none"},
+        {u->see_through, "materials' transparencies", "they are opaque"},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (all[i].n && here(a)) {
+            snprintf(a->text, a->size, "%s (%zu) are not read: %s", all[i].what, all[i].n, all[i].so);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Names in OBJ files. */
+static bool of_names(const koksma__unread *u, asked *a)
+{
+    const struct {
+        size_t n;
+        const char *name, *what;
+    } all[] = {{u->libraries, u->library, "there is no such material file"},
+               {u->materials, u->material, "no material file makes this material: it is grey"}};
+    for (size_t i = 0; i < 2; i++) {
+        if (all[i].n && here(a)) {
+            char more[48] = "";
+            if (all[i].n > 1) {
+                snprintf(more, sizeof more, " (nor %zu more)", all[i].n - 1);
+            }
+            snprintf(a->text, a->size, "%s: %s%s", all[i].name, all[i].what, more);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool of_all(const koksma_scene *scene, asked *a)
+{
+    if (!scene->n_shapes && !scene->n_placements && here(a)) {
+        snprintf(a->text, a->size, "no shapes");
+        return true;
+    }
+    return of_unread(&scene->unread, a) || of_names(&scene->unread, a);
+}
+
+bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, char *text, size_t size)
+{
+    asked a = {i, text, size};
+    const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
+                       of_placements(scene, &a) || of_lights(scene, &a) || (by_paths && of_hidden_lights(scene, &a));
+    if (found && size) {
+        koksma__make_printable(text);
+    }
+    return found;
+}
+
+bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
+{
+    return koksma__scene_warning(scene, true, i, text, size);
+}
+
+koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
+{
+    koksma_scene_counts counts = {.shapes = scene->n_shapes,
+                                  .meshes = scene->n_meshes,
+                                  .placements = scene->n_placements,
+                                  .materials = scene->n_materials,
+                                  .lights = scene->n_lights};
+    for (size_t i = 0; i < scene->n_placements; i++) {
+        counts.triangles += scene->meshes[scene->placements[i].mesh].n_triangles;
+    }
+    return counts;
+}

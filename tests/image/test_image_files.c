@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Images of kinds that the program reads and never writes: EXR in tiles, PNG of 16 bits. */
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/image.h>
+
+#include "test.h"
+
+/* ---- A file, byte by byte; numbers are little-endian ----------------------------------------------------- */
+
+typedef struct file {
+    unsigned char bytes[4096];
+    size_t size;
+} file;
+
+static void put(file *f, const void *bytes, size_t size)
+{
+    assert_true(f->size + size <= sizeof f->bytes);
+    memcpy(f->bytes + f->size, bytes, size);
+    f->size += size;
+}
+
+static void put_number(file *f, uint64_t x, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        put(f, &(unsigned char){(unsigned char)(x >> 8 * i)}, 1);
+    }
+}
+
+static void put_float(file *f, float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    put_number(f, bits, 4);
+}
+
+static void put_attribute(file *f, const char *name, const char *type, uint32_t size)
+{
+    put(f, name, strlen(name) + 1);
+    put(f, type, strlen(type) + 1);
+    put_number(f, size, 4);
+}
+
+static void put_box(file *f, const char *name, uint32_t width, uint32_t height)
+{
+    put_attribute(f, name, "box2i", 16);
+    put_number(f, 0, 8);
+    put_number(f, width - 1, 4);
+    put_number(f, height - 1, 4);
+}
+
+/* 5 x 3 pixels in tiles of 2 x 2: those at the right and at the bottom are smaller. */
+enum { WIDTH = 5, HEIGHT = 3, TILE = 2, ACROSS = 3, DOWN = 2 };
+
+static float value(int x, int y, int k)
+{
+    return (float)(100 * k + 10 * y + x);
+}
+
+/* https://openexr.com/en/latest/OpenEXRFileLayout.html: tiled, one level, not compressed, B, G and R as floats. */
+static void put_tiled_header(file *f)
+{
+    put(f, "\x76\x2f\x31\x01\x02\x02\x00\x00", 8);
+    put_attribute(f, "channels", "chlist", 3 * 18 + 1);
+    for (int k = 0; k < 3; k++) {
+        put(f, &"B\0G\0R"[2 * k], 2);
+        put_number(f, 2, 4); /* float */
+        put_number(f, 0, 4);
+        put_number(f, 1, 4); /* sampling */
+        put_number(f, 1, 4);
+    }
+    put_number(f, 0, 1);
+    put_attribute(f, "compression", "compression", 1);
+    put_number(f, 0, 1);
+    put_box(f, "dataWindow", WIDTH, HEIGHT);
+    put_box(f, "displayWindow", WIDTH, HEIGHT);
+    put_attribute(f, "lineOrder", "lineOrder", 1);
+    put_number(f, 0, 1);
+    put_attribute(f, "pixelAspectRatio", "float", 4);
+    put_float(f, 1);
+    put_attribute(f, "screenWindowCenter", "v2f", 8);
+    put_number(f, 0, 8);
+    put_attribute(f, "screenWindowWidth", "float", 4);
+    put_float(f, 1);
+    put_attribute(f, "tiles", "tiledesc", 9);
+    put_number(f, TILE, 4);
+    put_number(f, TILE, 4);
+    put_number(f, 0, 1);
+    put_number(f, 0, 1);
+}
+
+static file tiled_exr(void)
+{
+    file f = {.size = 0};
+    put_tiled_header(&f);
+    uint64_t at = f.size + 8 * ACROSS * DOWN;
+    for (int tile = 0; tile < ACROSS * DOWN; tile++) {
+        const int x = tile % ACROSS * TILE, y = tile / ACROSS * TILE;
+        const int width = x + TILE <= WIDTH ? TILE : WIDTH - x, height = y + TILE <= HEIGHT ? TILE : HEIGHT - y;
+        put_number(&f, at, 8);
+        at += 20 + 12 * (uint64_t)(width * height);
+    }
+    for (int tile = 0; tile < ACROSS * DOWN; tile++) {
+        const int x = tile % ACROSS * TILE, y = tile / ACROSS * TILE;
+        const int width = x + TILE <= WIDTH ? TILE : WIDTH - x, height = y + TILE <= HEIGHT ? TILE : HEIGHT - y;
+        put_number(&f, (uint64_t)(tile % ACROSS), 4);
+        put_number(&f, (uint64_t)(tile / ACROSS), 4);
+        put_number(&f, 0, 8); /* level */
+        put_number(&f, 12 * (uint64_t)(width * height), 4);
+        for (int i = 0; i < height * 3 * width; i++) { /* a row: its B, its G, its R */
+            put_float(&f, value(x + i % width, y + i / width / 3, 2 - i / width % 3));
+        }
+    }
+    return f;
+}
+
+static koksma_status read_bytes(const char *name, const file *f, size_t size, koksma_image *image)
+{
+    FILE *stream = fopen(name, "wb");
+    assert_non_null(stream);
+    assert_int_equal(fwrite(f->bytes, 1, size, stream), size);
+    assert_int_equal(fclose(stream), 0);
+    const koksma_status status = koksma_image_read(name, image);
+    unlink(name);
+    return status;
+}
+
+static void tiles_are_read(void **state)
+{
+    (void)state;
+    const file f = tiled_exr();
+    koksma_image image;
+    assert_ok(read_bytes("tiled.exr", &f, f.size, &image));
+    assert_int_equal(image.width, WIDTH);
+    assert_int_equal(image.height, HEIGHT);
+    assert_int_equal(image.channels, 3);
+    for (int i = 0; i < 3 * WIDTH * HEIGHT; i++) {
+        assert_float_equal(image.pixels[i], value(i / 3 % WIDTH, i / 3 / WIDTH, i % 3), 0);
+    }
+    koksma_image_fini(&image);
+    for (size_t size = 0; size < f.size; size++) {
+        assert_int_equal(read_bytes("tiled.exr", &f, size, &image), KOKSMA_MALFORMED);
+    }
+}
+
+/* images/: files of OpenEXR's C++ library, of 9 x 7 pixels whose window starts at (-5, 7), with the values of
+   window_value(). B44 and DWA keep halves to a few hundredths of them. */
+static double window_value(int k, int i)
+{
+    return (k + 1) * 0.125 + i % 9 * 0.0078125 + i / 9 * 0.25;
+}
+
+static koksma_status read_window(const char *name, koksma_image *image)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/image/images/%s", KOKSMA_TESTS, name);
+    return koksma_image_read(path, image);
+}
+
+static void lossy_exr_is_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        int channels;
+    } files[] = {
+        {"b44-half-tiles.exr", 3}, {"b44a-float-lines.exr", 3}, {"b44-y-lines.exr", 1}, {"dwaa-y-lines.exr", 1}};
+    koksma_image image;
+    for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
+        assert_ok(read_window(files[f].name, &image));
+        assert_int_equal(image.width, 9);
+        assert_int_equal(image.height, 7);
+        assert_int_equal(image.channels, files[f].channels);
+        for (int i = 0; i < 9 * 7 * image.channels; i++) {
+            const double wanted = window_value(i % image.channels, i / image.channels);
+            assert_near((double)image.pixels[i], wanted, 0.03);
+        }
+        koksma_image_fini(&image);
+    }
+    /* its only channel is Z, which OpenEXR's reader of colours doesn't know */
+    assert_int_equal(read_window("dwaa-z-lines.exr", &image), KOKSMA_UNSUPPORTED);
+    assert_non_null(strstr(koksma_error_text(), "R, G, B"));
+    /* its list of channels ends before its size does, with a text of 1.6 GB behind, which OpenEXR would make room for
+     */
+    assert_int_equal(read_window("../../../fuzz/corpus/image_exr/channel-list-ends-early.exr", &image),
+                     KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "another size"));
+}
+
+/* ---- PNG -------------------------------------------------------------------------------------------------- */
+
+static uint32_t crc(const unsigned char *bytes, size_t size)
+{
+    uint32_t c = 0xffffffff;
+    for (size_t i = 0; i < size; i++) {
+        c ^= bytes[i];
+        for (int bit = 0; bit < 8; bit++) {
+            c = c & 1 ? 0xedb88320 ^ c >> 1 : c >> 1;
+        }
+    }
+    return ~c;
+}
+
+static void put_big(file *f, uint32_t x)
+{
+    put(f,
+        &(unsigned char[]){(unsigned char)(x >> 24), (unsigned char)(x >> 16), (unsigned char)(x >> 8),
+                           (unsigned char)x},
+        4);
+}
+
+static void put_chunk(file *f, const char *name, const void *data, size_t size)
+{
+    put_big(f, (uint32_t)size);
+    const size_t start = f->size;
+    put(f, name, 4);
+    put(f, data, size);
+    put_big(f, crc(f->bytes + start, f->size - start));
+}
+
+/* One row of pixels, in a stored block of deflate: PNG, 3rd edition; RFC 1950 and 1951. */
+static void put_png(file *f, unsigned width, int depth, int colours, const char *extra, const void *extra_data,
+                    size_t extra_size, const unsigned char *row, size_t row_size)
+{
+    const unsigned char head[13] = {0, 0, 0, (unsigned char)width, 0,
+                                    0, 0, 1, (unsigned char)depth, (unsigned char)colours};
+    file data = {.size = 0};
+    uint32_t a = 1, b = 1; /* of the filter's byte, 0 */
+    const uint16_t size = (uint16_t)(row_size + 1);
+    put(&data, "\x78\x01\x01", 3);
+    put_number(&data, size, 2);
+    put_number(&data, (uint16_t)~size, 2);
+    put_number(&data, 0, 1);
+    put(&data, row, row_size);
+    for (size_t i = 0; i < row_size; i++) {
+        a = (a + row[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    put_big(&data, b << 16 | a);
+    put(f, "\x89PNG\r\n\x1a\n", 8);
+    put_chunk(f, "IHDR", head, sizeof head);
+    if (extra) {
+        put_chunk(f, extra, extra_data, extra_size);
+    }
+    put_chunk(f, "IDAT", data.bytes, data.size);
+    put_chunk(f, "IEND", "", 0);
+}
+
+/* The first number of a picture of such a row. */
+static double level_of(int depth, int colours, const char *extra, const void *extra_data, size_t extra_size,
+                       const unsigned char *row, size_t row_size)
+{
+    file f = {.size = 0};
+    koksma_image image;
+    put_png(&f, 1, depth, colours, extra, extra_data, extra_size, row, row_size);
+    assert_ok(read_bytes("level.png", &f, f.size, &image));
+    assert_int_equal(image.channels, colours & 2 ? 3 : 1);
+    const double level = (double)image.pixels[0];
+    koksma_image_fini(&image);
+    return level;
+}
+
+/* 8 and 16 bits have one curve: sRGB's, unless a gAMA chunk says another. */
+static void png_levels_have_their_curve(void **state)
+{
+    (void)state;
+    static const unsigned char eight[] = {188}, sixteen[] = {188, 188}, colour[] = {188, 188, 1, 2, 3, 4};
+    const double s = 188 / 255.0, srgb = pow((s + 0.055) / 1.055, 2.4);
+#define GAMA(b1, b2, b3) "gAMA", (const unsigned char[]){0, b1, b2, b3}, 4
+#define BARE NULL, NULL, 0
+    assert_near(level_of(8, 0, BARE, eight, 1), srgb, 1e-7);
+    assert_near(level_of(16, 0, BARE, sixteen, 2), srgb, 1e-7);
+    assert_near(level_of(16, 2, BARE, colour, 6), srgb, 1e-7);
+    assert_near(level_of(16, 0, "sRGB", "", 1, sixteen, 2), srgb, 1e-7);
+    for (int wide = 0; wide < 2; wide++) {
+        const unsigned char *row = wide ? sixteen : eight;
+        const size_t size = wide ? 2 : 1;
+        const int depth = wide ? 16 : 8;
+        assert_near(level_of(depth, 0, GAMA(0, 0xb1, 0x8f), row, size), srgb, 1e-7);        /* 1/2.2 */
+        assert_near(level_of(depth, 0, GAMA(1, 0x86, 0xa0), row, size), s, 1e-7);           /* 1 */
+        assert_near(level_of(depth, 0, GAMA(0, 0xd9, 0x03), row, size), pow(s, 1.8), 1e-5); /* 1/1.8 */
+    }
+    /* the darkest levels are on the curve's straight part */
+    assert_near(level_of(16, 0, BARE, (const unsigned char[]){1, 0}, 2), 256 / 65535.0 / 12.92, 1e-9);
+}
+
+/* A pixel's colour is read, whatever its opacity: of pixels with alpha, and where a colour is named as see-through.
+ */
+static void png_transparency_is_dropped(void **state)
+{
+    (void)state;
+    const double srgb = pow((188 / 255.0 + 0.055) / 1.055, 2.4);
+    assert_near(level_of(8, 4, BARE, (const unsigned char[]){188, 128}, 2), srgb, 1e-7);
+    assert_near(level_of(8, 6, BARE, (const unsigned char[]){188, 188, 188, 0}, 4), srgb, 1e-7);
+    assert_near(level_of(16, 4, BARE, (const unsigned char[]){188, 188, 128, 0}, 4), srgb, 1e-7);
+    assert_near(level_of(8, 0, "tRNS", (const unsigned char[]){0, 188}, 2, (const unsigned char[]){188}, 1), srgb,
+                1e-7);
+    assert_near(level_of(8, 3, "PLTE", (const unsigned char[]){188, 188, 188}, 3, (const unsigned char[]){0}, 1),
+                srgb, 1e-7);
+    assert_near(level_of(1, 0, BARE, (const unsigned char[]){0x80}, 1), 1, 0);
+}
+
+/* ---- PFM -------------------------------------------------------------------------------------------------- */
+
+/* The head, then 0.5 and 2.25 (whose last byte first is a blank's), then the rest. */
+static koksma_status read_pfm(const char *head, const char *tail)
+{
+    file f = {.size = 0};
+    koksma_image image;
+    put(&f, head, strlen(head));
+    put_float(&f, 0.5f);
+    put_float(&f, 2.25f);
+    put(&f, tail, strlen(tail));
+    const koksma_status status = read_bytes("head.pfm", &f, f.size, &image);
+    if (!status) {
+        assert_near((double)image.pixels[0], 0.5, 0);
+        assert_near((double)image.pixels[1], 2.25, 0);
+        koksma_image_fini(&image);
+    }
+    return status;
+}
+
+static void pfm_heads_end_as_writers_end_them(void **state)
+{
+    (void)state;
+    static const char *const good[] = {"Pf\n2 1\n-1.0\n", "Pf\r\n2 1\r\n-1.0\r\n",
+                                       "Pf\n2 1 -1.0 \n", "Pf\n2 1 -1.0 \t\r\n",
+                                       "Pf 2 1 -1 ",      "Pf\n2 1\n-1.0\r"};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        assert_ok(read_pfm(good[i], ""));
+        assert_int_equal(read_pfm(good[i], "junk"), KOKSMA_MALFORMED);
+    }
+    assert_int_equal(read_pfm("Pf\n2 1\n-1.0\n\n", ""), KOKSMA_MALFORMED);
+    assert_int_equal(read_pfm("Pf\n2 1\n-1.0  ", ""), KOKSMA_MALFORMED);
+    assert_int_equal(read_pfm("Pf\n2 1\n-1.0\n", "\n"), KOKSMA_MALFORMED);
+    /* the first byte of a float may be a blank's, too */
+    file f = {.size = 0};
+    koksma_image image;
+    put(&f, "Pf 1 1 -1 \n\n\0@", 14);
+    assert_ok(read_bytes("blank.pfm", &f, f.size, &image));
+    koksma_image_fini(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tiles_are_read),
+        cmocka_unit_test(lossy_exr_is_read),
+        cmocka_unit_test(png_levels_have_their_curve),
+        cmocka_unit_test(png_transparency_is_dropped),
+        cmocka_unit_test(pfm_heads_end_as_writers_end_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Bare glTF files by what they say of a square, its texture and its lights. Without Embree all is skipped.
+ */
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "meshes.h"
+#include "meshes/mesh_read.h"
+#include "scene/scene.h"
+
+static void write_bytes(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fwrite(bytes, 1, size, file);
+    fclose(file);
+}
+
+static void write_image(const char *path, int width, const float *pixels)
+{
+    koksma_image image;
+    assert_ok(koksma_image_init(&image, width, 1, 1));
+    memcpy(image.pixels, pixels, (size_t)width * sizeof *pixels);
+    assert_ok(koksma_image_write(path, &image, NULL));
+    koksma_image_fini(&image);
+}
+
+/* A camera at z = 3 that sees one point of a square of 2 x 2 at z = 0 which faces it. */
+typedef struct model {
+    const char *nodes;      /* beside the camera, 0 */
+    const char *roots;      /* numbers of the scene's nodes */
+    const char *material;   /* the inside of the square's */
+    const char *attributes; /* of the square beside positions and texture coordinates */
+    const char *image;      /* its name */
+    const char *lights;
+} model;
+
+static const char *const plain = "\"pbrMetallicRoughness\": {\"metallicFactor\": 0}";
+#define TEXTURED(colour, texture)                                                                                    \
+    "\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"baseColorFactor\": " colour                                 \
+    ", \"baseColorTexture\": {\"index\": 0" texture "}}"
+#define LAMP(light) "\"extensions\": {\"KHR_lights_punctual\": {\"light\": " light "}}"
+#define LAMP_AT(light, z) "{\"name\": \"lamp\", \"translation\": [0, 0, " z "], " LAMP(light) "}"
+
+static void write_model(const char *path, const model *m)
+{
+    static const float square[44] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0, /* positions, then texture coordinates */
+                                     0,  1,  1, 1, 1,  0, 0, 0,              /* and colours: red */
+                                     1,  0,  0, 1, 1,  0, 0, 1, 1, 0,  0, 1, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+    static const uint16_t corners[6] = {0, 1, 2, 0, 2, 3};
+    unsigned char bytes[188];
+    memcpy(bytes, square, 176);
+    memcpy(bytes + 176, corners, 12);
+    write_bytes("my square.bin", bytes, sizeof bytes);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file,
+            "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_lights_punctual\", "
+            "\"KHR_texture_transform\"], \"scene\": 0, \"scenes\": [{\"nodes\": [%s]}], \"nodes\": [{\"camera\": 0, "
+            "\"translation\": [0, 0, 3]}, %s], \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [%s]}}, "
+            "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.001, \"znear\": 0.1}}], "
+            "\"materials\": [{%s}], \"textures\": [{\"source\": 0}], \"images\": [{\"uri\": \"%s\"}], ",
+            m->roots, m->nodes, m->lights ? m->lights : "{\"type\": \"point\", \"intensity\": 9}", m->material,
+            m->image ? m->image : "texture.pfm");
+    fprintf(file,
+            "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1%s}, \"indices\": 3, "
+            "\"material\": 0}]}], \"accessors\": ["
+            "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [-1, -1, 0], "
+            "\"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC2\"}, "
+            "{\"bufferView\": 2, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC4\"}, "
+            "{\"bufferView\": 3, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}], \"bufferViews\": ["
+            "{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 32}, "
+            "{\"buffer\": 0, \"byteOffset\": 80, \"byteLength\": 64}, "
+            "{\"buffer\": 0, \"byteOffset\": 176, \"byteLength\": 12}], "
+            "\"buffers\": [{\"byteLength\": 188, \"uri\": \"my%%20square.bin\"}]}",
+            m->attributes ? m->attributes : "");
+    fclose(file);
+}
+
+/* What one sample of the scene sees, and its warnings, each on a line. */
+static void look(const char *path, double rgb[3], char *warnings, size_t size)
+{
+    koksma_scene *scene;
+    koksma_render_options options;
+    koksma_image image;
+    assert_ok(koksma_scene_open(path, &scene));
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = options.spp = 1;
+    options.integrator = koksma_integrator_find("distribution");
+    assert_ok(koksma_pattern_spec("random", &options.pattern));
+    assert_ok(koksma_render(scene, &options, NULL, &image));
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = (double)image.pixels[k % image.channels];
+    }
+    char text[512];
+    *warnings = '\0';
+    for (size_t i = 0; koksma_scene_warning(scene, i, text, sizeof text); i++) {
+        assert_true(strlen(warnings) + strlen(text) + 2 < size);
+        strcat(strcat(warnings, text), "\n");
+    }
+    koksma_image_fini(&image);
+    koksma_scene_close(scene);
+}
+
+/* The square's node and light 0 at z = 3, of irradiance 1, are nodes 1 and 2; what is seen is the colour / pi. */
+static void expect(const char *material, const char *image, const char *attributes, double r, double g, double b,
+                   const char *warning)
+{
+    double rgb[3];
+    char warnings[2048];
+    write_model("square.gltf", &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"),
+                                        .roots = "0, 1, 2",
+                                        .material = material,
+                                        .attributes = attributes,
+                                        .image = image});
+    look("square.gltf", rgb, warnings, sizeof warnings);
+    assert_near(rgb[0] * M_PI, r, 1e-5);
+    assert_near(rgb[1] * M_PI, g, 1e-5);
+    assert_near(rgb[2] * M_PI, b, 1e-5);
+    if (*warning ? !strstr(warnings, warning) : *warnings) {
+        fail_msg("'%s' wanted, and there is: %s", warning, warnings);
+    }
+    unlink("square.gltf");
+    unlink("my square.bin");
+}
+
+static void textures_are_multiplied_with_colours(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_image("texture.pfm", 1, (const float[]){0.5f});
+    expect(plain, NULL, NULL, 1, 1, 1, "");
+    expect(TEXTURED("[1, 1, 1, 1]", ""), NULL, NULL, 0.5, 0.5, 0.5, "");
+    expect(TEXTURED("[0.5, 0.5, 0.5, 1]", ""), NULL, NULL, 0.25, 0.25, 0.25, "");
+    expect(TEXTURED("[1, 0.5, 0, 1]", ""), NULL, NULL, 0.5, 0.25, 0, "");
+    unlink("texture.pfm");
+}
+
+static void names_of_files_are_decoded(void **state)
+{
+    (void)state;
+    need_meshes();
+    char path[KOKSMA__MAX_PATH];
+    write_image("my texture.pfm", 1, (const float[]){0.5f});
+    expect(TEXTURED("[1, 1, 1, 1]", ""), "my%20texture.pfm", NULL, 0.5, 0.5, 0.5, "");
+    expect(TEXTURED("[1, 1, 1, 1]", ""), "my%2texture.pfm", NULL, 1, 1, 1, "there is no such file");
+    /* a file of the very name goes first */
+    write_image("my%20texture.pfm", 1, (const float[]){0.25f});
+    expect(TEXTURED("[1, 1, 1, 1]", ""), "my%20texture.pfm", NULL, 0.25, 0.25, 0.25, "");
+    unlink("my texture.pfm");
+    unlink("my%20texture.pfm");
+    /* a zero ends no name, a folder is no file */
+    assert_int_equal(mkdir("parts", 0777), 0);
+    write_image("parts/a b.pfm", 1, (const float[]){0.5f});
+    assert_true(koksma__find_named("./m.obj", "parts\\a b.pfm", path));
+    assert_string_equal(path, "./parts/a b.pfm");
+    assert_true(koksma__find_named("parts/m.obj", "a%20b%2Epfm", path));
+    assert_string_equal(path, "parts/a b.pfm");
+    assert_false(koksma__find_named("m.obj", "parts/a b.pfm%00x", path));
+    assert_false(koksma__find_named("m.obj", "parts", path));
+    assert_false(koksma__find_named("m.obj", "%", path));
+    unlink("parts/a b.pfm");
+    rmdir("parts");
+}
+
+static void emission_is_multiplied_with_its_texture(void **state)
+{
+    (void)state;
+    need_meshes();
+#define GLOW "\"emissiveFactor\": [1, 1, 0.5], \"emissiveTexture\": {\"index\": 0}"
+    write_image("texture.pfm", 1, (const float[]){0.25f});
+    expect(GLOW, NULL, NULL, M_PI / 4, M_PI / 4, M_PI / 8, "");
+    write_image("texture.pfm", 4, (const float[]){0, 0, 0, 1});
+    expect(GLOW, NULL, NULL, M_PI / 4, M_PI / 4, M_PI / 8, "material 0 glows evenly");
+    write_image("texture.pfm", 1, (const float[]){0});
+    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1, "");
+    unlink("texture.pfm");
+    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1,
+           "material 0 doesn't glow, for want of its emissive texture: texture.pfm: there is no such file");
+}
+
+static void what_is_not_read_is_said(void **state)
+{
+    (void)state;
+    need_meshes();
+    write_image("texture.pfm", 1, (const float[]){0.5f});
+    expect(TEXTURED("[1, 1, 1, 1]", ", \"texCoord\": 1"), NULL, ", \"TEXCOORD_1\": 1", 0.5, 0.5, 0.5,
+           "other texture coordinates than the first (1) are not read");
+    expect(TEXTURED("[1, 1, 1, 1]", ", \"extensions\": {\"KHR_texture_transform\": {\"scale\": [2, 2]}}"), NULL, NULL,
+           0.5, 0.5, 0.5, "transforms of textures (1) are not read");
+    expect(TEXTURED("[1, 1, 1, 0.5]", "") ", \"alphaMode\": \"BLEND\"", NULL, NULL, 0.5, 0.5, 0.5,
+           "materials' transparencies (1) are not read");
+    expect(TEXTURED("[1, 1, 1, 0.5]", ""), NULL, NULL, 0.5, 0.5, 0.5, "");
+    expect(plain, NULL, ", \"COLOR_0\": 2", 1, 1, 1, "meshes' vertex colours (1) are not read");
+    unlink("texture.pfm");
+}
+
+/* What is seen of the square lit by these nodes, times pi: the irradiance, or of a glowing one the radiance. */
+static double lit(const char *nodes, const char *roots, const char *material, const char *lights)
+{
+    double rgb[3];
+    char warnings[2048];
+    write_model("lit.gltf", &(model){.nodes = nodes, .roots = roots, .material = material, .lights = lights});
+    look("lit.gltf", rgb, warnings, sizeof warnings);
+    unlink("lit.gltf");
+    unlink("my square.bin");
+    return rgb[0] * M_PI;
+}
+
+static void every_node_with_a_light_has_one(void **state)
+{
+    (void)state;
+    need_meshes();
+#define SQUARE "{\"mesh\": 0}, "
+    const char *two =
+        "{\"type\": \"point\", \"intensity\": 9}, {\"type\": \"spot\", \"spot\": {}, \"intensity\": 4.5}";
+    const char *sun = "{\"type\": \"directional\", \"intensity\": 2, \"color\": [0.5, 1, 1]}";
+    assert_near(lit(SQUARE LAMP_AT("0", "3"), "0, 1, 2", plain, NULL), 1, 1e-5);
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2, 3", plain, NULL), 5, 1e-5);
+    /* one name for two */
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("1", "1.5"), "0, 1, 2, 3", plain, two), 3, 1e-5);
+    /* not in the scene */
+    assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2", plain, NULL), 1, 1e-5);
+    /* below others: z = 1 + 2 x 1, and turned about y by a half circle */
+    assert_near(
+        lit(SQUARE LAMP_AT("0", "1") ", {\"children\": [2], \"translation\": [0, 0, 1], \"scale\": [2, 2, 2]}",
+            "0, 1, 3", plain, NULL),
+        1, 1e-5);
+    assert_near(
+        lit(SQUARE LAMP_AT("0", "-1.5") ", {\"children\": [2], \"rotation\": [0, 1, 0, 0]}", "0, 1, 3", plain, NULL),
+        4, 1e-5);
+    assert_near(lit(SQUARE "{\"matrix\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1.5, 1], " LAMP("0") "}",
+                    "0, 1, 2", plain, NULL),
+                4, 1e-5);
+    /* down the node's -z: from the front, and turned by 60 degrees about x */
+    assert_near(lit(SQUARE "{" LAMP("0") "}", "0, 1, 2", plain, sun), 1, 1e-5);
+    assert_near(lit(SQUARE "{\"rotation\": [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun), 0.5,
+                1e-5);
+    /* and every node with a camera: from the back where the scene has not the one in front */
+    const char *behind = SQUARE "{\"camera\": 0, \"translation\": [0, 0, -3], \"rotation\": [0, 1, 0, 0]}";
+    assert_near(lit(behind, "0, 1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), M_PI, 1e-5);
+    assert_near(lit(behind, "1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), 0, 0);
+    /* a light that isn't there */
+    koksma_scene *scene;
+    write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
+    assert_int_equal(koksma_scene_open("lit.gltf", &scene), KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "light is 1 of 1"));
+    unlink("lit.gltf");
+    unlink("my square.bin");
+}
+
+/* A node that swaps left and right leaves the front in front (glTF 2.0, 3.7.4). */
+static void mirrored_squares_glow_in_front(void **state)
+{
+    (void)state;
+    need_meshes();
+    static const char *const scales[] = {"1, 1, 1", "-1, 1, 1", "1, -1, 1", "-1, -1, 1", "1, 1, -1"};
+    static const double seen[] = {M_PI, M_PI, M_PI, M_PI, 0};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        char nodes[256], json[512];
+        snprintf(nodes, sizeof nodes, "{\"mesh\": 0, \"scale\": [%s]}, {\"mesh\": 0, \"translation\": [8, 0, 0]}",
+                 scales[i]);
+        assert_near(lit(nodes, "0, 1, 2", "\"emissiveFactor\": [1, 1, 1]", NULL), seen[i], 1e-5);
+        /* the same as a mesh of a scene */
+        write_model("lit.gltf", &(model){.nodes = nodes, .roots = "0, 1, 2", .material = plain});
+        snprintf(json, sizeof json,
+                 "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 0.1}, \"materials\": [], "
+                 "\"shapes\": [{\"kind\": \"mesh\", \"file\": \"lit.gltf\", \"emission\": 1}]}");
+        write_bytes("lit.json", json, strlen(json));
+        double rgb[3];
+        char warnings[2048];
+        look("./lit.json", rgb, warnings, sizeof warnings);
+        assert_near(rgb[0] * M_PI, seen[i], 1e-5);
+        unlink("lit.json");
+        unlink("lit.gltf");
+        unlink("my square.bin");
+    }
+}
+
+/* Triangles run counterclockwise about their normals, whatever the node's matrix, in a scene of the bare file (where
+   the placement mirrors) and as one mesh (where the file's reader does). */
+static void mirrored_normals_stay_outside(void **state)
+{
+    (void)state;
+    need_meshes();
+    static const float square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    write_bytes("turn.bin", square, sizeof square);
+    for (int i = 0; i < 8; i++) {
+        const int x = i & 1 ? -2 : 1, y = i & 2 ? -1 : 3, z = i & 4 ? -1 : 1;
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
+            "\"scale\": [%d, %d, %d], \"translation\": [1, 2, 3]}, {\"mesh\": 0}], \"meshes\": [{\"primitives\": "
+            "[{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1}, \"mode\": 5}]}], \"accessors\": "
+            "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 0, "
+            "\"byteOffset\": 48, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}], \"bufferViews\": "
+            "[{\"buffer\": 0, \"byteLength\": 96}], \"buffers\": [{\"byteLength\": 96, \"uri\": \"turn.bin\"}]}",
+            x, y, z);
+        write_bytes("turn.gltf", text, strlen(text));
+        koksma__mesh one = {0};
+        koksma_scene *scene;
+        assert_ok(koksma__mesh_read("turn.gltf", &one));
+        assert_ok(koksma_scene_open("turn.gltf", &scene));
+        assert_int_equal(one.n_triangles, 4);
+        assert_int_equal(scene->n_placements, 2);
+        assert_int_equal(scene->n_meshes, x * y * z < 0 ? 2 : 1);
+        for (size_t t = 0; t < 4; t++) {
+            static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+            const koksma__placement *p = &scene->placements[t / 2];
+            const koksma__mesh *mesh = &scene->meshes[p->mesh];
+            float a[9], b[9];
+            koksma__placed_triangle(&one, identity, t, a);
+            koksma__placed_triangle(mesh, p->matrix, t % 2, b);
+            assert_memory_equal(a, b, sizeof a);
+            const double turn = (double)((a[3] - a[0]) * (a[7] - a[1]) - (a[4] - a[1]) * (a[6] - a[0]));
+            const double outside = t < 2 ? z : 1;
+            assert_true(turn * outside > 0);
+            assert_near((double)one.normals[3 * one.indices[3 * t] + 2], outside, 0);
+            /* by the inverse transposed, whose sign the determinant's goes with */
+            double normal[9];
+            koksma__normal_matrix(p->matrix, normal);
+            assert_true(normal[8] * (double)mesh->normals[3 * mesh->indices[3 * (t % 2)] + 2] * outside > 0);
+        }
+        koksma_scene_close(scene);
+        koksma__mesh_fini(&one);
+    }
+    unlink("turn.gltf");
+    unlink("turn.bin");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(textures_are_multiplied_with_colours),    cmocka_unit_test(names_of_files_are_decoded),
+        cmocka_unit_test(emission_is_multiplied_with_its_texture), cmocka_unit_test(what_is_not_read_is_said),
+        cmocka_unit_test(every_node_with_a_light_has_one),         cmocka_unit_test(mirrored_squares_glow_in_front),
+        cmocka_unit_test(mirrored_normals_stay_outside),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

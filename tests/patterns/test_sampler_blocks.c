@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What koksma/sampler.h promises inside a domain, for every function that draws: nets, runs of the R-sequence, cells
+   and strata. tests/patterns/test_sampler_domains.c has what it promises between domains. */
+#include <koksma/sampler.h>
+
+#include "test.h"
+
+enum { BLOCK = 256, MOST_DIM = 4 };
+
+static void sobol(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_sobol_2d(domain, i, xs);
+}
+
+static void sobol4(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_sobol_4d(domain, i, xs);
+}
+
+static void pmj02(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_pmj02_2d(domain, i, xs);
+}
+
+static void r(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_r_2d(domain, i, xs);
+}
+
+static void r_late(koksma_domain domain, uint32_t i, double *xs)
+{
+    koksma_r_2d(domain, ((uint64_t)5 << 32) + i, xs);
+}
+
+typedef void (*sample)(koksma_domain domain, uint32_t i, double *xs);
+
+static bool one_in_each(const double *xs, size_t dim, uint32_t n, uint32_t columns)
+{
+    unsigned char seen[BLOCK] = {0};
+    const uint32_t rows = n / columns;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t cell = (uint32_t)(xs[dim * i] * columns) * rows + (uint32_t)(xs[dim * i + 1] * rows);
+        if (seen[cell]) {
+            return false;
+        }
+        seen[cell] = 1;
+    }
+    return true;
+}
+
+static void assert_is_net(const char *name, const double *xs, size_t dim, uint32_t first, uint32_t n)
+{
+    for (uint32_t columns = 1; columns <= n; columns *= 2) {
+        if (!one_in_each(xs, dim, n, columns)) {
+            fail_msg("%s: samples %u and the next %u are no net: not one in each of %u columns and %u rows", name,
+                     first, n, columns, n / columns);
+        }
+    }
+}
+
+static void assert_block_is_net(const char *name, sample f, size_t dim, uint32_t first, uint32_t n)
+{
+    double xs[MOST_DIM * BLOCK];
+    for (uint32_t i = 0; i < n; i++) {
+        f(koksma_domain_of_pixel(3, first, n), first + i, xs + dim * i);
+    }
+    assert_is_net(name, xs, dim, first, n);
+}
+
+static void aligned_blocks_are_nets(void **state)
+{
+    (void)state;
+    for (uint32_t n = 1; n <= BLOCK; n *= 2) {
+        const uint32_t firsts[] = {0, n, 5 * n, 11 * n, 1u << 31, 0x12345600u & (0u - n), 0u - n};
+        for (size_t b = 0; b < sizeof firsts / sizeof *firsts; b++) {
+            assert_block_is_net("koksma_sobol_2d", sobol, 2, firsts[b], n);
+            assert_block_is_net("koksma_sobol_4d", sobol4, 4, firsts[b], n);
+            assert_block_is_net("koksma_pmj02_2d", pmj02, 2, firsts[b], n);
+        }
+    }
+}
+
+/* The Z-curve gives each quad of 4^k pixels consecutive ranks: the samples of its pixels are a net. */
+static void quads_of_an_image_are_nets(void **state)
+{
+    (void)state;
+    enum { LEVELS = 4, SIDE = 1 << LEVELS, SPP = 4 };
+    const koksma_domain image = koksma_domain_of_pixel(7, 0, 0);
+    for (uint32_t side = 1; side * side * SPP <= BLOCK; side *= 2) {
+        for (uint32_t quad = 0; quad < SIDE / side * (SIDE / side); quad++) {
+            const uint32_t left = quad % (SIDE / side) * side, top = quad / (SIDE / side) * side,
+                           n = side * side * SPP;
+            double xs[2 * BLOCK];
+            for (uint32_t i = 0; i < n; i++) {
+                const uint32_t x = left + i / SPP % side, y = top + i / SPP / side;
+                koksma_sobol_2d(image, koksma_z_rank(image, x, y, LEVELS) * SPP + i % SPP, xs + 2 * (size_t)i);
+            }
+            assert_is_net("koksma_z_rank", xs, 2, quad * n, n);
+        }
+    }
+}
+
+/* Samples a 2^m .. (a + 1) 2^m - 1 differ from the first of them by k (1/g, 1/g^2) on the torus, k being 2^m
+   consecutive whole numbers and g the root of g^3 = g + 1. */
+static void assert_block_is_run(const char *name, sample f, uint32_t first, uint32_t n)
+{
+    const double g = 1.32471795724474602596, alpha[2] = {1 / g, 1 / (g * g)};
+    const koksma_domain domain = koksma_domain_of_pixel(4, first, n);
+    bool seen[2 * BLOCK] = {false};
+    int least = 0, most = 0;
+    double start[2];
+    f(domain, first, start);
+    for (uint32_t i = 0; i < n; i++) {
+        double xs[2];
+        int k = -(int)n;
+        f(domain, first + i, xs);
+        for (; k < (int)n; k++) {
+            const double a = xs[0] - start[0] - k * alpha[0], b = xs[1] - start[1] - k * alpha[1];
+            if (fabs(a - floor(a + 0.5)) < 1e-12 && fabs(b - floor(b + 0.5)) < 1e-12) {
+                break;
+            }
+        }
+        if (k == (int)n || seen[k + (int)n]) {
+            fail_msg("%s: samples %u and %u are not of one run of %u points", name, first, first + i, n);
+        }
+        seen[k + (int)n] = true;
+        least = k < least ? k : least;
+        most = k > most ? k : most;
+    }
+    assert_int_equal(most - least, n - 1);
+}
+
+static void aligned_blocks_of_r_are_runs(void **state)
+{
+    (void)state;
+    for (uint32_t n = 1; n <= BLOCK; n *= 2) {
+        const uint32_t firsts[] = {0, n, 5 * n, 11 * n, 1u << 31, 0u - n};
+        for (size_t b = 0; b < sizeof firsts / sizeof *firsts; b++) {
+            assert_block_is_run("koksma_r_2d", r, firsts[b], n);
+            assert_block_is_run("koksma_r_2d from 5 2^32 on", r_late, firsts[b], n);
+        }
+    }
+}
+
+static void cmj_fills_cells_and_strata(void **state)
+{
+    (void)state;
+    static const uint32_t grids[][2] = {{1, 1}, {3, 5}, {16, 16}, {7, 30}, {64, 4}};
+    for (size_t t = 0; t < sizeof grids / sizeof *grids; t++) {
+        const uint32_t columns = grids[t][0], n = columns * grids[t][1];
+        double xs[2 * BLOCK];
+        for (uint32_t i = 0; i < n; i++) {
+            koksma_cmj_2d(koksma_domain_of_pixel(5, n, columns), i, columns, n / columns, xs + 2 * (size_t)i);
+        }
+        assert_true(one_in_each(xs, 2, n, columns) && one_in_each(xs, 2, n, 1) && one_in_each(xs, 2, n, n));
+    }
+}
+
+/* The forms for loops over one domain have the numbers of the others. */
+static void keyed_forms_are_equal(void **state)
+{
+    (void)state;
+    for (uint32_t i = 0; i < 1000; i++) {
+        const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(6, i, 1), i);
+        const koksma_sobol sequence = koksma_sobol_of(domain);
+        double a[4], b[4];
+        koksma_sobol_2d(domain, 2654435761u * i, a);
+        koksma_sobol_at_2d(&sequence, 2654435761u * i, b);
+        assert_memory_equal(a, b, 2 * sizeof *a);
+        koksma_sobol_4d(domain, 2654435761u * i, a);
+        koksma_sobol_at_4d(&sequence, 2654435761u * i, b);
+        assert_memory_equal(a, b, 4 * sizeof *a);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(aligned_blocks_are_nets),      cmocka_unit_test(quads_of_an_image_are_nets),
+        cmocka_unit_test(aligned_blocks_of_r_are_runs), cmocka_unit_test(cmj_fills_cells_and_strata),
+        cmocka_unit_test(keyed_forms_are_equal),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Choosing luminaires, rays that start on shapes, and shapes that move: the same bits for every instruction set, and
+   plain twins in double precision. */
+#include <math.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "render/pipelines/batch.h"
+#include "scene/scene.h"
+#include "test.h"
+
+static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
+static uint64_t counter;
+
+static float uniform(double low, double high)
+{
+    double pair[2];
+    koksma__random_pair(5, KOKSMA__PURPOSE_TEST, counter++, 0, pair);
+    return (float)(low + (high - low) * pair[0]);
+}
+
+static void unit_vector(float v[3])
+{
+    float length = 0;
+    while (!(length > 0.1f)) {
+        v[0] = uniform(-1, 1);
+        v[1] = uniform(-1, 1);
+        v[2] = uniform(-1, 1);
+        length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    for (int k = 0; k < 3; k++) {
+        v[k] /= length;
+    }
+}
+
+static void random_lamps(koksma__batch_lights *l)
+{
+    memset(l, 0, sizeof *l);
+    l->n = 5 + (int)uniform(0, 60);
+    l->whole = (l->n + KOKSMA__LANE_STEP - 1) / KOKSMA__LANE_STEP * KOKSMA__LANE_STEP;
+    for (int i = 0; i < KOKSMA__MAX_BATCH_LIGHTS; i++) {
+        float normal[3];
+        unit_vector(normal);
+        const int kind = (int)uniform(0, 4);
+        l->reach[i] = 1;
+        if (i >= l->n) {
+            continue;
+        }
+        l->cx[i] = uniform(-3, 3);
+        l->cy[i] = uniform(-3, 3);
+        l->cz[i] = uniform(-3, 3);
+        l->nx[i] = normal[0];
+        l->ny[i] = normal[1];
+        l->nz[i] = normal[2];
+        l->reach[i] = uniform(0.01, 0.6);
+        l->flat[i] = kind == 0;
+        l->power[i] = kind < 2 ? uniform(0, 5) : 0;
+        l->far[i] = kind == 2 ? uniform(0, 5) : 0;
+        l->fixed[i] = kind == 3 ? uniform(0, 1) : 0;
+    }
+}
+
+/* The definition of batch.h, in double precision. near_edge: within rounding of going out of sight. */
+static double twin(const koksma__batch_lights *l, int i, const float p[3], const float n[3], bool *near_edge)
+{
+    const double d[3] = {(double)l->cx[i] - (double)p[0], (double)l->cy[i] - (double)p[1],
+                         (double)l->cz[i] - (double)p[2]};
+    const double m[3] = {(double)l->nx[i], (double)l->ny[i], (double)l->nz[i]};
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), r = fmax(length, (double)l->reach[i]);
+    double up = 0, down = 0, away = 0;
+    for (int k = 0; k < 3; k++) {
+        up += (double)n[k] * d[k];
+        down -= m[k] * d[k];
+        away -= m[k] * (double)n[k];
+    }
+    down = l->flat[i] > 0 ? down : length;
+    *near_edge = fabs(up + (double)l->reach[i]) < 1e-5 || fabs(down) < 1e-5 || fabs(away) < 1e-5;
+    const bool seen = up + (double)l->reach[i] > 0 && down > 0;
+    const double here = (double)l->power[i] * fmax(up / r, 0.05) * fmax(down / r, 0.05) / (r * r);
+    return (seen ? here : 0) + (double)l->far[i] * fmax(away, 0) + (double)l->fixed[i];
+}
+
+static void estimates_equal_twin(void **state)
+{
+    (void)state;
+    static koksma__batch_lights lamps;
+    for (int round = 0; round < 300; round++) {
+        const float p[3] = {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)};
+        float n[3], out[4][KOKSMA__MAX_BATCH_LIGHTS], totals[4];
+        unit_vector(n);
+        random_lamps(&lamps);
+        for (int isa = 0; isa < 4; isa++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+            if (!batch) {
+                continue;
+            }
+            totals[isa] = batch->estimate(&lamps, p, n, out[isa]);
+            assert_memory_equal(out[isa], out[0], (size_t)lamps.n * sizeof(float));
+            assert_memory_equal(&totals[isa], &totals[0], sizeof(float));
+        }
+        double sum = 0;
+        for (int i = 0; i < lamps.n; i++) {
+            bool near_edge;
+            const double expected = twin(&lamps, i, p, n, &near_edge);
+            sum += (double)out[0][i];
+            assert_true(near_edge || fabs((double)out[0][i] - expected) <= 1e-4 * expected + 1e-6);
+        }
+        assert_near((double)totals[0], sum, 1e-5 * sum + 1e-12);
+    }
+}
+
+/* A ray that starts on a moving sphere, at a time: where it meets the sphere again, and what it meets else. */
+static void rays_from_moving_spheres(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 200; round++) {
+        koksma__batch_shape list[2] = {{.kind = KOKSMA__SHAPE_SPHERE, .id = 0},
+                                       {.kind = KOKSMA__SHAPE_PLANE, .id = 1}};
+        koksma__rays rays;
+        koksma__hits hits[4];
+        KOKSMA__LANES(int32_t, from);
+        const float radius = uniform(0.3, 1);
+        list[0].moves = true;
+        list[0].radius2 = radius * radius;
+        list[0].inverse_radius = 1 / radius;
+        list[1].normal[1] = list[1].axis_u[0] = list[1].axis_v[2] = 1;
+        list[1].centre[1] = -5;
+        list[1].half_u = list[1].half_v = list[1].radius2 = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            list[0].centre[k] = uniform(-1, 1);
+            list[0].motion[k] = uniform(-2, 2);
+        }
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            float place[3], way[3], *const o[3] = {&rays.ox[i], &rays.oy[i], &rays.oz[i]};
+            unit_vector(place);
+            unit_vector(way);
+            rays.time[i] = uniform(0, 1);
+            for (int k = 0; k < 3; k++) {
+                *o[k] = list[0].centre[k] + rays.time[i] * list[0].motion[k] + radius * place[k];
+            }
+            rays.dx[i] = way[0];
+            rays.dy[i] = way[1];
+            rays.dz[i] = way[2];
+            from[i] = 0;
+        }
+        const koksma__batch_shapes shapes = {2, list};
+        for (int isa = 0; isa < 4; isa++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+            if (batch) {
+                memset(&hits[isa], 0, sizeof hits[isa]);
+                batch->closest(&shapes, &rays, from, KOKSMA__BLOCK, &hits[isa]);
+                assert_memory_equal(&hits[isa], &hits[0], sizeof hits[0]);
+            }
+        }
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            const float *c = list[0].centre, *m = list[0].motion, t = rays.time[i];
+            const double inwards = -((double)(rays.ox[i] - c[0] - t * m[0]) * (double)rays.dx[i] +
+                                     (double)(rays.oy[i] - c[1] - t * m[1]) * (double)rays.dy[i] +
+                                     (double)(rays.oz[i] - c[2] - t * m[2]) * (double)rays.dz[i]);
+            if (inwards > 1e-3) {
+                assert_int_equal(hits[0].primitive[i], 0);
+                assert_int_equal(hits[0].back[i], 1);
+                assert_near((double)hits[0].t[i], 2 * inwards, 1e-4);
+            } else if (inwards < -1e-3) {
+                assert_int_equal(hits[0].primitive[i], rays.dy[i] < 0 ? 1 : -1);
+            }
+        }
+    }
+}
+
+/* Shadow rays that pass a small sphere far away at 0.98 or 1.02 of its radius, or end before it: at distance D floats
+   know a place to some D / 10^7. */
+static void small_spheres_far_away_shade(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 300; round++) {
+        koksma__batch_shape sphere = {.kind = KOKSMA__SHAPE_SPHERE, .id = 7, .material = -1};
+        koksma__hits hits = {0};
+        koksma__shadows shadows[4];
+        KOKSMA__LANES(int32_t, aimed);
+        const float distance = powf(10, uniform(0, 3)), radius = distance * powf(10, uniform(-4.5, -1));
+        sphere.radius2 = radius * radius;
+        int dark[KOKSMA__BLOCK];
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            float n[3], m[3], *const to[3] = {&shadows[0].dx[i], &shadows[0].dy[i], &shadows[0].dz[i]};
+            float *const from[3] = {&hits.px[i], &hits.py[i], &hits.pz[i]};
+            unit_vector(n);
+            unit_vector(m);
+            const float along = m[0] * n[0] + m[1] * n[1] + m[2] * n[2], rest = sqrtf(1 - along * along);
+            const bool passes = i % 2, stops = i % 8 == 2;
+            const float far = stops ? distance * 0.9f - radius : powf(10, uniform(0, 3)) * distance + 2 * radius;
+            for (int k = 0; k < 3; k++) {
+                const float across = (m[k] - along * n[k]) / rest;
+                *from[k] = (passes ? 1.02f : 0.98f) * radius * across - distance * n[k];
+                *to[k] = far * n[k];
+            }
+            aimed[i] = i % 8 == 4 ? 7 : i % 8; /* to this luminaire; to another one */
+            dark[i] = !passes && !stops && aimed[i] != 7;
+            hits.primitive[i] = -1;
+        }
+        const koksma__batch_shapes shapes = {1, &sphere};
+        for (int isa = 0; isa < 4; isa++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[isa]);
+            if (!batch) {
+                continue;
+            }
+            shadows[isa] = shadows[0];
+            shadows[isa].aimed = aimed;
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                shadows[isa].light[i] = 1;
+            }
+            batch->occlude(&shapes, &hits, KOKSMA__BLOCK, &shadows[isa]);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                assert_int_equal(shadows[isa].light[i] == 0, dark[i]);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(estimates_equal_twin),
+        cmocka_unit_test(rays_from_moving_spheres),
+        cmocka_unit_test(small_spheres_far_away_shade),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

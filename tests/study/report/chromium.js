@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// chromium.js REPORT [SCREENSHOTS]: opens a report in headless Chromium: no console error, every picture loads, no network,
+// the comparer works by keyboard, all pictures have texts, text has contrast, in light and dark. Exit code 77: skipped.
+"use strict";
+const fs = require("fs");
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
+let playwright;
+try { playwright = require(require.resolve("playwright-core", { paths: [process.env.KOKSMA_NODE || ".", "."] })); } catch { playwright = null; }
+if (!chromium || !playwright) {
+  console.log("skipped: " + (chromium ? "playwright-core" : "Chromium") + " is not installed (scripts/setup browser)");
+  process.exit(77);
+}
+const [report, screenshots] = process.argv.slice(2);
+const problems = [];
+const check = (good, text) => { if (!good) problems.push(text); };
+
+// Text against what is behind it, as WCAG 2.1 counts it.
+const contrasts = () => {
+  const parse = c => (c.match(/[\d.]+/g) || []).map(Number);
+  const light = ([r, g, b]) => [r, g, b].map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const behind = e => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
+  const bad = new Set();
+  for (const e of document.querySelectorAll("main *")) {
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) || !e.getClientRects().length) continue;
+    const style = getComputedStyle(e), ink = light(parse(e instanceof SVGElement ? style.fill : style.color)), paper = light(behind(e));
+    const ratio = (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
+    if (ratio < 4.5) bad.add(`${e.tagName} ${e.className.baseVal ?? e.className}: contrast ${ratio.toFixed(2)}`);
+  }
+  return [...bad];
+};
+
+(async () => {
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await (await browser.newContext({ colorScheme, viewport: { width: 1280, height: 900 } })).newPage();
+    page.on("console", m => check(m.type() !== "error", "console: " + m.text()));
+    page.on("pageerror", e => check(false, "error: " + e.message));
+    page.on("request", r => check(/^(file|data|blob):/.test(r.url()), "network: " + r.url()));
+    await page.goto("file://" + fs.realpathSync(report));
+    const facts = await page.evaluate(() => ({
+      broken: [...document.images].filter(i => !i.complete || !i.naturalWidth).length,
+      images: document.images.length,
+      nameless: [...document.images].filter(i => !i.alt).length +
+        [...document.querySelectorAll("svg, canvas")].filter(s => !s.getAttribute("aria-label")).length,
+      unlabelled: [...document.querySelectorAll("select, button")].filter(s => !(s.labels?.length || s.textContent.trim())).length,
+      ids: [...document.querySelectorAll("[id]")].map(e => e.id).filter((id, i, all) => all.indexOf(id) !== i),
+      wide: document.documentElement.scrollWidth > innerWidth,
+      language: document.documentElement.lang, title: document.title, comparers: document.querySelectorAll(".comparer canvas").length,
+      csv: [...document.querySelectorAll("a[download]")].filter(a => !atob(a.href.split(",")[1]).includes(",")).length,
+    }));
+    check(facts.broken === 0, `${facts.broken} broken pictures`);
+    check(facts.images > 0, "no pictures");
+    check(facts.nameless === 0, `${facts.nameless} pictures without a text`);
+    check(facts.unlabelled === 0, `${facts.unlabelled} controls without a label`);
+    check(facts.ids.length === 0, "ids twice: " + facts.ids);
+    check(!facts.wide, "the page is wider than the window");
+    check(facts.language && facts.title, "no language or title");
+    check(facts.csv === 0, "empty CSV files");
+    check(facts.comparers > 0, "no comparer");
+    (await page.evaluate(contrasts)).forEach(text => check(false, colorScheme + ": " + text));
+    if (facts.comparers) {
+      const canvas = page.locator(".comparer canvas").first(), output = page.locator(".comparer output").first();
+      const picture = () => canvas.evaluate(c => c.toDataURL());
+      await canvas.focus();
+      const before = await picture();
+      await page.keyboard.press("Space");
+      check(await picture() !== before, "the comparer doesn't flip");
+      await page.keyboard.press("ArrowRight");
+      const value = await output.textContent();
+      check(/^\(\d+, \d+\): A [\d.e-]+, B [\d.e-]+/.test(value), "no values of a pixel: " + value);
+      for (const [key, mode] of [["s", "split"], ["e", "error"], ["f", "flip"]]) {
+        await page.keyboard.press(key);
+        check(await page.locator(".comparer select").nth(2).first().inputValue() === mode, "mode " + mode);
+      }
+      const width = () => canvas.evaluate(c => c.getBoundingClientRect().width);
+      const narrow = await width();
+      await page.keyboard.press("+");
+      check(await width() > narrow, "the comparer doesn't zoom");
+    }
+    if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}.png`, fullPage: true });
+    if (screenshots && colorScheme === "light") await page.pdf({ path: `${screenshots}/print.pdf` });
+  }
+  await browser.close();
+  problems.forEach(p => console.log(p));
+  console.log(`${problems.length} problems`);
+  process.exit(problems.length ? 1 : 0);
+})();
