@@ -43,15 +43,20 @@ static bool make_slots(koksma__mtl_names *names)
     if (2 * (names->names.n + 1) <= names->n_slots) {
         return true;
     }
+    const size_t n = names->n_slots ? 2 * names->n_slots : SLOTS;
+    uint32_t *slots = calloc(n, sizeof *slots);
+    if (!slots) {
+        koksma__fail_memory(n * sizeof *slots);
+        return false;
+    }
     free(names->slots);
-    names->n_slots = names->n_slots ? 2 * names->n_slots : SLOTS;
-    names->slots = calloc(names->n_slots, sizeof *names->slots);
-    for (size_t i = 0; names->slots && i < names->names.n; i++) {
+    names->slots = slots;
+    names->n_slots = n;
+    for (size_t i = 0; i < names->names.n; i++) {
         const char *name = name_at(names, i)->name;
         *slot_of(names, name, strlen(name)) = (uint32_t)i + 1;
     }
-    names->n_slots = names->slots ? names->n_slots : 0;
-    return names->slots || koksma__fail_memory(0) == KOKSMA_OK;
+    return true;
 }
 
 koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length)
@@ -156,8 +161,13 @@ static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
     if (!length) {
         return KOKSMA_OK;
     }
-    out->name = strndup(rest, length);
-    return out->name ? KOKSMA_OK : koksma__fail_memory(length);
+    out->name = malloc(length + 1);
+    if (!out->name) {
+        return koksma__fail_memory(length);
+    }
+    memcpy(out->name, rest, length);
+    out->name[length] = '\0';
+    return KOKSMA_OK;
 }
 
 static koksma_status take_one(koksma__text *t, float *out)
