@@ -86,7 +86,8 @@ typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSM
    output. JSON is an object a line; NPY is an array of records with byte strings. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
-/* Writes DIR/report.html: one file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
+/* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, which shows it: one
+   file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
 /* The id of table i of the plan, NULL past the end. */
