@@ -257,7 +257,8 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
             if (koksma__json_member(node, key, &member)) {
                 return KOKSMA_MALFORMED;
             }
-            return twice ? koksma__json_fail(&member, "'%s' is the same field; leave one out", other)
+            return twice ? koksma__json_fail(
+                               &member, "'%s' is the same field in the other spelling; remove one of them", other)
                          : koksma__json_fail(&member, "unknown field");
         }
     }
