@@ -110,10 +110,10 @@ KOKSMA_API const char *koksma_study_table_at(const koksma_study *study, size_t i
 
 /* Whether our mean agrees with the published one. */
 typedef enum koksma_study_verdict {
-    KOKSMA_VERDICT_NEW,        /* the paper has no number */
-    KOKSMA_VERDICT_WAITING,    /* too few trials so far */
-    KOKSMA_VERDICT_AGREES,     /* the difference is within chance and rounding (|z| < 2.6), or for images within 25 % */
-    KOKSMA_VERDICT_FITTED,     /* within 25 %, but the scene was fitted to the published numbers */
+    KOKSMA_VERDICT_NEW,     /* the paper has no number */
+    KOKSMA_VERDICT_WAITING, /* too few trials so far */
+    KOKSMA_VERDICT_AGREES,  /* the difference is within chance and rounding (|z| < 2.6), or for images within 25 % */
+    KOKSMA_VERDICT_FITTED,  /* within 25 %, but the scene was fitted to the published numbers */
     KOKSMA_VERDICT_EXPLAINED,  /* differs for a known reason */
     KOKSMA_VERDICT_UNEXPLAINED /* differs; the reason is unknown */
 } koksma_study_verdict;
