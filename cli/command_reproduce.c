@@ -130,7 +130,8 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option option_table[] = {
-    {'o', "output", "DIR", "folder for results.sqlite and report.html; an interrupted run goes on there"},
+    {'o', "output", "DIR",
+     "folder for results.sqlite, report.html and report.json; an interrupted run continues there"},
     {0, "trials", "T", "trials of every cell instead of the plan's own number"},
     {0, "quick", NULL, "every block's 'quick' number of trials, where it has one"},
     {0, "papers-only", NULL, "without the plan open-questions, which both papers together bring"},

@@ -30,7 +30,6 @@ static int put_json(void)
     put_part(rows, "plots", koksma_plot_library());
     put_part(rows, "mpi", koksma_study_mpi());
     put_part(rows, "meshes", koksma_mesh_tracer());
-    put_part(rows, "mesh_files", koksma_mesh_reader());
     cli_row_end(rows);
     return cli_rows_close(rows);
 }
@@ -40,7 +39,7 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands) {
         return cli_usage_error(arguments, "it takes no operands");
     }
-    const char *tracer = koksma_mesh_tracer(), *reader = koksma_mesh_reader();
+    const char *tracer = koksma_mesh_tracer();
     if (cli_flag(arguments, "json")) {
         return put_json();
     }
@@ -55,7 +54,6 @@ static int run(const cli_arguments *arguments)
     printf("plots: %s\n", plots ? plots : "left out (cairo)");
     printf("MPI: %s\n", mpi ? mpi : "left out");
     printf("meshes: %s\n", tracer ? tracer : "left out (Embree)");
-    printf("mesh files: %s\n", reader ? reader : "left out (assimp)");
     return CLI_YES;
 }
 

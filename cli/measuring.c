@@ -192,7 +192,7 @@ static int choose_prefixes(measuring *j, size_t n)
     }
     for (size_t i = 0; i < j->n_prefixes; i++) {
         if (j->prefixes[i] > n) {
-            return cli_usage_error(j->arguments, "%s: %zu points: the set has %zu",
+            return cli_usage_error(j->arguments, "%s: %zu points are more than the %zu of the set",
                                    j->own_sets ? "sizes" : "prefixes", j->prefixes[i], n);
         }
     }

@@ -17,7 +17,7 @@ typedef struct measuring {
     size_t n_measures;
     bool all; /* -m all: measures that can't serve a set are left out */
     uint64_t seed, trials;
-    const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the present one, or NULL */
+    const koksma_warp *warps[MAX_WARPS], *warp; /* warp: the one in use, or NULL */
     size_t n_warps;
     size_t prefixes[MAX_PREFIXES], n_prefixes;
     bool powers;   /* prefixes are the powers of two */

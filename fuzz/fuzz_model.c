@@ -18,13 +18,6 @@ static const char *place(void)
     return path;
 }
 
-/* Of some files that it refuses assimp keeps a little memory. */
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_suppressions(void)
-{
-    return "leak:libassimp\nleak:libstdc++\n"; /* its stack is not seen to the end */
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     static const char *const endings[] = {".obj", ".ply", ".off", ".gltf", ".glb"};

@@ -13,7 +13,8 @@ const widthOf = place => Math.min(Math.max(place.clientWidth, 280), 736);
 function axisOf(values, { log, zero }, from, to) {
   const usable = values.filter(v => Number.isFinite(v) && (!log || v > 0)).map(v => log ? Math.log10(v) : v);
   let low = Math.min(...usable, zero ? 0 : Infinity), high = Math.max(...usable);
-  if (!(high > low)) [low, high] = Number.isFinite(low) ? [low - 0.5, low + 0.5] : [-0.5, 0.5];
+  // Values that are equal but for their last digits have no ticks between them.
+  if (!(high - low > 1e-9 * Math.max(Math.abs(low), Math.abs(high), log ? 1 : 0))) [low, high] = Number.isFinite(low) ? [low - 0.5, low + 0.5] : [-0.5, 0.5];
   return { log, zero, low, high, from, to };
 }
 

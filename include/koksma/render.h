@@ -36,17 +36,14 @@ KOKSMA_API const char *koksma_scene_name_at(size_t i);
      name_or_path  the name of a scene in the library; or a file: JSON if the text has a '/' or ends in ".json", a
                    mesh if it ends in .obj, .ply, .off, .gltf or .glb
      out           the scene, to be closed by koksma_scene_close. It is read-only: threads may share it
-   Errors: UNKNOWN (no such name), MISSING, MALFORMED (the message names file, line, field and reason), UNSUPPORTED
-   (this build cannot read meshes), MEMORY. */
+   Errors: UNKNOWN (no such name), MISSING, MALFORMED (the message names file, line, field and reason), MEMORY. */
 KOKSMA_API koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out);
 
 /* Frees a scene; it may be NULL. */
 KOKSMA_API void koksma_scene_close(koksma_scene *scene);
 
-/* Return the libraries of this build that trace and that read triangle meshes, such as "Embree 3.13.5" and
-   "assimp 5.2.4"; NULL: there is none. */
+/* Returns the library of this build that traces triangle meshes, such as "Embree 3.13.5"; NULL: there is none. */
 KOKSMA_API const char *koksma_mesh_tracer(void);
-KOKSMA_API const char *koksma_mesh_reader(void);
 
 /* Returns the title in the scene file; may be empty. Valid until the scene is closed. */
 KOKSMA_API const char *koksma_scene_title(const koksma_scene *scene);

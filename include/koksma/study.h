@@ -100,8 +100,8 @@ typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSM
    Errors: MISSING, IO (also while a run uses the folder), MEMORY. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
-/* Writes DIR/report.html, one file that loads nothing from elsewhere. Errors: ARGUMENT (the study has no folder), IO,
-   MEMORY, INTERRUPTED. */
+/* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, which shows it: one
+   file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);
 
 /* Returns the id of published table i of the plan, such as "5.1"; NULL past the end. Valid until the study is

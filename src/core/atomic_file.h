@@ -14,11 +14,12 @@ typedef struct koksma__atomic_file {
     char *path, *temporary; /* NULL for standard output */
 } koksma__atomic_file;
 
-/* Opens the temporary file for writing; "-" is standard output. temporary may be handed to a library that wants
-   a name; it then overwrites what the open made. */
+/* Opens a temporary file beside path for writing; "-" is standard output. A library that wants a file name may be given
+   `temporary`; it then overwrites the empty file. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file);
 
-/* With keep: flushes, syncs and renames; without, or when that fails: removes the temporary. Releases all. */
+/* Closes the file. If keep is true it is flushed, synced and renamed to its path; if keep is false, or one of these
+   steps fails, the temporary file is removed. Frees the struct's memory in either case. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
 
 #endif

@@ -34,6 +34,14 @@ double koksma__strtod(const char *text, char **end)
     return value;
 }
 
+float koksma__strtof(const char *text, char **end)
+{
+    const locale_t before = enter();
+    const float value = strtof(text, end);
+    uselocale(before);
+    return value;
+}
+
 int koksma__vsnprintf(char *text, size_t size, const char *format, va_list arguments)
 {
     const locale_t before = enter();

@@ -210,6 +210,32 @@ koksma__json_node koksma__json_root(const koksma__json *document)
     return (koksma__json_node){.document = document, .value = document->root};
 }
 
+/* Writes the other spelling of a key to other: "centre" and "colour" are British, "center" and "color" American, also as
+   parts of a key. False: the key has one spelling only. This is the one place where files may use both. */
+static bool other_spelling(const char *key, char *other, size_t size)
+{
+    static const char *const spellings[][2] = {{"centre", "center"}, {"colour", "color"}};
+    for (size_t i = 0; i < 2; i++) {
+        for (int american = 0; american < 2; american++) {
+            const char *from = spellings[i][american], *at = strstr(key, from);
+            if (at) {
+                snprintf(other, size, "%.*s%s%s", (int)(at - key), key, spellings[i][1 - american],
+                         at + strlen(from));
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* The member of an object whose key has this spelling, or the other one; NULL: there is none. */
+static const json_t *find(const json_t *object, const char *key)
+{
+    char other[KOKSMA__JSON_PATH];
+    const json_t *value = json_object_get(object, key);
+    return value || !other_spelling(key, other, sizeof other) ? value : json_object_get(object, other);
+}
+
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
 {
     if (!json_is_object((const json_t *)node->value)) {
@@ -219,16 +245,21 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
     json_t *value;
     json_object_foreach((json_t *)(uintptr_t)node->value, key, value)
     {
+        char other[KOKSMA__JSON_PATH] = "";
+        const bool two = other_spelling(key, other, sizeof other);
         int i = 0;
-        while (keys[i] && strcmp(keys[i], key) != 0) {
+        while (keys[i] && strcmp(keys[i], key) != 0 && (!two || strcmp(keys[i], other) != 0)) {
             i++;
         }
-        if (!keys[i]) {
+        const bool twice = two && json_object_get(node->value, other);
+        if (!keys[i] || twice) {
             koksma__json_node member = *node;
             if (koksma__json_member(node, key, &member)) {
                 return KOKSMA_MALFORMED;
             }
-            return koksma__json_fail(&member, "unknown field");
+            return twice ? koksma__json_fail(
+                               &member, "'%s' is the same field in the other spelling; remove one of them", other)
+                         : koksma__json_fail(&member, "unknown field");
         }
     }
     return KOKSMA_OK;
@@ -246,12 +277,12 @@ bool koksma__json_is_text(const koksma__json_node *node)
 
 bool koksma__json_is_object_at(const koksma__json_node *node, const char *key)
 {
-    return json_is_object(json_object_get(node->value, key));
+    return json_is_object(find(node->value, key));
 }
 
 bool koksma__json_has(const koksma__json_node *node, const char *key)
 {
-    return json_object_get(node->value, key) != NULL;
+    return find(node->value, key) != NULL;
 }
 
 /* The node below the parent; its path is still the caller's to write. */
@@ -267,7 +298,7 @@ static koksma__json_node below(const koksma__json_node *parent, const json_t *va
 
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
 {
-    const json_t *value = json_object_get(node->value, key);
+    const json_t *value = find(node->value, key);
     if (!json_is_object((const json_t *)node->value)) {
         return koksma__json_fail(node, "it takes an object, {…}");
     }
@@ -275,6 +306,10 @@ koksma_status koksma__json_member(const koksma__json_node *node, const char *key
         return koksma__json_fail(node, "field '%s' is missing", key);
     }
     const koksma__json_node parent = *node;
+    char other[KOKSMA__JSON_PATH];
+    if (!json_object_get(parent.value, key) && other_spelling(key, other, sizeof other)) {
+        key = other;
+    }
     void *here = json_object_iter_at((json_t *)(uintptr_t)parent.value, key);
     *out = below(&parent, value, json_object_iter_key(here), 0);
     snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", key);

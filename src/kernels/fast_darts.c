@@ -145,7 +145,7 @@ static size_t open_small_quarters(const koksma__dart_cells *c, int32_t low, uint
 {
     const koksma__dart_cells own = *c;
     const uint32_t half = KOKSMA__PLACE_UNITS / 4 >> own.level;
-    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* of a square's cell */
+    const uint32_t mask = ~(((1u << own.level) - 1) * 0x10001); /* keeps the bits of a square's cell */
     uint32_t cell = UINT32_MAX, around[40];
     size_t kept = 0, count = 0;
     bool full = false;

@@ -10,7 +10,7 @@ void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, dou
 bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
                             double *spare_im);
 
-/* As many rows at once as there are registers for; vectors that lie anywhere. */
+/* A step transforms as many rows at once as fit into the registers. Type `loose` is a vector without alignment. */
 enum { VECTORS = LANES / LANES64, GROUP = LANES64 == 8 ? 8 : LANES64 / 2 };
 typedef double loose __attribute__((vector_size(8 * LANES64), aligned(8), may_alias));
 

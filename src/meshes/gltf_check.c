@@ -1,34 +1,31 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * glTF 2 before assimp sees it: every number that names another thing is in range, every piece lies within what holds
- * it, and nodes are trees. assimp takes some of that on trust. gltf_indices.c looks into the buffers; the file's
- * other errors are left to assimp.
+ * Whether the parts of a glTF file fit together, before anything is made of them: every number that names another
+ * thing is in range, every piece lies within what holds it, and nodes are trees. So the other gltf_*.c files take
+ * items and bytes without looking again; what is in the buffers they check themselves. Linear in the size of the
+ * JSON. Specification: Khronos, "glTF 2.0" (2021).
  */
+#include "meshes/gltf_check.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "meshes/gltf.h"
 
 typedef koksma__json_node field;
 
 #define MAX_BYTES ((long long)1 << 30)
 
-typedef struct lists {
-    field root;
-    size_t buffers, views, accessors, meshes, nodes, materials, cameras, images, textures, samplers, skins, scenes;
-} lists;
-
 /* Calls f for every item of the list. */
-static koksma_status each(const lists *l, const field *object, const char *key,
-                          koksma_status (*f)(const lists *l, const field *item))
+static koksma_status each(const koksma__gltf *g, const field *object, const char *key,
+                          koksma_status (*f)(const koksma__gltf *g, const field *item))
 {
     field list;
     size_t n;
     koksma_status status = koksma__gltf_list(object, key, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         const field item = koksma__json_item(&list, i);
-        status = f(l, &item);
+        status = f(g, &item);
     }
     return status;
 }
@@ -51,35 +48,26 @@ static koksma_status bytes(const field *object, const char *key, bool needed, lo
     return koksma__json_get_whole(object, key, needed, 0, MAX_BYTES, out);
 }
 
-/* Item i of a list of the root. */
-static koksma_status item_of(const lists *l, const char *key, long long i, field *out)
-{
-    field list;
-    const koksma_status status = koksma__json_member(&l->root, key, &list);
-    if (!status) {
-        *out = koksma__json_item(&list, (size_t)i);
-    }
-    return status;
-}
-
-static koksma_status check_buffer(const lists *l, const field *f)
+static koksma_status check_buffer(const koksma__gltf *g, const field *f)
 {
     long long length;
-    (void)l;
+    (void)g;
     return bytes(f, "byteLength", true, &length);
 }
 
-static koksma_status check_view(const lists *l, const field *f)
+static koksma_status check_view(const koksma__gltf *g, const field *f)
 {
     long long number = 0, offset = 0, length = 0, room = 0, stride = 0;
     field buffer;
-    koksma_status status = names(f, "buffer", "buffer", l->buffers);
+    koksma_status status = names(f, "buffer", "buffer", g->n[KOKSMA__GLTF_BUFFERS]);
     status = status ? status : koksma__json_get_whole(f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number);
     status = status ? status : bytes(f, "byteOffset", false, &offset);
     status = status ? status : bytes(f, "byteLength", true, &length);
     status = status ? status : bytes(f, "byteStride", false, &stride);
-    status = status ? status : item_of(l, "buffers", number, &buffer);
-    status = status ? status : bytes(&buffer, "byteLength", true, &room);
+    if (!status) {
+        buffer = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, (size_t)number);
+        status = bytes(&buffer, "byteLength", true, &room);
+    }
     if (!status && (offset + length > room || stride > 252)) {
         return koksma__json_fail(f, "%lld bytes from %lld on lie beyond a buffer of %lld, or a stride above 252",
                                  length, offset, room);
@@ -106,12 +94,12 @@ static long long element_size(const char *type, long long component)
     return 0;
 }
 
-static koksma_status check_accessor(const lists *l, const field *f)
+static koksma_status check_accessor(const koksma__gltf *g, const field *f)
 {
     long long number = 0, offset = 0, count = 0, component = 0, room = 0, stride = 0;
     const char *type = "";
     field view;
-    koksma_status status = names(f, "bufferView", "buffer view", l->views);
+    koksma_status status = names(f, "bufferView", "buffer view", g->n[KOKSMA__GLTF_VIEWS]);
     status = status ? status : bytes(f, "byteOffset", false, &offset);
     status = status ? status : koksma__json_get_whole(f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &count);
     status = status ? status : koksma__json_get_whole(f, "componentType", true, 5120, 5126, &component);
@@ -127,8 +115,11 @@ static koksma_status check_accessor(const lists *l, const field *f)
         return status;
     }
     status = koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    status = status ? status : item_of(l, "bufferViews", number, &view);
-    status = status ? status : bytes(&view, "byteLength", true, &room);
+    if (status) {
+        return status;
+    }
+    view = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, (size_t)number);
+    status = bytes(&view, "byteLength", true, &room);
     status = status ? status : bytes(&view, "byteStride", false, &stride);
     stride = stride > size ? stride : size;
     if (!status && offset + (count - 1) * stride + size > room) {
@@ -137,16 +128,16 @@ static koksma_status check_accessor(const lists *l, const field *f)
     return status;
 }
 
-static koksma_status check_primitive(const lists *l, const field *f)
+static koksma_status check_primitive(const koksma__gltf *g, const field *f)
 {
     static const char *const attributes[] = {"POSITION",   "NORMAL",  "TANGENT",  "TEXCOORD_0",
                                              "TEXCOORD_1", "COLOR_0", "JOINTS_0", "WEIGHTS_0"};
     field list;
-    koksma_status status = names(f, "indices", "accessor", l->accessors);
-    status = status ? status : names(f, "material", "material", l->materials);
+    koksma_status status = names(f, "indices", "accessor", g->n[KOKSMA__GLTF_ACCESSORS]);
+    status = status ? status : names(f, "material", "material", g->n[KOKSMA__GLTF_MATERIALS]);
     status = status ? status : koksma__json_member(f, "attributes", &list);
     for (size_t i = 0; !status && i < sizeof attributes / sizeof *attributes; i++) {
-        status = names(&list, attributes[i], "accessor", l->accessors);
+        status = names(&list, attributes[i], "accessor", g->n[KOKSMA__GLTF_ACCESSORS]);
     }
     if (!status && koksma__json_has(f, "targets")) {
         return koksma__json_fail(f, "morph targets are not read");
@@ -154,69 +145,69 @@ static koksma_status check_primitive(const lists *l, const field *f)
     return status;
 }
 
-static koksma_status check_mesh(const lists *l, const field *f)
+static koksma_status check_mesh(const koksma__gltf *g, const field *f)
 {
-    return each(l, f, "primitives", check_primitive);
+    return each(g, f, "primitives", check_primitive);
 }
 
-static koksma_status check_texture(const lists *l, const field *f)
+static koksma_status check_texture(const koksma__gltf *g, const field *f)
 {
-    const koksma_status status = names(f, "source", "image", l->images);
-    return status ? status : names(f, "sampler", "sampler", l->samplers);
+    const koksma_status status = names(f, "source", "image", g->n[KOKSMA__GLTF_IMAGES]);
+    return status ? status : names(f, "sampler", "sampler", g->n[KOKSMA__GLTF_SAMPLERS]);
 }
 
 /* The texture of that member of a material, or of a part of it. */
-static koksma_status check_texture_of(const lists *l, const field *f, const char *key)
+static koksma_status check_texture_of(const koksma__gltf *g, const field *f, const char *key)
 {
     field info;
     if (!koksma__json_is_object_at(f, key)) {
         return KOKSMA_OK;
     }
     const koksma_status status = koksma__json_member(f, key, &info);
-    return status ? status : names(&info, "index", "texture", l->textures);
+    return status ? status : names(&info, "index", "texture", g->n[KOKSMA__GLTF_TEXTURES]);
 }
 
-static koksma_status check_material(const lists *l, const field *f)
+static koksma_status check_material(const koksma__gltf *g, const field *f)
 {
     field metal;
-    koksma_status status = check_texture_of(l, f, "normalTexture");
-    status = status ? status : check_texture_of(l, f, "occlusionTexture");
-    status = status ? status : check_texture_of(l, f, "emissiveTexture");
+    koksma_status status = check_texture_of(g, f, "normalTexture");
+    status = status ? status : check_texture_of(g, f, "occlusionTexture");
+    status = status ? status : check_texture_of(g, f, "emissiveTexture");
     if (status || !koksma__json_is_object_at(f, "pbrMetallicRoughness")) {
         return status;
     }
     status = koksma__json_member(f, "pbrMetallicRoughness", &metal);
-    status = status ? status : check_texture_of(l, &metal, "baseColorTexture");
-    return status ? status : check_texture_of(l, &metal, "metallicRoughnessTexture");
+    status = status ? status : check_texture_of(g, &metal, "baseColorTexture");
+    return status ? status : check_texture_of(g, &metal, "metallicRoughnessTexture");
 }
 
-static koksma_status check_image(const lists *l, const field *f)
+static koksma_status check_image(const koksma__gltf *g, const field *f)
 {
-    return names(f, "bufferView", "buffer view", l->views);
+    return names(f, "bufferView", "buffer view", g->n[KOKSMA__GLTF_VIEWS]);
 }
 
-static koksma_status check_node(const lists *l, const field *f)
+static koksma_status check_node(const koksma__gltf *g, const field *f)
 {
-    koksma_status status = names(f, "mesh", "mesh", l->meshes);
-    status = status ? status : names(f, "camera", "camera", l->cameras);
-    return status ? status : names(f, "skin", "skin", l->skins);
+    koksma_status status = names(f, "mesh", "mesh", g->n[KOKSMA__GLTF_MESHES]);
+    status = status ? status : names(f, "camera", "camera", g->n[KOKSMA__GLTF_CAMERAS]);
+    return status ? status : names(f, "skin", "skin", g->n[KOKSMA__GLTF_SKINS]);
 }
 
 /* Every node has one parent at most, and the roots of scenes have none: then no way leads round. */
-static koksma_status check_tree(const lists *l, unsigned char *has_parent)
+static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent)
 {
     field nodes, scenes, list;
     size_t n, n_scenes = 0;
-    koksma_status status = koksma__gltf_list(&l->root, "nodes", &nodes, &n);
+    koksma_status status = koksma__gltf_list(&g->root, "nodes", &nodes, &n);
     for (int pass = 0; !status && pass < 2; pass++) {
-        status = pass ? koksma__gltf_list(&l->root, "scenes", &scenes, &n_scenes) : KOKSMA_OK;
-        for (size_t i = 0; !status && i < (pass ? n_scenes : l->nodes); i++) {
+        status = pass ? koksma__gltf_list(&g->root, "scenes", &scenes, &n_scenes) : KOKSMA_OK;
+        for (size_t i = 0; !status && i < (pass ? n_scenes : g->n[KOKSMA__GLTF_NODES]); i++) {
             const field item = koksma__json_item(pass ? &scenes : &nodes, i);
             status = koksma__gltf_list(&item, pass ? "nodes" : "children", &list, &n);
             for (size_t c = 0; !status && c < n; c++) {
                 const field child = koksma__json_item(&list, c);
                 long long number = 0;
-                status = koksma__json_whole(&child, 0, (long long)l->nodes - 1, &number);
+                status = koksma__json_whole(&child, 0, (long long)g->n[KOKSMA__GLTF_NODES] - 1, &number);
                 if (!status && has_parent[number]) {
                     return koksma__json_fail(&child, pass ? "node %lld has a parent" : "node %lld has two parents",
                                              number);
@@ -228,97 +219,59 @@ static koksma_status check_tree(const lists *l, unsigned char *has_parent)
     return status;
 }
 
-static koksma_status check_root(const field *root)
+/* A reader that lacks one of these must not show the file (glTF 2.0, section 3.12). */
+static koksma_status check_extension(const koksma__gltf *g, const field *item)
 {
-    lists l = {.root = *root};
-    const struct {
+    static const char *const known[] = {"KHR_lights_punctual", "KHR_materials_emissive_strength"};
+    const char *name;
+    const koksma_status status = koksma__json_text(item, &name);
+    (void)g;
+    for (size_t i = 0; !status && i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(name, known[i])) {
+            return KOKSMA_OK;
+        }
+    }
+    return status ? status : koksma__json_fail(item, "the file requires extension '%s', which is not read", name);
+}
+
+koksma_status koksma__gltf_check(koksma__gltf *g)
+{
+    static const struct {
         const char *key;
-        size_t *n;
-        koksma_status (*check)(const lists *l, const field *item);
-    } all[] = {{"buffers", &l.buffers, check_buffer},
-               {"bufferViews", &l.views, check_view},
-               {"accessors", &l.accessors, check_accessor},
-               {"materials", &l.materials, check_material},
-               {"cameras", &l.cameras, NULL},
-               {"samplers", &l.samplers, NULL},
-               {"skins", &l.skins, NULL},
-               {"scenes", &l.scenes, NULL},
-               {"images", &l.images, check_image},
-               {"textures", &l.textures, check_texture},
-               {"meshes", &l.meshes, check_mesh},
-               {"nodes", &l.nodes, check_node}};
-    field asset, list;
+        koksma_status (*check)(const koksma__gltf *g, const field *item);
+    } all[KOKSMA__GLTF_LISTS] = {[KOKSMA__GLTF_BUFFERS] = {"buffers", check_buffer},
+                                 [KOKSMA__GLTF_VIEWS] = {"bufferViews", check_view},
+                                 [KOKSMA__GLTF_ACCESSORS] = {"accessors", check_accessor},
+                                 [KOKSMA__GLTF_MATERIALS] = {"materials", check_material},
+                                 [KOKSMA__GLTF_CAMERAS] = {"cameras", NULL},
+                                 [KOKSMA__GLTF_SAMPLERS] = {"samplers", NULL},
+                                 [KOKSMA__GLTF_SKINS] = {"skins", NULL},
+                                 [KOKSMA__GLTF_SCENES] = {"scenes", NULL},
+                                 [KOKSMA__GLTF_IMAGES] = {"images", check_image},
+                                 [KOKSMA__GLTF_TEXTURES] = {"textures", check_texture},
+                                 [KOKSMA__GLTF_MESHES] = {"meshes", check_mesh},
+                                 [KOKSMA__GLTF_NODES] = {"nodes", check_node}};
+    const field *root = &g->root;
+    field asset;
     const char *version = "";
     koksma_status status = koksma__json_member(root, "asset", &asset);
     status = status ? status : koksma__json_get_text(&asset, "version", true, &version);
     if (!status && version[0] != '2') {
         return koksma__json_fail(&asset, "glTF %.16s: only glTF 2 is read", version);
     }
-    for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
-        status = koksma__gltf_list(root, all[i].key, &list, all[i].n);
+    for (int i = 0; !status && i < KOKSMA__GLTF_LISTS; i++) {
+        status = koksma__gltf_list(root, all[i].key, &g->lists[i], &g->n[i]);
     }
-    status = status ? status : names(root, "scene", "scene", l.scenes);
-    for (size_t i = 0; !status && i < sizeof all / sizeof *all; i++) {
-        status = all[i].check ? each(&l, root, all[i].key, all[i].check) : KOKSMA_OK;
+    status = status ? status : each(g, root, "extensionsRequired", check_extension);
+    status = status ? status : names(root, "scene", "scene", g->n[KOKSMA__GLTF_SCENES]);
+    for (int i = 0; !status && i < KOKSMA__GLTF_LISTS; i++) {
+        status = all[i].check ? each(g, root, all[i].key, all[i].check) : KOKSMA_OK;
     }
-    if (status) {
-        return status;
-    }
-    unsigned char *has_parent = calloc(l.nodes + 1, 1);
+    unsigned char *has_parent = status ? NULL : calloc(g->n[KOKSMA__GLTF_NODES] + 1, 1);
     if (!has_parent) {
-        return koksma__fail_memory(l.nodes);
+        return status ? status : koksma__fail_memory(g->n[KOKSMA__GLTF_NODES]);
     }
-    status = check_tree(&l, has_parent);
+    status = check_tree(g, has_parent);
     free(has_parent);
     return status;
-}
-
-static size_t number_at(const unsigned char *at)
-{
-    return at[0] | (size_t)at[1] << 8 | (size_t)at[2] << 16 | (size_t)at[3] << 24;
-}
-
-koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out)
-{
-    koksma__json *document;
-    const unsigned char *text = file;
-    const unsigned char *bin = NULL;
-    size_t length = size, bin_size = 0;
-    if (size >= 4 && !memcmp(file, "glTF", 4)) { /* binary: a head, then pieces with their length and kind */
-        if (size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
-            number_at(file + 12) > size - 20) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: no glTF 2 in its binary form, or cut short", path);
-        }
-        text = file + 20;
-        length = number_at(file + 12);
-        const size_t next = 20 + length;
-        if (number_at(file + 8) != size ||
-            (next < size && (size - next < 8 || number_at(file + next) > size - next - 8))) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
-        }
-        if (next < size && length % 4) { /* assimp looks for the second one at a multiple of 4 */
-            return koksma__fail(KOKSMA_MALFORMED, "%s: its first piece has %zu bytes, no multiple of 4", path,
-                                length);
-        }
-        if (next < size && !memcmp(file + next + 4, "BIN", 4)) {
-            bin = file + next + 8;
-            bin_size = number_at(file + next);
-        }
-    }
-    koksma_status status = koksma__json_open("glTF", path, (const char *)text, length, &document);
-    if (!status) {
-        const field root = koksma__json_root(document);
-        status = check_root(&root);
-        status = status ? status : koksma__gltf_facts(&root, out);
-        status = status ? status : koksma__gltf_check_indices(path, &root, bin, bin_size);
-    }
-    koksma__json_close(document);
-    return status;
-}
-
-koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size)
-{
-    koksma__gltf idle;
-    koksma__gltf_init(&idle);
-    return koksma__gltf_read(path, file, size, &idle);
 }

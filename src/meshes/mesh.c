@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Triangle meshes: memory, what is checked of them, smooth normals, hashes; and the matrices of their placements.
+ * Smooth normals sum the areas of the triangles around a place, which a hash table of the places finds in linear
+ * time.
+ */
 #include "meshes/mesh.h"
 
 #include <math.h>
@@ -59,7 +64,7 @@ static koksma_status check_vertices(koksma__mesh *m)
         m->high[k] = -INFINITY;
     }
     for (size_t i = 0; i < 3 * m->n_vertices; i++) {
-        const double x = (double)m->vertices[i];
+        const double x = (double)(m->vertices[i] += 0.0f); /* -0 and 0 are one place */
         if (!(fabs(x) <= FAR)) {
             return koksma__fail(KOKSMA_MALFORMED, "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i / 3,
                                 x);
@@ -78,7 +83,7 @@ static koksma_status check_vertices(koksma__mesh *m)
         double v[3] = {(double)n[0], (double)n[1], (double)n[2]};
         const bool whole = isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && koksma__normalise(v);
         for (size_t k = 0; k < 3; k++) {
-            n[k] = whole ? (float)v[k] : 0; /* none: the triangle's own is taken */
+            n[k] = whole ? (float)v[k] + 0.0f : 0; /* none: the triangle's own is taken */
         }
     }
     return KOKSMA_OK;
@@ -230,6 +235,13 @@ void koksma__normal_matrix(const double m[12], double out[9])
     for (int i = 0; i < 9; i++) {
         out[i] = ldexp(out[i], -exponent);
     }
+}
+
+bool koksma__matrix_mirrors(const double m[12])
+{
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+               m[2] * (m[4] * m[9] - m[5] * m[8]) <
+           0;
 }
 
 /* The determinant over the columns' lengths: the volume of the parallelepiped over that of a box with its edges. Its

@@ -56,6 +56,9 @@ void koksma__placement_matrix(const double translate[3], const double rotate_deg
    determinant, or rather over a power of 2: the largest is within [0.5, 1). All are 0 where the rank is below 2. */
 void koksma__normal_matrix(const double matrix[12], double out[9]);
 
+/* Whether it swaps left and right: then it turns counterclockwise triangles into clockwise ones. */
+bool koksma__matrix_mirrors(const double matrix[12]);
+
 /* Whether it leaves no volume of anything. */
 bool koksma__matrix_flattens(const double matrix[12]);
 
@@ -75,38 +78,5 @@ typedef struct koksma__unread {
     size_t libraries, materials;   /* material files that are not there; materials that no such file makes */
     char library[256], material[256]; /* the first of each */
 } koksma__unread;
-
-/* A light at a node. */
-typedef struct koksma__gltf_light {
-    bool far_away;
-    double colour[3], matrix[12]; /* times the intensity; of the node */
-} koksma__gltf_light;
-
-/* What assimp 5.2 does not tell of a glTF file, or tells otherwise. */
-enum { KOKSMA__GLTF_MATERIALS = 1024, KOKSMA__GLTF_LIGHTS = 256 };
-typedef struct koksma__gltf {
-    double yfov_rad;                          /* of the camera; 0: there is none */
-    double camera[12];                        /* its node's matrix */
-    double strengths[KOKSMA__GLTF_MATERIALS]; /* of emission, by material (KHR_materials_emissive_strength) */
-    size_t n_lights;                          /* which may be more than there is room for */
-    koksma__gltf_light lights[KOKSMA__GLTF_LIGHTS];
-    koksma__unread unread; /* all but vertex colours and what is see-through */
-} koksma__gltf;
-
-/* What holds where a file says nothing. */
-void koksma__gltf_init(koksma__gltf *gltf);
-
-/* Whether a glTF file's parts fit together; path is for errors. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__gltf_check(const char *path, const unsigned char *file, size_t size);
-
-/* The same, and what it tells; what the file does not say is left as it is. */
-koksma_status koksma__gltf_read(const char *path, const unsigned char *file, size_t size, koksma__gltf *out);
-
-/* Whether a file of this name (.obj .ply .off .gltf .glb) is a mesh's. */
-bool koksma__is_mesh_file(const char *path);
-
-/* mesh_assimp.c: all triangles of a file as one mesh. Errors: MISSING, MALFORMED, UNSUPPORTED (this build has no
- * reader), MEMORY. */
-koksma_status koksma__mesh_read(const char *path, koksma__mesh *out);
 
 #endif

@@ -1,12 +1,102 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Mesh files before assimp sees them. */
+/* What a mesh file holds, as plain data: meshes, materials, where nodes place the meshes, lights and a camera. The
+   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, gltf_*.c) fill it in one pass over the file;
+   scene/model_build.c makes a scene of it, koksma__mesh_read() one mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 
 #include "core/read_file.h"
-#include "image/formats.h"
 #include "meshes/mesh.h"
-#include "json/json.h"
+
+/* An array that grows to twice its capacity. */
+typedef struct koksma__list {
+    void *items;
+    size_t n, capacity;
+} koksma__list;
+
+/* The first of `more` new items at the list's end, zeroed, until the next call; NULL when memory runs out, which is
+   the error's text then. */
+void *koksma__list_add(koksma__list *list, size_t more, size_t item_size);
+
+/* A texture that a material names: a file beside the model, or, `within`, bytes that the model holds. */
+typedef struct koksma__file_texture {
+    char *name; /* owned; NULL: there is no texture */
+    bool within;
+    const unsigned char *bytes; /* NULL: the model holds it in a way that is not read */
+    size_t size;
+} koksma__file_texture;
+
+/* Textures are multiplied by colour and glow. */
+typedef struct koksma__file_material {
+    float colour[3], metallic, roughness;
+    double glow[3];
+    koksma__file_texture colour_map, glow_map;
+    bool see_through;
+} koksma__file_material;
+
+/* A mesh in its file's coordinates, not yet checked, and the number of its material. */
+typedef struct koksma__file_mesh {
+    koksma__mesh mesh;
+    size_t material;
+} koksma__file_mesh;
+
+/* Mesh number `mesh` at matrix. */
+typedef struct koksma__file_placement {
+    size_t mesh;
+    double matrix[12];
+} koksma__file_placement;
+
+/* A light at a node: a point at its origin, or, far_away, parallel light down its -z. */
+typedef struct koksma__file_light {
+    bool far_away;
+    double colour[3], matrix[12]; /* colour times intensity; the node's matrix */
+} koksma__file_light;
+
+typedef struct koksma__mesh_file {
+    const char *path;
+    uint64_t hash; /* the sum of the hashes of all files that were read, as often as stored studies count them */
+    koksma__list meshes, materials, placements, lights;
+    size_t n_vertices, n_triangles; /* of all meshes */
+    double yfov_rad, camera[12];    /* of the camera; yfov_rad 0: there is none */
+    koksma__unread unread;
+    koksma__list owned; /* blocks of memory that textures' bytes lie in */
+} koksma__mesh_file;
+
+/* Frees all that the file owns. */
+void koksma__mesh_file_fini(koksma__mesh_file *file);
+
+/* Items by number. */
+static inline koksma__file_mesh *koksma__file_mesh_at(const koksma__mesh_file *f, size_t i)
+{
+    return (koksma__file_mesh *)f->meshes.items + i;
+}
+static inline koksma__file_material *koksma__file_material_at(const koksma__mesh_file *f, size_t i)
+{
+    return (koksma__file_material *)f->materials.items + i;
+}
+static inline koksma__file_placement *koksma__file_placement_at(const koksma__mesh_file *f, size_t i)
+{
+    return (koksma__file_placement *)f->placements.items + i;
+}
+
+/* One more mesh, which the file takes over even when it fails. The vertices and triangles of a file's meshes together
+   are at most as many as a mesh may have, so that a small file that names one mesh many times can't fill the memory.
+   Errors: MALFORMED, MEMORY. */
+koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
+
+/* One more placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */
+koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix);
+
+/* One more material: Lambert of this grey. *out holds until the next call. Errors: MEMORY. */
+koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out);
+
+/* Adds a fan of triangles around the polygon's first corner to a list of 3 indices a triangle: exact for convex
+   polygons; of a concave one some triangles may reach outside of it or overlap. Errors, which name path: MALFORMED
+   (too many triangles), MEMORY. */
+koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uint32_t *corners, size_t n);
+
+/* Hands the list's indices over to a mesh without triangles. */
+void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
 
 /* Whether there is a file that is no folder, device or the like. */
 bool koksma__is_plain_file(const char *path);
@@ -14,35 +104,5 @@ bool koksma__is_plain_file(const char *path);
 /* The plain file beside the model that a model names: as it stands there, or with its %20 and the like decoded (names
    in glTF are URIs: RFC 3986, section 2.1), or with \ taken for / (OBJ files of Windows). false: there is none. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
-
-/* The same, where the model's folder has been put before the name. */
-bool koksma__find_part(const char *model, const char *path, char out[KOKSMA__MAX_PATH]);
-
-/* A file as assimp is to have it, and what it doesn't tell. */
-typedef struct koksma__mesh_source {
-    koksma__bytes bytes;
-    uint64_t hash; /* of the file as it is */
-    koksma__gltf gltf;
-} koksma__mesh_source;
-
-/* Whether a file's name is a mesh's, it is a plain file, and its parts fit together; of a glTF file also what it
-   says, of others what holds where nothing is said. The caller frees the bytes. Errors: MISSING, MALFORMED, MEMORY.
- */
-koksma_status koksma__mesh_file_open(const char *path, koksma__mesh_source *out);
-
-/* A file that a mesh file names: as it is, but for a material file. The caller frees the bytes. Errors: MISSING,
-   MALFORMED, MEMORY. */
-koksma_status koksma__mesh_part_open(const char *path, koksma__bytes *out, uint64_t *hash);
-
-/* Whether a file has what it says; into out, which may be left empty where the file will do, goes what assimp reads
-   rightly. Errors: MALFORMED, MEMORY. */
-koksma_status koksma__off_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
-koksma_status koksma__ply_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
-koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
-                                koksma__bytes *out);
-koksma_status koksma__mtl_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out);
-
-/* The bytes of UTF-8's mark at the beginning: 0 or 3. */
-size_t koksma__byte_order_mark(const unsigned char *file, size_t size);
 
 #endif

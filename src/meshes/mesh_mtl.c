@@ -1,94 +1,256 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* OBJ's material files before assimp reads them: text of lines of a sane length, and colours that are finite. What it
-   gets has neither a byte order mark nor blanks before keywords, and colours with all three numbers: it would take a
-   missing one for 0, where the format repeats the first.
-   Format: Wavefront's "Advanced Visualizer Manual", section 2.3. */
+/*
+ * OBJ's material files. A line is a keyword and its values; "newmtl NAME" begins a material, or goes on with one that
+ * has the name. Read are Kd (colour), Ke (emission), d and Tr (opaque or not), Pm and Pr (metallic, roughness),
+ * map_Kd and map_Ke or map_emissive (textures, whose options are passed over); other keywords say nothing about what
+ * is rendered here. A colour is one to three numbers; the missing ones are as the first. Format: Wavefront's
+ * "Advanced Visualizer Manual", section 2.3 (Pm, Pr and map_Ke: the PBR extension of 2013).
+ */
+#include "meshes/mesh_mtl.h"
+
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
+#include <strings.h>
 
-#include "core/c_locale.h"
-#include "core/status.h"
-#include "meshes/mesh_file.h"
+#include "core/hash.h"
+#include "meshes/mesh_text.h"
 
-enum { MAX_NAME = 1000 /* assimp's strings end at 1024 */ };
+enum { MAX_LINE = 1000, SLOTS = 64 };
 
-typedef struct mtl {
-    const char *path;
-    size_t number; /* of the line */
-    koksma__bytes *out;
-    char line[MAX_NAME + 1];
-} mtl;
+/* ---- Names -------------------------------------------------------------------------------------------------- */
 
-static koksma_status wrong(const mtl *m, const char *reason)
+static koksma__mtl_name *name_at(const koksma__mtl_names *names, size_t i)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %s", m->path, m->number, reason);
+    return (koksma__mtl_name *)names->names.items + i;
 }
 
-static koksma_status put(mtl *m, const char *text, size_t length)
+/* The slot of the name, or the free one that it would have. */
+static uint32_t *slot_of(const koksma__mtl_names *names, const char *name, size_t length)
 {
-    return koksma__bytes_put(m->out, m->out->size, text, length) && koksma__bytes_put(m->out, m->out->size, "\n", 1)
-               ? KOKSMA_OK
-               : koksma__fail_memory(m->out->size);
-}
-
-/* "Kd" or "Ke": one to three numbers; the missing ones are as the first. */
-static koksma_status take_colour(mtl *m, const char *word)
-{
-    char line[3 * 64 + 8];
-    const char *parts[3];
-    int lengths[3], n = 0;
-    const char *text = word + 2 + strspn(word + 2, " \t");
-    for (; n < 3 && *text && *text != '#'; n++) {
-        char *stop;
-        const double value = koksma__strtod(text, &stop);
-        const size_t length = strspn(text, "0123456789+-.eE");
-        if (!length || length > 60 || stop != text + length || !strchr(" \t", *stop) || !(fabs(value) < 1e38)) {
-            return wrong(m, "a colour is one to three numbers below 1e38");
+    size_t at = koksma__hash(name, length) & (names->n_slots - 1);
+    while (names->slots[at]) {
+        const char *other = name_at(names, names->slots[at] - 1)->name;
+        if (koksma__text_is(name, length, other)) {
+            break;
         }
-        parts[n] = text;
-        lengths[n] = (int)length;
-        text = stop + strspn(stop, " \t");
+        at = (at + 1) & (names->n_slots - 1);
     }
-    if (!n) {
-        return wrong(m, "a colour is one to three numbers below 1e38");
+    return &names->slots[at];
+}
+
+static bool make_slots(koksma__mtl_names *names)
+{
+    if (2 * (names->names.n + 1) <= names->n_slots) {
+        return true;
+    }
+    const size_t n = names->n_slots ? 2 * names->n_slots : SLOTS;
+    uint32_t *slots = calloc(n, sizeof *slots);
+    if (!slots) {
+        koksma__fail_memory(n * sizeof *slots);
+        return false;
+    }
+    free(names->slots);
+    names->slots = slots;
+    names->n_slots = n;
+    for (size_t i = 0; i < names->names.n; i++) {
+        const char *name = name_at(names, i)->name;
+        *slot_of(names, name, strlen(name)) = (uint32_t)i + 1;
+    }
+    return true;
+}
+
+koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *f, const char *name, size_t length)
+{
+    koksma__file_material *material;
+    if (!make_slots(names)) {
+        return NULL;
+    }
+    uint32_t *slot = slot_of(names, name, length);
+    if (*slot) {
+        return name_at(names, *slot - 1);
+    }
+    koksma__mtl_name *new = koksma__list_add(&names->names, 1, sizeof *new);
+    char *copy = new ? malloc(length + 1) : NULL;
+    if (!copy || koksma__file_add_material(f, 0.6f, &material)) {
+        free(copy);
+        names->names.n -= new != NULL;
+        koksma__fail_memory(length);
+        return NULL;
+    }
+    memcpy(copy, name, length);
+    copy[length] = '\0';
+    *new = (koksma__mtl_name){.name = copy, .material = f->materials.n - 1};
+    *slot = (uint32_t)names->names.n;
+    return new;
+}
+
+void koksma__mtl_names_fini(koksma__mtl_names *names)
+{
+    for (size_t i = 0; i < names->names.n; i++) {
+        free(name_at(names, i)->name);
+    }
+    free(names->names.items);
+    free(names->slots);
+}
+
+/* ---- Lines -------------------------------------------------------------------------------------------------- */
+
+/* A word that is a number below 1e38; false leaves the line's rest as it was. */
+static bool take_number(koksma__text *t, float *out)
+{
+    koksma__text after = *t;
+    const char *word;
+    size_t length;
+    float value = 0;
+    if (!koksma__text_word(&after, &word, &length) || !koksma__text_float(&word, after.at, &value) ||
+        word != after.at || !(fabsf(value) < 1e38f)) {
+        return false;
+    }
+    *out = value;
+    *t = after;
+    return true;
+}
+
+static koksma_status take_colour(koksma__text *t, float out[3])
+{
+    int n = 0;
+    const char *rest;
+    while (n < 3 && take_number(t, &out[n])) {
+        n++;
+    }
+    koksma__text span = *t;
+    const size_t left = n < 3 ? koksma__text_rest(&span, &rest) : 0;
+    if (!n || (left && *rest != '#')) {
+        return koksma__text_wrong(t, "a colour is one to three numbers below 1e38");
     }
     for (; n < 3; n++) {
-        parts[n] = parts[0];
-        lengths[n] = lengths[0];
+        out[n] = out[0];
     }
-    const int length = snprintf(line, sizeof line, "%.2s %.*s %.*s %.*s", word, lengths[0], parts[0], lengths[1],
-                                parts[1], lengths[2], parts[2]);
-    return put(m, line, (size_t)length);
+    return KOKSMA_OK;
 }
 
-static koksma_status take_line(mtl *m, const unsigned char *at, size_t length)
+/* "-s 2 1 image.png": the name behind the options. Of these -o, -s and -t have one to three numbers. */
+static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
 {
-    if (length > MAX_NAME || memchr(at, '\0', length)) {
-        return wrong(m, length > MAX_NAME ? "longer than 1000 characters" : "not text (a zero byte)");
+    static const struct {
+        const char *name;
+        int least, most;
+    } options[] = {{"-blendu", 1, 1}, {"-blendv", 1, 1}, {"-boost", 1, 1}, {"-texres", 1, 1}, {"-clamp", 1, 1},
+                   {"-bm", 1, 1},     {"-cc", 1, 1},     {"-type", 1, 1},  {"-mm", 2, 2},     {"-imfchan", 1, 1},
+                   {"-o", 1, 3},      {"-s", 1, 3},      {"-t", 1, 3}};
+    const char *word, *rest;
+    size_t length;
+    float value;
+    for (koksma__text after = *t; koksma__text_word(&after, &word, &length) && *word == '-'; after = *t) {
+        for (size_t i = 0; i < sizeof options / sizeof *options; i++) {
+            if (koksma__text_is(word, length, options[i].name)) {
+                const char *ignored;
+                size_t n;
+                for (int k = 0; k < options[i].least; k++) {
+                    koksma__text_word(&after, &ignored, &n);
+                }
+                for (int k = options[i].least; k < options[i].most && take_number(&after, &value); k++) {
+                }
+            }
+        }
+        *t = after;
     }
-    memcpy(m->line, at, length);
-    while (length && strchr(" \t\r", m->line[length - 1])) {
-        length--;
+    length = koksma__text_rest(t, &rest);
+    free(out->name);
+    *out = (koksma__file_texture){0};
+    if (!length) {
+        return KOKSMA_OK;
     }
-    m->line[length] = '\0';
-    const char *word = m->line + strspn(m->line, " \t");
-    if (*word == 'K' && (word[1] == 'd' || word[1] == 'e') && (word[2] == ' ' || word[2] == '\t' || !word[2])) {
-        return take_colour(m, word);
+    out->name = malloc(length + 1);
+    if (!out->name) {
+        return koksma__fail_memory(length);
     }
-    return *word && *word != '#' ? put(m, word, strlen(word)) : KOKSMA_OK;
+    memcpy(out->name, rest, length);
+    out->name[length] = '\0';
+    return KOKSMA_OK;
 }
 
-koksma_status koksma__mtl_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out)
+static koksma_status take_one(koksma__text *t, float *out)
 {
-    mtl m = {.path = path, .out = out};
+    return take_number(t, out) ? KOKSMA_OK : koksma__text_wrong(t, "a number below 1e38 is due");
+}
+
+/* What a line says of material m. */
+static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__file_material *m)
+{
+    float value = 1, glow[3];
     koksma_status status = KOKSMA_OK;
-    for (size_t at = koksma__byte_order_mark(file, size); !status && at < size;) {
-        const unsigned char *stop = memchr(file + at, '\n', size - at);
-        const size_t length = stop ? (size_t)(stop - file) - at : size - at;
-        m.number++;
-        status = take_line(&m, file + at, length);
-        at += length + 1;
+    if (koksma__text_is(word, length, "Kd")) {
+        return take_colour(t, m->colour);
     }
+    if (koksma__text_is(word, length, "Ke")) {
+        status = take_colour(t, glow);
+        for (int k = 0; !status && k < 3; k++) {
+            m->glow[k] = (double)glow[k];
+        }
+    } else if (koksma__text_is(word, length, "d") || koksma__text_is(word, length, "Tr")) {
+        koksma__text after = *t;
+        const char *halo;
+        size_t n;
+        *t = koksma__text_word(&after, &halo, &n) && koksma__text_is(halo, n, "-halo") ? after : *t;
+        status = take_one(t, &value);
+        m->see_through = *word == 'd' ? value < 1 : value > 0;
+    } else if (koksma__text_is(word, length, "Pm")) {
+        status = take_one(t, &m->metallic);
+    } else if (koksma__text_is(word, length, "Pr")) {
+        status = take_one(t, &m->roughness);
+    } else if (length == 6 && !strncasecmp(word, "map_Kd", 6)) {
+        return take_texture(t, &m->colour_map);
+    } else if ((length == 6 && !strncasecmp(word, "map_Ke", 6)) ||
+               (length == 12 && !strncasecmp(word, "map_emissive", 12))) {
+        return take_texture(t, &m->glow_map);
+    }
+    return status;
+}
+
+static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma__mesh_file *f, size_t *current)
+{
+    koksma__file_material idle = {0};
+    const char *word, *rest;
+    size_t length;
+    if (t->stop - t->at > MAX_LINE || memchr(t->at, '\0', (size_t)(t->stop - t->at))) {
+        return koksma__text_wrong(t, t->stop - t->at > MAX_LINE ? "longer than 1000 characters"
+                                                                : "not text (a zero byte)");
+    }
+    if (!koksma__text_word(t, &word, &length)) {
+        return KOKSMA_OK;
+    }
+    if (koksma__text_is(word, length, "newmtl")) {
+        length = koksma__text_rest(t, &rest);
+        koksma__mtl_name *name = koksma__mtl_find(names, f, rest, length);
+        if (!name) {
+            return KOKSMA_MEMORY;
+        }
+        name->made = true;
+        *current = name->material;
+        return KOKSMA_OK;
+    }
+    const bool known = *current < f->materials.n;
+    const koksma_status status =
+        take_property(t, word, length, known ? koksma__file_material_at(f, *current) : &idle);
+    free(idle.colour_map.name);
+    free(idle.glow_map.name);
+    return status;
+}
+
+koksma_status koksma__mtl_read(const char *path, koksma__mtl_names *names, koksma__mesh_file *f)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0, current = SIZE_MAX;
+    koksma_status status = koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    f->hash += koksma__hash(bytes, size);
+    koksma__text t = koksma__text_open(path, bytes, size);
+    while (!status && koksma__text_line(&t)) {
+        status = take_line(&t, names, f, &current);
+    }
+    free(bytes);
     return status;
 }

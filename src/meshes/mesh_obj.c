@@ -1,281 +1,458 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* OBJ files before assimp reads them: numbers must be numbers, and corners name vertices that are there. assimp
-   passes by lines that begin with blanks, counts no number that begins with a point, and stumbles over comments at
-   the ends of lines and a byte order mark; so it gets neither these, nor lines of keywords that nothing here is made
-   of. Formats: Wavefront's "Advanced Visualizer Manual", appendix B1 (OBJ) and 2.3 (MTL). */
-#include <ctype.h>
+/*
+ * OBJ files: polygons with their texture coordinates, normals and materials. Lines and points, curves and surfaces,
+ * and smoothing groups are not read.
+ *
+ * A corner names a vertex and maybe a texture vertex and a normal, by numbers that count from 1, or from the last one
+ * backwards if they are negative. Numbers may point forward in the file, so the corners are kept until its end and
+ * become vertices then, each its own: what OBJ shares are positions, not vertices. Polygons are fans of triangles. A
+ * new mesh begins where o or g name another object or group and where usemtl names another material; polygons before
+ * the first usemtl are grey. A mesh has normals or texture coordinates if any of its corners names one; the others'
+ * are 0.
+ *
+ * Format: Wavefront's "Advanced Visualizer Manual", appendix B1.
+ */
+#include "meshes/mesh_obj.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "core/c_locale.h"
-#include "core/status.h"
-#include "meshes/mesh_file.h"
-#include "meshes/mesh_obj_names.h"
+#include "core/hash.h"
+#include "meshes/mesh_mtl.h"
+#include "meshes/mesh_text.h"
 
-enum { MAX_LINE = 1 << 15, MAX_NAME = 1000 /* assimp's strings end at 1024 */ };
+enum { MAX_LINE = 1 << 15, MAX_LIBRARIES = 64 };
 
-/* Kinds of numbers that corners name, in their order there. */
+/* Kinds of things that corners name, in their order there. */
 enum { PLACE, TEXTURE, NORMAL, KINDS };
 
+/* Floats of a thing. */
+static const size_t widths[KINDS] = {[PLACE] = 4, [TEXTURE] = 2, [NORMAL] = 3};
+
+/* Numbers from 1 on; 0: none. */
+typedef struct corner {
+    uint32_t names[KINDS];
+} corner;
+
+/* Corners and indices of one mesh: from these on, up to the next mesh's. */
+typedef struct part {
+    size_t first_corner, first_index, material;
+    int kinds; /* that its corners name, as bits */
+} part;
+
 typedef struct obj {
-    const char *path;
-    const unsigned char *at, *end;
-    size_t number;         /* of the line that was read last */
-    size_t count[KINDS];   /* so far */
-    size_t highest[KINDS]; /* that was named, counted from 1 */
+    koksma__text text;
+    koksma__mesh_file *out;
+    koksma__list vertices[KINDS]; /* floats: x y z, and 1 for one whose colour isn't white; u v; x y z */
+    koksma__list corners, indices, parts;
+    size_t highest[KINDS]; /* that was named */
     size_t line_of[KINDS]; /* that names it first */
-    koksma__obj_names names;
-    koksma__unread *unread;
-    koksma__bytes *out;
-    char line[MAX_LINE];
+    koksma__mtl_names names;
+    koksma__list used;                 /* numbers of names in the order of their first use, a size_t each */
+    size_t material;                   /* of the polygons to come */
+    bool split;                        /* the next polygon begins a mesh */
+    uint64_t group, object;            /* hashes of their names */
+    uint64_t libraries[MAX_LIBRARIES]; /* hashes of what followed mtllib */
+    size_t n_libraries;
+    bool own_library; /* the material file of the model's own name was read */
+    char joined[MAX_LINE + 1];
 } obj;
 
 static koksma_status wrong(const obj *o, const char *reason)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %s", o->path, o->number, reason);
+    return koksma__text_wrong(&o->text, reason);
 }
 
-/* The next line without its end; one that ends in a backslash goes on in the next. */
-static koksma_status next_line(obj *o)
+/* ---- Lines -------------------------------------------------------------------------------------------------- */
+
+/* Appends lines to the current one as long as it ends in a backslash. */
+static koksma_status join_lines(obj *o)
 {
+    koksma__text *t = &o->text;
     size_t length = 0;
-    bool goes_on = true;
-    while (goes_on && o->at < o->end) {
-        const unsigned char *stop = memchr(o->at, '\n', (size_t)(o->end - o->at));
-        const size_t more = (size_t)((stop ? stop : o->end) - o->at);
-        o->number++;
+    for (;;) {
+        const size_t more = (size_t)(t->stop - t->at);
         if (more >= MAX_LINE - length) {
             return wrong(o, "longer than 32767 characters");
         }
-        if (memchr(o->at, '\0', more)) {
-            return wrong(o, "not text (a zero byte)");
-        }
-        memcpy(o->line + length, o->at, more);
+        memcpy(o->joined + length, t->at, more);
         length += more;
-        o->at = stop ? stop + 1 : o->end;
-        length -= length && o->line[length - 1] == '\r';
-        goes_on = length && o->line[length - 1] == '\\';
-        if (goes_on) {
-            o->line[length - 1] = ' ';
+        if (!length || o->joined[length - 1] != '\\') {
+            break;
+        }
+        o->joined[length - 1] = ' ';
+        if (!koksma__text_line(t)) {
+            return wrong(o, "the last line ends in a backslash");
         }
     }
-    o->line[length] = '\0';
-    return goes_on && length ? wrong(o, "the last line ends in a backslash") : KOKSMA_OK;
+    o->joined[length] = '\0';
+    t->at = o->joined;
+    t->stop = o->joined + length;
+    return KOKSMA_OK;
 }
 
-static const char *skip_blanks(const char *text)
+/* Cuts a comment at the line's end off. */
+static void cut_comment(koksma__text *t)
 {
-    return text + strspn(text, " \t");
+    const char *comment = memchr(t->at, '#', (size_t)(t->stop - t->at));
+    t->stop = comment ? comment : t->stop;
 }
 
-/* Finite numbers up to the end of the line, or of what `most` of them take; their number, or -1 where one is none. */
-static int take_numbers(const char *text, int most)
+/* ---- Vertices ----------------------------------------------------------------------------------------------- */
+
+/* Numbers up to the line's end; how many, or -1 where one is none, is not below 1e38 or there are more than most. */
+static int take_numbers(obj *o, int most, float *out)
 {
+    koksma__text *t = &o->text;
+    const char *word;
+    size_t length;
     int n = 0;
-    for (text = skip_blanks(text); *text && *text != '#' && n < most; text = skip_blanks(text), n++) {
-        const size_t length = strspn(text, "0123456789+-.eE");
-        char *stop;
-        const double value = koksma__strtod(text, &stop);
-        if (!length || stop != text + length || (*stop && *stop != ' ' && *stop != '\t') || !(fabs(value) < 1e38)) {
+    for (cut_comment(t); koksma__text_word(t, &word, &length); n++) {
+        if (n == most || !koksma__text_float(&word, t->at, &out[n]) || word != t->at || !(fabsf(out[n]) < 1e38f)) {
             return -1;
         }
-        text = stop;
     }
-    return *text && *text != '#' ? -1 : n;
+    return n;
 }
 
-static koksma_status take_vertex(obj *o, int kind, const char *text, int *count)
+static koksma_status take_vertex(obj *o, int kind)
 {
-    const int n = *count = take_numbers(text, 7);
-    o->count[kind]++;
-    if (kind == PLACE && n != 3 && n != 4 && n != 6 && n != 7) {
-        return wrong(o, "a vertex is three finite numbers, and maybe a weight and a colour");
+    static const char *const rules[KINDS] = {[PLACE] =
+                                                 "a vertex is three finite numbers, and maybe a weight and a colour",
+                                             [TEXTURE] = "a texture vertex is one to three finite numbers",
+                                             [NORMAL] = "a normal is three finite numbers"};
+    float v[7] = {0};
+    const int n = take_numbers(o, kind == PLACE ? 7 : 3, v);
+    if (n < (kind == TEXTURE ? 1 : 3) || n == 5) {
+        return wrong(o, rules[kind]);
     }
-    if (kind == TEXTURE && (n < 1 || n > 3)) {
-        return wrong(o, "a texture vertex is one to three finite numbers");
+    float *to = koksma__list_add(&o->vertices[kind], widths[kind], sizeof *to);
+    if (!to) {
+        return KOKSMA_MEMORY;
     }
-    return kind == NORMAL && n != 3 ? wrong(o, "a normal is three finite numbers") : KOKSMA_OK;
+    const float weight = kind == PLACE && (n == 4 || n == 7) ? v[3] : 1, *colour = v + n - 3;
+    if (weight == 0) {
+        return wrong(o, "a vertex of weight 0 is nowhere");
+    }
+    for (size_t k = 0; k < widths[kind] && k < 3; k++) {
+        to[k] = v[k] / weight;
+    }
+    if (n >= 6) {
+        to[3] = colour[0] != 1 || colour[1] != 1 || colour[2] != 1;
+    }
+    return KOKSMA_OK;
 }
 
-/* One number of a corner: from 1 on, or from -1 backwards. */
-static bool take_index(obj *o, int kind, const char **text)
+/* ---- Polygons ----------------------------------------------------------------------------------------------- */
+
+/* How many of a kind there are so far. */
+static size_t count_of(const obj *o, int kind)
 {
-    const bool back = **text == '-';
-    const char *digits = *text + back;
-    size_t value = 0;
-    if (!isdigit((unsigned char)*digits)) {
+    return o->vertices[kind].n / widths[kind];
+}
+
+/* One number of a corner. */
+static bool take_index(obj *o, int kind, const char **at, const char *end, uint32_t *out)
+{
+    const bool back = *at < end && **at == '-';
+    const size_t count = count_of(o, kind);
+    long long value = 0;
+    *at += back;
+    if (!koksma__text_whole(at, end, &value) || value < 1 || value >= (long long)KOKSMA__MAX_VERTICES ||
+        (back && (size_t)value > count)) {
         return false;
     }
-    for (; isdigit((unsigned char)*digits) && value < KOKSMA__MAX_VERTICES; digits++) {
-        value = 10 * value + (size_t)(*digits - '0');
+    if (!back && (size_t)value > o->highest[kind]) {
+        o->highest[kind] = (size_t)value;
+        o->line_of[kind] = o->text.number;
     }
-    *text = digits;
-    if (!back && value > o->highest[kind]) {
-        o->highest[kind] = value;
-        o->line_of[kind] = o->number;
-    }
-    return value && value < KOKSMA__MAX_VERTICES && (!back || value <= o->count[kind]);
+    *out = (uint32_t)(back ? count + 1 - (size_t)value : (size_t)value);
+    return true;
 }
 
-/* One corner: v, v/t, v//n or v/t/n, some write v/ or v//; the kinds that it names as bits, or 0 where it is none. */
-static int take_corner(obj *o, const char **text)
+/* v, v/t, v//n or v/t/n, some write v/ or v//; the kinds that it names as bits, or 0 where it is none. */
+static int take_corner(obj *o, const char *at, const char *end, corner *out)
 {
     int kinds = 0;
     for (int kind = PLACE; kind < KINDS; kind++) {
-        const bool idle = kind != PLACE && strchr("/ \t", **text); /* a blank, or the end */
-        if (!idle && !take_index(o, kind, text)) {
+        const bool idle = kind != PLACE && (at == end || *at == '/');
+        if (!idle && !take_index(o, kind, &at, end, &out->names[kind])) {
             return 0;
         }
         kinds |= idle ? 0 : 1 << kind;
-        if (**text != '/') {
+        if (at == end || *at != '/') {
             break;
         }
-        ++*text;
+        at++;
     }
-    return strchr(" \t", **text) ? kinds : 0;
+    return at == end ? kinds : 0;
 }
 
-/* Corners of a face, line or point, all alike. */
-static koksma_status take_corners(obj *o, const char *text)
+/* The mesh that the next polygon belongs to; NULL when memory runs out. */
+static part *find_part(obj *o)
 {
-    int corners = 0, first = 0;
-    for (text = skip_blanks(text); *text && *text != '#'; text = skip_blanks(text), corners++) {
-        const int kinds = take_corner(o, &text);
+    part *last = o->parts.n ? (part *)o->parts.items + o->parts.n - 1 : NULL;
+    if (last && !o->split && last->material == o->material) {
+        return last;
+    }
+    part *new = koksma__list_add(&o->parts, 1, sizeof *new);
+    if (new) {
+        *new = (part){.first_corner = o->corners.n, .first_index = o->indices.n, .material = o->material};
+        o->split = false;
+    }
+    return new;
+}
+
+/* Corners of a face, line or point, all alike; of a face they become triangles. */
+static koksma_status take_corners(obj *o, bool face)
+{
+    koksma__text *t = &o->text;
+    const size_t before = o->corners.n;
+    const char *word;
+    size_t length;
+    int first = 0;
+    for (cut_comment(t); koksma__text_word(t, &word, &length);) {
+        corner *to = koksma__list_add(&o->corners, 1, sizeof *to);
+        const int kinds = to ? take_corner(o, word, t->at, to) : 0;
         if (!kinds) {
-            return wrong(o, "a corner is v, v/t, v//n or v/t/n, numbers of vertices that are there");
+            return to ? wrong(o, "a corner is v, v/t, v//n or v/t/n, numbers of vertices that are there")
+                      : KOKSMA_MEMORY;
         }
-        first = corners ? first : kinds;
+        first = first ? first : kinds;
         if (kinds != first) {
             return wrong(o, "some corners have a texture vertex or a normal, others have none");
         }
     }
-    return corners ? KOKSMA_OK : wrong(o, "a face, line or point without a corner");
+    const size_t n = o->corners.n - before;
+    if (!n) {
+        return wrong(o, "a face, line or point without a corner");
+    }
+    o->corners.n = before;
+    if (!face || n < 3) {
+        return KOKSMA_OK;
+    }
+    part *p = find_part(o);
+    if (!p) {
+        return KOKSMA_MEMORY;
+    }
+    if (before + n > KOKSMA__MAX_VERTICES) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: over %zu corners", o->text.path, KOKSMA__MAX_VERTICES);
+    }
+    p->kinds |= first;
+    uint32_t *to = koksma__list_add(&o->indices, 3 * (n - 2), sizeof *to);
+    for (size_t i = 2; to && i < n; i++, to += 3) {
+        to[0] = (uint32_t)(before - p->first_corner);
+        to[1] = to[0] + (uint32_t)i - 1;
+        to[2] = to[0] + (uint32_t)i;
+    }
+    o->corners.n = before + n;
+    return to ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
-static bool put(obj *o, const char *text, size_t length)
+/* ---- Names -------------------------------------------------------------------------------------------------- */
+
+static koksma_status use_material(obj *o, const char *name, size_t length)
 {
-    return koksma__bytes_put(o->out, o->out->size, text, length);
+    if (!length) {
+        return KOKSMA_OK;
+    }
+    const size_t known = o->names.names.n;
+    const koksma__mtl_name *found = koksma__mtl_find(&o->names, o->out, name, length);
+    if (!found) {
+        return KOKSMA_MEMORY;
+    }
+    o->material = found->material;
+    if (o->names.names.n > known) { /* the first use of a name that no material file makes so far */
+        size_t *to = koksma__list_add(&o->used, 1, sizeof *to);
+        if (!to) {
+            return KOKSMA_MEMORY;
+        }
+        *to = known;
+    }
+    return KOKSMA_OK;
 }
 
-/* The word and the numbers or corners after it, with a 0 before a point that would be first, and n more zeros. */
-static koksma_status put_numbers(obj *o, const char *word, size_t length, int zeros)
+/* Where a material file isn't there the one of the model's own name is read. */
+static koksma_status note_missing(obj *o, const char *name)
 {
-    bool good = put(o, word, length);
-    for (const char *text = skip_blanks(word + length); good && *text && *text != '#'; text = skip_blanks(text)) {
-        const size_t digits = strcspn(text, " \t");
-        good = put(o, " 0", *text == '.' ? 2 : 1) && put(o, text, digits);
-        text += digits;
+    char own[KOKSMA__MAX_PATH];
+    koksma__unread *unread = &o->out->unread;
+    if (!unread->libraries++) {
+        snprintf(unread->library, sizeof unread->library, "%.255s", name);
     }
-    for (; good && zeros > 0; zeros--) {
-        good = put(o, " 0", 2);
+    if (o->own_library || strlen(o->text.path) >= sizeof own) {
+        return KOKSMA_OK;
     }
-    return good && put(o, "\n", 1) ? KOKSMA_OK : koksma__fail_memory(o->out->size);
+    o->own_library = true;
+    strcpy(own, o->text.path);
+    strcpy(strrchr(own, '.'), ".mtl");
+    return koksma__is_plain_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
 }
 
-/* "usemtl": names have blanks, but none at their ends. The first name that nobody makes is found in a second pass. */
-static koksma_status take_name(obj *o, const char *word, const char *rest)
+/* What follows mtllib: one name with blanks, or several. */
+static koksma_status take_libraries(obj *o, const char *rest, size_t length)
 {
-    if (!strncmp(word, "mtllib", 6)) {
-        return *rest ? koksma__obj_take_libraries(o->path, rest, &o->names, o->unread, o->out) : KOKSMA_OK;
+    char name[KOKSMA__MAX_PATH], path[KOKSMA__MAX_PATH];
+    const uint64_t hash = koksma__hash(rest, length);
+    for (size_t i = 0; i < o->n_libraries; i++) {
+        if (o->libraries[i] == hash) {
+            return KOKSMA_OK;
+        }
     }
-    return koksma__obj_put_name("", word, strlen(word), o->out);
+    if (o->n_libraries == MAX_LIBRARIES) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: more than %d material files", o->text.path, MAX_LIBRARIES);
+    }
+    o->libraries[o->n_libraries++] = hash;
+    if (length >= sizeof name) {
+        return wrong(o, "the name of a material file is longer than 4095 characters");
+    }
+    snprintf(name, sizeof name, "%.*s", (int)length, rest);
+    if (koksma__find_named(o->text.path, name, path)) {
+        return koksma__mtl_read(path, &o->names, o->out);
+    }
+    koksma__text words = {.at = rest, .stop = rest + length};
+    koksma_status status = KOKSMA_OK;
+    while (!status && koksma__text_word(&words, &rest, &length)) {
+        snprintf(name, sizeof name, "%.*s", (int)length, rest);
+        status = koksma__find_named(o->text.path, name, path) ? koksma__mtl_read(path, &o->names, o->out)
+                                                              : note_missing(o, name);
+    }
+    return status;
 }
 
-static void cut_blanks(char *text)
+/* A group or object of another name than the last begins a mesh. */
+static void take_group(obj *o, uint64_t *last, const char *name, size_t length)
 {
-    size_t length = strlen(text);
-    while (length && (text[length - 1] == ' ' || text[length - 1] == '\t' || text[length - 1] == '\r')) {
-        text[--length] = '\0';
-    }
+    const uint64_t hash = koksma__hash(name, length);
+    o->split |= hash != *last;
+    *last = hash;
 }
 
 static koksma_status take_line(obj *o)
 {
-    cut_blanks(o->line);
-    const char *word = skip_blanks(o->line), *rest = word + strcspn(word, " \t");
-    const size_t length = (size_t)(rest - word);
-    static const char *const vertices[KINDS] = {[PLACE] = "v", [TEXTURE] = "vt", [NORMAL] = "vn"}, *const names[] = {
-                                                                                                       "mtllib",
-                                                                                                       "usemtl", "o",
-                                                                                                       "g", "s"};
+    koksma__text *t = &o->text;
+    const char *word, *rest;
+    size_t length;
+    koksma_status status = KOKSMA_OK;
+    if (t->stop > t->at && t->stop[-1] == '\\') {
+        status = join_lines(o);
+    }
+    if (status || !koksma__text_word(t, &word, &length) || *word == '#') {
+        return status;
+    }
+    if (memchr(word, '\0', (size_t)(t->stop - word))) {
+        return wrong(o, "not text (a zero byte)");
+    }
+    if (length == 1 && *word == 'v') {
+        return take_vertex(o, PLACE);
+    }
+    if (length == 1 && (*word == 'f' || *word == 'l' || *word == 'p')) {
+        return take_corners(o, *word == 'f');
+    }
+    if (length == 2 && *word == 'v' && (word[1] == 't' || word[1] == 'n')) {
+        return take_vertex(o, word[1] == 't' ? TEXTURE : NORMAL);
+    }
+    const size_t left = koksma__text_rest(t, &rest);
+    if (koksma__text_is(word, length, "usemtl")) {
+        return use_material(o, rest, left);
+    }
+    if (koksma__text_is(word, length, "mtllib")) {
+        return left ? take_libraries(o, rest, left) : KOKSMA_OK;
+    }
+    if (length == 1 && (*word == 'g' || *word == 'o')) {
+        take_group(o, *word == 'g' ? &o->group : &o->object, rest, left);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- The end ------------------------------------------------------------------------------------------------ */
+
+static koksma_status check_corners(const obj *o)
+{
+    static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
     for (int kind = 0; kind < KINDS; kind++) {
-        if (length == strlen(vertices[kind]) && !memcmp(word, vertices[kind], length)) {
-            int n = 0;
-            const koksma_status status = take_vertex(o, kind, rest, &n);
-            return status ? status : put_numbers(o, word, length, kind == TEXTURE && n == 1);
-        }
-    }
-    if (length == 1 && strchr("flp", *word)) {
-        const koksma_status status = take_corners(o, rest);
-        return status ? status : put_numbers(o, word, length, 0);
-    }
-    if (*word != '#' && strlen(word) > MAX_NAME) {
-        return wrong(o, "longer than 1000 characters");
-    }
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (length == strlen(names[i]) && !memcmp(word, names[i], length)) {
-            return take_name(o, word, skip_blanks(rest));
+        if (o->highest[kind] > count_of(o, kind)) {
+            return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: a corner names %s %zu; there are %zu", o->text.path,
+                                o->line_of[kind], names[kind], o->highest[kind], count_of(o, kind));
         }
     }
     return KOKSMA_OK;
 }
 
-/* The materials that are used and that nobody makes, by the lines that assimp gets. */
-static void note_unmade(obj *o)
+static koksma_status make_mesh(obj *o, const part *p, size_t end_corner, size_t end_index)
 {
-    const unsigned char *at = o->out->data, *end = at + o->out->size;
-    if (o->names.made.n >= KOKSMA__OBJ_NAMES / 2) {
-        return; /* some were not noted */
-    }
-    while (at < end) {
-        const unsigned char *stop = memchr(at, '\n', (size_t)(end - at)); /* ours all end so */
-        if (stop - at > 7 && !memcmp(at, "usemtl", 6)) {
-            const char *name = (const char *)at + 6;
-            while (*name == ' ' || *name == '\t') {
-                name++;
-            }
-            const size_t length = (size_t)((const char *)stop - name);
-            const bool first = koksma__obj_set_add(&o->names.used, name, length);
-            if (first && !koksma__obj_set_has(&o->names.made, name, length) && !o->unread->materials++) {
-                snprintf(o->unread->material, sizeof o->unread->material, "%.*s", (int)length, name);
-            }
+    const size_t n = end_corner - p->first_corner, n_indices = end_index - p->first_index;
+    const corner *corners = (const corner *)o->corners.items + p->first_corner;
+    koksma__mesh mesh = {0};
+    bool coloured = false;
+    koksma_status status =
+        koksma__mesh_init(n, n_indices / 3, p->kinds & 1 << NORMAL, p->kinds & 1 << TEXTURE, &mesh);
+    float *const to[KINDS] = {[PLACE] = mesh.vertices, [TEXTURE] = mesh.uvs, [NORMAL] = mesh.normals};
+    for (size_t i = 0; !status && i < KINDS * n; i++) {
+        const size_t kind = i % KINDS, width = kind == TEXTURE ? 2 : 3, named = corners[i / KINDS].names[kind];
+        if (named) {
+            const float *from = (const float *)o->vertices[kind].items + widths[kind] * (named - 1);
+            memcpy(to[kind] + width * (i / KINDS), from, width * sizeof *from);
+            coloured |= kind == PLACE && from[3] > 0;
         }
-        at = stop + 1;
     }
+    if (!status) {
+        memcpy(mesh.indices, (const uint32_t *)o->indices.items + p->first_index, n_indices * sizeof *mesh.indices);
+        o->out->unread.vertex_colours += coloured;
+        status = koksma__file_take_mesh(o->out, &mesh, p->material);
+    }
+    koksma__mesh_fini(&mesh);
+    return status;
 }
 
-koksma_status koksma__obj_clean(const char *path, const unsigned char *file, size_t size, koksma__unread *unread,
-                                koksma__bytes *out)
+static koksma_status finish(obj *o)
 {
-    static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
-    koksma_status status = KOKSMA_OK;
+    const part *parts = o->parts.items;
+    koksma_status status = check_corners(o);
+    for (size_t i = 0; !status && i < o->parts.n; i++) {
+        const bool last = i + 1 == o->parts.n;
+        status = make_mesh(o, &parts[i], last ? o->corners.n : parts[i + 1].first_corner,
+                           last ? o->indices.n : parts[i + 1].first_index);
+        status = status ? status : koksma__file_add_placement(o->out, i, NULL);
+    }
+    const size_t *used = o->used.items;
+    koksma__unread *unread = &o->out->unread;
+    for (size_t i = 0; i < o->used.n; i++) {
+        const koksma__mtl_name *name = (koksma__mtl_name *)o->names.names.items + used[i];
+        if (!name->made && !unread->materials++) {
+            snprintf(unread->material, sizeof unread->material, "%s", name->name);
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
+{
+    koksma__file_material *grey;
     obj *o = calloc(1, sizeof *o);
     if (!o) {
         return koksma__fail_memory(sizeof *o);
     }
-    const size_t mark = koksma__byte_order_mark(file, size);
-    o->path = path;
-    o->at = file + mark;
-    o->end = file + size;
-    o->unread = unread;
     o->out = out;
-    static const char first[] = "# as assimp reads it\n"; /* of less than 16 bytes it says that they are too few */
-    status = put(o, first, strlen(first)) ? KOKSMA_OK : koksma__fail_memory(sizeof first);
-    while (!status && o->at < o->end) {
-        status = next_line(o);
-        status = status ? status : take_line(o);
+    o->text = koksma__text_open(out->path, bytes, size);
+    o->group = o->object = koksma__hash("", 0);
+    koksma_status status = koksma__file_add_material(out, 0.6f, &grey);
+    while (!status && koksma__text_line(&o->text)) {
+        status = take_line(o);
     }
-    for (int kind = 0; !status && kind < KINDS; kind++) {
-        if (o->highest[kind] > o->count[kind]) {
-            status = koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: a corner names %s %zu; there are %zu", path,
-                                  o->line_of[kind], names[kind], o->highest[kind], o->count[kind]);
-        }
+    status = status ? status : finish(o);
+    koksma__list *lists[] = {&o->vertices[PLACE],
+                             &o->vertices[TEXTURE],
+                             &o->vertices[NORMAL],
+                             &o->corners,
+                             &o->indices,
+                             &o->parts,
+                             &o->used};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        free(lists[i]->items);
     }
-    if (!status) {
-        note_unmade(o);
-    }
+    koksma__mtl_names_fini(&o->names);
     free(o);
     return status;
 }

@@ -1,124 +1,116 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* OFF files before assimp reads them: some bring it down, of others it leaves out faces (those after a comment, and
-   those of more than nine corners). What it gets has neither comments nor anything else that it makes nothing of, and
-   polygons as fans of triangles, which mesh_gather.c would make of them anyway.
-   Format: http://www.geomview.org/docs/html/OFF.html. */
-#include <stdio.h>
+/*
+ * OFF files in their plain text form: "OFF", a line with the numbers of vertices and faces, then one of either a
+ * line. Comments go from # to the line's end; what follows a vertex's or face's numbers (colours) is not read. A face
+ * is the number of its corners and their vertices, from 0 on; it becomes a fan of triangles. The variants with a
+ * prefix (COFF, NOFF, STOFF, 4OFF, nOFF) and the binary form are refused by their first line.
+ * Format: http://www.geomview.org/docs/html/OFF.html.
+ */
+#include "meshes/mesh_off.h"
+
 #include <stdlib.h>
 
-#include "core/c_locale.h"
-#include "meshes/mesh_file.h"
-#include "meshes/mesh_lines.h"
-
-enum { HEADER = 64 };
+#include "meshes/mesh_text.h"
 
 typedef struct off {
-    koksma__lines lines;
-    size_t vertices, faces, triangles;
-    koksma__bytes *out;
+    koksma__text text;
+    long long vertices, faces;
+    koksma__list positions, corners, indices; /* corners: of one face */
 } off;
 
-/* The next line that is not empty, without comments. */
-static koksma_status next_full_line(koksma__lines *l)
+/* Goes to the next line that has something beside a comment. */
+static koksma_status next_line(off *o)
 {
-    koksma_status status;
-    do {
-        status = koksma__line_next(l);
-        if (!status) {
-            l->line[strcspn(l->line, "#")] = '\0';
-        }
-    } while (!status && !l->line[strspn(l->line, " \t")]);
-    return status;
+    return koksma__text_full_line(&o->text, '#');
 }
 
-static bool take_whole(const char **text, size_t *value)
+static bool take_whole(koksma__text *t, long long *value)
 {
-    char *end;
-    const char *start = *text + strspn(*text, " \t");
-    if (*start < '0' || *start > '9') {
-        return false;
+    const char *word;
+    size_t length;
+    return koksma__text_word(t, &word, &length) && koksma__text_whole(&word, t->at, value) && word == t->at;
+}
+
+static koksma_status take_header(off *o)
+{
+    const char *word = "";
+    koksma_status status = next_line(o);
+    const size_t length = status ? 0 : koksma__text_rest(&o->text, &word);
+    if (!status && !koksma__text_is(word, length, "OFF")) {
+        return koksma__text_wrong(&o->text, "not 'OFF', with which such a file begins");
     }
-    const unsigned long long whole = strtoull(start, &end, 10);
-    *value = whole > SIZE_MAX ? SIZE_MAX : (size_t)whole;
-    *text = end;
-    return *end == '\0' || *end == ' ' || *end == '\t';
-}
-
-static koksma_status put(off *o, const char *text, size_t length)
-{
-    return koksma__bytes_put(o->out, o->out->size, text, length) ? KOKSMA_OK : koksma__fail_memory(o->out->size);
+    status = status ? status : next_line(o);
+    if (!status && (!take_whole(&o->text, &o->vertices) || !take_whole(&o->text, &o->faces))) {
+        return koksma__text_wrong(&o->text, "no numbers of vertices and faces");
+    }
+    return status;
 }
 
 static koksma_status take_vertex(off *o)
 {
-    const char *start = o->lines.line + strspn(o->lines.line, " \t"), *text = start;
-    for (int k = 0; k < 3; k++) {
-        char *end;
-        koksma__strtod(text, &end);
-        if (end == text || !strchr(" \t", *end)) {
-            return koksma__line_wrong(&o->lines, "a vertex is three numbers");
+    float *to = koksma__list_add(&o->positions, 3, sizeof *to);
+    for (int k = 0; to && k < 3; k++) {
+        const char *word;
+        size_t length;
+        if (!koksma__text_word(&o->text, &word, &length) || !koksma__text_float(&word, o->text.at, &to[k]) ||
+            word != o->text.at) {
+            return koksma__text_wrong(&o->text, "a vertex is three numbers");
         }
-        text = end;
     }
-    const koksma_status status = put(o, start, (size_t)(text - start));
-    return status ? status : put(o, "\n", 1);
-}
-
-static koksma_status put_triangle(off *o, size_t a, size_t b, size_t c)
-{
-    char line[96];
-    o->triangles++;
-    return put(o, line, (size_t)snprintf(line, sizeof line, "3 %zu %zu %zu\n", a, b, c));
+    return to ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
 static koksma_status take_face(off *o)
 {
-    const char *text = o->lines.line;
-    size_t corners, vertex, first = 0, last = 0;
-    koksma_status status = KOKSMA_OK;
-    if (!take_whole(&text, &corners) || corners < 1) {
-        return koksma__line_wrong(&o->lines, "a face is the number of its corners, and their vertices");
+    long long corners = 0, vertex = 0;
+    o->corners.n = 0;
+    if (!take_whole(&o->text, &corners) || corners < 1) {
+        return koksma__text_wrong(&o->text, "a face is the number of its corners, and their vertices");
     }
-    for (size_t i = 0; !status && i < corners; i++) {
-        if (!take_whole(&text, &vertex) || vertex >= o->vertices) {
-            return koksma__line_wrong(
-                &o->lines, "a face is the number of its corners, and their vertices, each below the number of these");
+    for (long long i = 0; i < corners; i++) { /* ends with the line, whatever is claimed */
+        if (!take_whole(&o->text, &vertex) || vertex >= o->vertices) {
+            return koksma__text_wrong(
+                &o->text, "a face is the number of its corners, and their vertices, each below the number of these");
         }
-        first = i ? first : vertex;
-        status = i < 2 ? KOKSMA_OK : put_triangle(o, first, last, vertex);
-        last = vertex;
+        uint32_t *to = koksma__list_add(&o->corners, 1, sizeof *to);
+        if (!to) {
+            return KOKSMA_MEMORY;
+        }
+        *to = (uint32_t)vertex;
     }
-    return status;
+    return koksma__fan_add(o->text.path, &o->indices, o->corners.items, o->corners.n);
 }
 
-koksma_status koksma__off_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out)
+static koksma_status finish(off *o, koksma__mesh_file *out)
 {
-    off o = {.lines = {.path = path, .at = file, .end = file + size}, .out = out};
-    char header[HEADER];
-    koksma_status status = next_full_line(&o.lines);
-    if (!status && strcmp(o.lines.line, "OFF") != 0) {
-        status = koksma__line_wrong(&o.lines, "not 'OFF', with which such a file begins");
+    koksma__mesh mesh = {0};
+    koksma__file_material *grey;
+    koksma_status status = koksma__mesh_init(o->positions.n / 3, 0, false, false, &mesh);
+    if (!status) {
+        memcpy(mesh.vertices, o->positions.items, o->positions.n * sizeof *mesh.vertices);
+        koksma__fan_finish(&o->indices, &mesh);
+        status = koksma__file_take_mesh(out, &mesh, 0);
     }
-    status = status ? status : next_full_line(&o.lines);
-    const char *text = o.lines.line;
-    if (!status && (!take_whole(&text, &o.vertices) || !take_whole(&text, &o.faces))) {
-        status = koksma__line_wrong(&o.lines, "no numbers of vertices and faces");
-    }
-    const size_t length = (size_t)snprintf(header, sizeof header, "OFF\n%20zu %20d 0\n", o.vertices, 0);
-    status = status ? status : put(&o, header, length);
-    for (size_t i = 0; !status && i < o.vertices; i++) { /* ends with the file, whatever is claimed */
-        status = next_full_line(&o.lines);
+    koksma__mesh_fini(&mesh);
+    status = status ? status : koksma__file_add_placement(out, 0, NULL);
+    return status ? status : koksma__file_add_material(out, 0.6f, &grey);
+}
+
+koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
+{
+    off o = {.text = koksma__text_open(out->path, bytes, size)};
+    koksma_status status = take_header(&o);
+    for (long long i = 0; !status && i < o.vertices; i++) { /* ends with the file, whatever is claimed */
+        status = next_line(&o);
         status = status ? status : take_vertex(&o);
     }
-    for (size_t i = 0; !status && i < o.faces; i++) {
-        status = next_full_line(&o.lines);
+    for (long long i = 0; !status && i < o.faces; i++) {
+        status = next_line(&o);
         status = status ? status : take_face(&o);
     }
-    if (!status) { /* now that the number is known */
-        snprintf(header, sizeof header, "OFF\n%zu %zu 0", o.vertices, o.triangles);
-        snprintf(header + strlen(header), sizeof header - strlen(header), "%*s\n", (int)(length - 1 - strlen(header)),
-                 "");
-        koksma__bytes_put(out, 0, header, length);
-    }
+    status = status ? status : finish(&o, out);
+    free(o.positions.items);
+    free(o.corners.items);
+    free(o.indices.items);
     return status;
 }

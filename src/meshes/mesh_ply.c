@@ -1,45 +1,59 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* PLY files before assimp reads them: some keep it for ever, and of one that is cut short, or whose lines begin with
-   blanks, it makes other triangles without a word. So every number is looked at, and of a file of text it gets the
-   elements as it takes them: one a line, as the format has it, numbers with one blank between them.
-   Format: G. Turk, "The PLY Polygon File Format" (1994). */
+/*
+ * PLY files, as text and binary in either byte order. The header names elements, how many of each there are, and
+ * their properties: numbers, or lists of numbers. Elements follow in that order, as text one a line.
+ *
+ * Of "vertex" the properties x y z, nx ny nz, texture coordinates (u v, s t, tx ty, texture_u texture_v) and colours
+ * (only whether there are any) are read; of "face" the list vertex_indices or vertex_index, a fan of triangles, and
+ * the list texcoord, u and v for each corner, which become those of the vertices: where faces differ in them at a
+ * vertex that they share, the last one's stay. A comment "TextureFile NAME" names the texture. Everything else is
+ * passed over, but checked: a file that is cut short or has another number where one was due is an error.
+ *
+ * Format: G. Turk, "The PLY Polygon File Format" (1994); texcoord and TextureFile are MeshLab's.
+ */
+#include "meshes/mesh_ply.h"
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "meshes/mesh_file.h"
-#include "meshes/mesh_lines.h"
+#include "meshes/mesh_text.h"
 
-enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024 };
+enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, NAME = 64 };
 
-typedef enum number_kind { WHOLE, NATURAL, REAL } number_kind;
+/* What a property is for. Those before CORNERS are numbers of a vertex, the others lists of a face. */
+typedef enum slot { X, Y, Z, NX, NY, NZ, U, V, RED, GREEN, BLUE, N_NUMBERS, CORNERS, WEDGES, UNUSED } slot;
 
 typedef struct type {
-    const char *name;
+    const char *names[2];
     size_t bytes;
-    number_kind kind;
+    enum { WHOLE, NATURAL, REAL } kind;
+    double full; /* the value of a full colour */
 } type;
 
 typedef struct property {
     const type *count, *item; /* count: of a list; else NULL */
-    bool corners;             /* of a face: numbers of vertices */
+    slot slot;
 } property;
 
 typedef struct element {
-    char name[64];
+    char name[NAME];
     size_t count;
     int first, n; /* of its properties */
     size_t bytes; /* that one takes at least */
-    bool lists;   /* some of them take more */
 } element;
 
 typedef struct ply {
-    koksma__lines lines;
-    koksma__bytes *out;
-    bool text, big_endian;
-    size_t vertices;
+    koksma__text text;
+    koksma__mesh_file *out;
+    bool is_text, big_endian, coloured;
+    size_t n_vertices;
     int n_elements, n_properties;
     element elements[MAX_ELEMENTS];
     property properties[MAX_PROPERTIES];
+    char texture[1024];
+    koksma__mesh mesh;
+    koksma__list corners, indices; /* corners: of one face */
 } ply;
 
 /* ---- The header ------------------------------------------------------------------------------------------ */
@@ -47,336 +61,415 @@ typedef struct ply {
 static const type *find_type(const char *name)
 {
     static const type types[] = {
-        {"char", 1, WHOLE},  {"int8", 1, WHOLE},   {"uchar", 1, NATURAL},  {"uint8", 1, NATURAL},
-        {"short", 2, WHOLE}, {"int16", 2, WHOLE},  {"ushort", 2, NATURAL}, {"uint16", 2, NATURAL},
-        {"int", 4, WHOLE},   {"int32", 4, WHOLE},  {"uint", 4, NATURAL},   {"uint32", 4, NATURAL},
-        {"float", 4, REAL},  {"float32", 4, REAL}, {"double", 8, REAL},    {"float64", 8, REAL},
-    };
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
-        if (!strcmp(types[i].name, name)) {
-            return &types[i];
+        {{"char", "int8"}, 1, WHOLE, 127},        {{"uchar", "uint8"}, 1, NATURAL, 255},
+        {{"short", "int16"}, 2, WHOLE, 32767},    {{"ushort", "uint16"}, 2, NATURAL, 65535},
+        {{"int", "int32"}, 4, WHOLE, 0x7fffffff}, {{"uint", "uint32"}, 4, NATURAL, 0xffffffff},
+        {{"float", "float32"}, 4, REAL, 1},       {{"double", "float64"}, 8, REAL, 1}};
+    for (size_t i = 0; i < 2 * (sizeof types / sizeof *types); i++) {
+        if (!strcmp(types[i / 2].names[i % 2], name)) {
+            return &types[i / 2];
         }
     }
     return NULL;
 }
 
-static koksma_status take_property(ply *p)
+/* By the names that properties of these purposes have, each between blanks. */
+static slot find_slot(const char *of, const char *name, bool list)
 {
-    char first[16], second[16], name[64], rest[2];
+    static const char *const names[] = {[X] = " x ",
+                                        [Y] = " y ",
+                                        [Z] = " z ",
+                                        [U] = " u s tx texture_u ",
+                                        [V] = " v t ty texture_v ",
+                                        [NX] = " nx ",
+                                        [NY] = " ny ",
+                                        [NZ] = " nz ",
+                                        [RED] = " red r ",
+                                        [GREEN] = " green g ",
+                                        [BLUE] = " blue b ",
+                                        [N_NUMBERS] = "",
+                                        [WEDGES] = " texcoord ",
+                                        [CORNERS] = " vertex_indices vertex_index "};
+    char wanted[NAME + 2];
+    const slot first = list ? N_NUMBERS : X, last = list ? WEDGES : BLUE;
+    snprintf(wanted, sizeof wanted, " %s ", name);
+    for (slot i = first; i <= last && !strcmp(of, list ? "face" : "vertex"); i++) {
+        if (strstr(names[i], wanted)) {
+            return i;
+        }
+    }
+    return UNUSED;
+}
+
+static koksma_status take_property(ply *p, const char *line)
+{
+    char first[16], second[16] = "", name[NAME], rest[2];
     if (!p->n_elements) {
-        return koksma__line_wrong(&p->lines, "a property of no element");
+        return koksma__text_wrong(&p->text, "a property of no element");
     }
     if (p->n_properties == MAX_PROPERTIES) {
-        return koksma__line_wrong(&p->lines, "more than 1024 properties");
+        return koksma__text_wrong(&p->text, "more than 1024 properties");
     }
     element *e = &p->elements[p->n_elements - 1];
     property *to = &p->properties[p->n_properties];
-    *to = (property){0};
-    if (sscanf(p->lines.line, "property list %15s %15s %63s %1s", first, second, name, rest) == 3) {
+    *to = (property){.slot = UNUSED};
+    if (sscanf(line, "property list %15s %15s %63s %1s", first, second, name, rest) == 3) {
         to->count = find_type(first);
         to->item = to->count && to->count->kind != REAL ? find_type(second) : NULL;
-        to->corners = !strcmp(e->name, "face") && (!strcmp(name, "vertex_indices") || !strcmp(name, "vertex_index"));
-        e->lists = true;
-    } else if (sscanf(p->lines.line, "property %15s %63s %1s", second, name, rest) == 2) {
+        to->slot = find_slot(e->name, name, true);
+    } else if (sscanf(line, "property %15s %63s %1s", second, name, rest) == 2) {
         to->item = find_type(second);
+        to->slot = find_slot(e->name, name, false);
     }
-    if (!to->item || (to->corners && to->item->kind == REAL)) {
-        return koksma__line_wrong(&p->lines, "no property of a known type");
+    if (!to->item || (to->slot == CORNERS && to->item->kind == REAL)) {
+        return koksma__text_wrong(&p->text, "no property of a known type");
     }
-    e->bytes += p->text ? 2 : to->count ? to->count->bytes : to->item->bytes; /* as text a digit and a blank */
+    e->bytes += p->is_text ? 2 : to->count ? to->count->bytes : to->item->bytes; /* as text a digit and a blank */
     p->n_properties++;
     e->n++;
     return KOKSMA_OK;
 }
 
-static koksma_status take_element(ply *p)
+static koksma_status take_element(ply *p, const char *line)
 {
-    char name[64], digits[24], rest[2];
-    if (sscanf(p->lines.line, "element %63s %23[0-9] %1s", name, digits, rest) != 2) {
-        return koksma__line_wrong(&p->lines, "neither an element, nor a property, a comment or end_header");
+    char name[NAME], digits[24], rest[2];
+    if (sscanf(line, "element %63s %23[0-9] %1s", name, digits, rest) != 2) {
+        return koksma__text_wrong(&p->text, "neither an element, nor a property, a comment or end_header");
     }
     if (p->n_elements == MAX_ELEMENTS) {
-        return koksma__line_wrong(&p->lines, "more than 64 elements");
+        return koksma__text_wrong(&p->text, "more than 64 elements");
     }
     for (int i = 0; i < p->n_elements; i++) {
         if (!strcmp(p->elements[i].name, name)) {
-            return koksma__line_wrong(&p->lines, "a second element of this name");
+            return koksma__text_wrong(&p->text, "a second element of this name");
         }
     }
     const unsigned long long count = strtoull(digits, NULL, 10);
     element *e = &p->elements[p->n_elements++];
     *e = (element){.count = count > SIZE_MAX ? SIZE_MAX : (size_t)count, .first = p->n_properties};
     strcpy(e->name, name);
-    p->vertices = strcmp(name, "vertex") ? p->vertices : e->count;
+    p->n_vertices = strcmp(name, "vertex") ? p->n_vertices : e->count;
     return KOKSMA_OK;
 }
 
-static koksma_status take_header_line(ply *p)
+/* The next line of the header into `line`. */
+static koksma_status next_header_line(ply *p, char line[1024])
 {
-    const char *line = p->lines.line;
+    if (!koksma__text_line(&p->text)) {
+        p->text.number++;
+        return koksma__text_wrong(&p->text, "the file ends before what it claims");
+    }
+    const size_t length = (size_t)(p->text.stop - p->text.at);
+    if (length >= 1024 || memchr(p->text.at, '\0', length)) {
+        return koksma__text_wrong(&p->text,
+                                  length >= 1024 ? "longer than 1023 characters" : "not text (a zero byte)");
+    }
+    memcpy(line, p->text.at, length);
+    line[length] = '\0';
+    return KOKSMA_OK;
+}
+
+static koksma_status take_header_line(ply *p, const char *line)
+{
     if (!strncmp(line, "comment", 7) || !strncmp(line, "obj_info", 8)) {
+        sscanf(line, "comment TextureFile %1023[^\n]", p->texture);
         return KOKSMA_OK;
     }
-    return !strncmp(line, "property ", 9) ? take_property(p) : take_element(p);
+    return !strncmp(line, "property ", 9) ? take_property(p, line) : take_element(p, line);
 }
 
 static koksma_status take_header(ply *p)
 {
-    char format[24] = "", version[8], rest[2];
-    koksma__lines *l = &p->lines;
-    koksma_status status = koksma__line_next(l);
-    if (!status && strcmp(l->line, "ply") != 0) {
-        status = koksma__line_wrong(l, "not 'ply', with which such a file begins");
+    char line[1024], format[24] = "", version[8], rest[2];
+    koksma_status status = next_header_line(p, line);
+    if (!status && strcmp(line, "ply") != 0) {
+        return koksma__text_wrong(&p->text, "not 'ply', with which such a file begins");
     }
-    status = status ? status : koksma__line_next(l);
-    if (!status &&
-        (sscanf(l->line, "format %23s %7s %1s", format, version, rest) != 2 || strcmp(version, "1.0") != 0 ||
-         (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
-          strcmp(format, "binary_big_endian") != 0))) {
-        status = koksma__line_wrong(l, "no format ascii, binary_little_endian or binary_big_endian 1.0");
+    status = status ? status : next_header_line(p, line);
+    if (!status && (sscanf(line, "format %23s %7s %1s", format, version, rest) != 2 || strcmp(version, "1.0") != 0 ||
+                    (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
+                     strcmp(format, "binary_big_endian") != 0))) {
+        return koksma__text_wrong(&p->text, "no format ascii, binary_little_endian or binary_big_endian 1.0");
     }
-    p->text = !strcmp(format, "ascii");
+    p->is_text = !strcmp(format, "ascii");
     p->big_endian = !strcmp(format, "binary_big_endian");
-    while (!status && !(status = koksma__line_next(l)) && strcmp(l->line, "end_header") != 0) {
-        status = take_header_line(p);
+    while (!status && !(status = next_header_line(p, line)) && strcmp(line, "end_header") != 0) {
+        status = take_header_line(p, line);
     }
     return status;
 }
 
-/* Whether the file can be as long as its counts say: before time is spent on it. */
+/* Whether the file can be as long as its counts say: before memory and time are spent on it. */
 static koksma_status check_length(const ply *p)
 {
-    const koksma__lines *l = &p->lines;
+    const koksma__text *t = &p->text;
     double bytes = 0;
     for (int i = 0; i < p->n_elements; i++) {
         const element *e = &p->elements[i];
         bytes += (double)e->count * (double)e->bytes;
         if (e->count && !e->n) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: element '%s' has no properties", l->path, e->name);
+            return koksma__fail(KOKSMA_MALFORMED, "%s: element '%s' has no properties", t->path, e->name);
         }
     }
-    if (bytes > (double)(l->end - l->at) + 1) { /* the last blank may be missing */
+    if (bytes > (double)(t->end - t->next) + 1) { /* the last blank may be missing */
         return koksma__fail(KOKSMA_MALFORMED,
-                            "%s: its elements take %.0f bytes at least, and after the header are %td", l->path, bytes,
-                            l->end - l->at);
+                            "%s: its elements take %.0f bytes at least, and after the header are %td", t->path, bytes,
+                            t->end - t->next);
     }
     return KOKSMA_OK;
 }
 
-/* Number i of element e names this vertex. */
-static koksma_status check_corner(const ply *p, size_t i, long long vertex)
+/* ---- Numbers ------------------------------------------------------------------------------------------------ */
+
+/* As text: the next number of the line; a whole one into both. */
+static koksma_status take_text(ply *p, const type *of, double *real, long long *whole)
 {
-    char where[40] = "";
-    if (vertex >= 0 && (unsigned long long)vertex < p->vertices) {
+    const char *word;
+    size_t length;
+    float value = 0;
+    if (!koksma__text_word(&p->text, &word, &length)) {
+        return koksma__text_wrong(&p->text, "fewer numbers than its element has");
+    }
+    const char *end = word + length, *at = word;
+    const bool negative = *word == '-', sign = negative || *word == '+';
+    if (of->kind != REAL) {
+        at += of->kind == WHOLE && sign;
+        if (!koksma__text_whole(&at, end, whole) || at != end) {
+            return koksma__text_wrong(&p->text, "a whole number was due");
+        }
+        *whole = negative ? -*whole : *whole;
+        *real = (double)*whole;
         return KOKSMA_OK;
     }
-    if (p->text) {
-        snprintf(where, sizeof where, "line %zu: ", p->lines.number);
+    if (length == 3u + sign && (!memcmp(word + sign, "nan", 3) || !memcmp(word + sign, "inf", 3))) {
+        *real = NAN; /* some properties are; where a vertex is, koksma__mesh_check() says it */
+        return KOKSMA_OK;
     }
-    return koksma__fail(KOKSMA_MALFORMED, "%s: %sface %zu names vertex %lld; there are %zu, from 0 on", p->lines.path,
-                        where, i, vertex, p->vertices);
-}
-
-/* ---- Text ------------------------------------------------------------------------------------------------- */
-
-typedef struct words {
-    const unsigned char *at, *end;
-    const unsigned char *word; /* the last one; NULL: none yet */
-    size_t length;
-} words;
-
-static bool is_blank(unsigned char c)
-{
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-static bool next_word(words *w)
-{
-    while (w->at < w->end && is_blank(*w->at)) {
-        w->at++;
+    if (!koksma__text_float(&at, end, &value) || at != end) {
+        return koksma__text_wrong(&p->text, "a number was due");
     }
-    w->word = w->at;
-    while (w->at < w->end && !is_blank(*w->at)) {
-        w->at++;
-    }
-    w->length = (size_t)(w->at - w->word);
-    return w->length > 0;
-}
-
-static size_t digits(const unsigned char *at, const unsigned char *end)
-{
-    size_t n = 0;
-    while (at + n < end && at[n] >= '0' && at[n] <= '9') {
-        n++;
-    }
-    return n;
-}
-
-/* Whether the word is a number of that kind; *value, unless it is a real one: cut at 10^18. */
-static bool is_number(const words *w, number_kind kind, long long *value)
-{
-    const unsigned char *at = w->word, *end = w->word + w->length;
-    const bool negative = *at == '-';
-    at += kind != NATURAL && (*at == '-' || *at == '+');
-    const size_t whole = digits(at, end);
-    if (kind != REAL) {
-        *value = 0;
-        for (size_t i = 0; i < whole; i++) {
-            *value = *value < 1000000000000000000 / 10 ? 10 * *value + (at[i] - '0') : 1000000000000000000;
-        }
-        *value = negative ? -*value : *value;
-        return whole && at + whole == end;
-    }
-    if (end - at == 3 && (!memcmp(at, "nan", 3) || !memcmp(at, "inf", 3))) {
-        return true; /* some properties are; where a vertex is, mesh.c says it */
-    }
-    at += whole;
-    const bool point = at < end && *at == '.';
-    const size_t after = point ? digits(at + 1, end) : 0;
-    at += point ? 1 + after : 0;
-    if (whole + after && at < end && (*at == 'e' || *at == 'E')) {
-        at++;
-        at += at < end && (*at == '-' || *at == '+');
-        const size_t power = digits(at, end);
-        return power && at + power == end;
-    }
-    return whole + after && at == end;
-}
-
-/* There is room: of every word, every blank between two and every line's end the file has at least as much, but for
-   the last line's end. */
-static void put(koksma__bytes *out, const void *text, size_t length)
-{
-    memcpy(out->data + out->size, text, length);
-    out->size += length;
-}
-
-/* The next number of the line, into the output, too. */
-static koksma_status take_number(ply *p, words *w, const type *of, long long *value)
-{
-    const bool first = !w->word;
-    if (!next_word(w)) {
-        return koksma__line_wrong(&p->lines, "fewer numbers than its element has");
-    }
-    if (!is_number(w, of->kind, value)) {
-        return koksma__line_wrong(&p->lines, of->kind == REAL ? "a number was due" : "a whole number was due");
-    }
-    put(p->out, " ", first ? 0 : 1);
-    put(p->out, w->word, w->length);
+    *real = (double)value;
     return KOKSMA_OK;
 }
 
-/* The next line that is not empty. */
-static koksma_status next_full_line(ply *p, words *w)
+static uint64_t bits_at(const unsigned char *at, size_t bytes, bool big_endian)
 {
-    size_t length = 0;
-    for (;;) {
-        const koksma_status status = koksma__line_span(&p->lines, &w->at, &length);
-        if (status) {
-            return status;
-        }
-        w->end = w->at + length;
-        while (w->at < w->end && is_blank(*w->at)) {
-            w->at++;
-        }
-        if (w->at < w->end) {
-            return KOKSMA_OK;
-        }
+    uint64_t value = 0;
+    for (size_t i = 0; i < bytes; i++) {
+        value |= (uint64_t)at[big_endian ? bytes - 1 - i : i] << 8 * i;
     }
+    return value;
 }
 
-static koksma_status take_text_item(ply *p, const element *e, size_t i)
+static inline long long whole_at(const ply *p, const type *of, const unsigned char *at)
 {
-    words w = {0};
-    long long value = 0;
-    koksma_status status = next_full_line(p, &w);
-    for (int k = e->first; !status && k < e->first + e->n; k++) {
-        const property *of = &p->properties[k];
-        long long n = 1;
-        if (of->count && !(status = take_number(p, &w, of->count, &n)) && n < 0) {
-            status = koksma__line_wrong(&p->lines, "a list of less than nothing");
-        }
-        for (; !status && n > 0; n--) { /* ends with the line, whatever is claimed */
-            status = take_number(p, &w, of->item, &value);
-            status = status || !of->corners ? status : check_corner(p, i, value);
-        }
-    }
-    if (!status && next_word(&w)) {
-        status = koksma__line_wrong(&p->lines, "more numbers than its element has");
-    }
-    put(p->out, "\n", status ? 0 : 1);
-    return status;
-}
-
-/* ---- Binary ----------------------------------------------------------------------------------------------- */
-
-static long long whole_number(const ply *p, const type *of, const unsigned char *at)
-{
-    unsigned long long value = 0;
-    for (size_t i = 0; i < of->bytes; i++) {
-        value |= (unsigned long long)at[p->big_endian ? of->bytes - 1 - i : i] << 8 * i;
-    }
-    const unsigned long long sign = 1ull << (8 * of->bytes - 1);
+    const uint64_t value = bits_at(at, of->bytes, p->big_endian), sign = 1ull << (8 * of->bytes - 1);
     return of->kind == WHOLE && value & sign ? (long long)(value & (sign - 1)) - (long long)sign : (long long)value;
+}
+
+static double real_at(const ply *p, const type *of, const unsigned char *at)
+{
+    if (of->kind != REAL) {
+        return (double)whole_at(p, of, at);
+    }
+    const uint64_t value = bits_at(at, of->bytes, p->big_endian);
+    const uint32_t half = (uint32_t)value;
+    double wide;
+    float narrow;
+    memcpy(&wide, &value, sizeof wide);
+    memcpy(&narrow, &half, sizeof narrow);
+    return of->bytes == 8 ? wide : (double)narrow;
+}
+
+/* The next number of an element; binary ones are there, which the caller saw. */
+static inline koksma_status take_number(ply *p, const type *of, bool as_whole, double *real, long long *whole)
+{
+    if (p->is_text) {
+        return take_text(p, of, real, whole);
+    }
+    const unsigned char *at = (const unsigned char *)p->text.next;
+    p->text.next += of->bytes;
+    if (as_whole) {
+        *whole = whole_at(p, of, at);
+    } else {
+        *real = real_at(p, of, at);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- Elements ----------------------------------------------------------------------------------------------- */
+
+/* Number i of element e names this vertex. */
+static koksma_status check_corner(const ply *p, const element *e, size_t i, long long vertex)
+{
+    char where[40] = "";
+    if (vertex >= 0 && (unsigned long long)vertex < p->n_vertices) {
+        return KOKSMA_OK;
+    }
+    if (p->is_text) {
+        snprintf(where, sizeof where, "line %zu: ", p->text.number);
+    }
+    return koksma__fail(KOKSMA_MALFORMED, "%s: %s%s %zu names vertex %lld; there are %zu, from 0 on", p->text.path,
+                        where, e->name, i, vertex, p->n_vertices);
+}
+
+static void put_vertex(ply *p, size_t i, slot to, const type *of, double value)
+{
+    koksma__mesh *m = &p->mesh;
+    if (to <= Z) {
+        m->vertices[3 * i + to] = (float)value;
+    } else if (to <= NZ) {
+        m->normals[3 * i + to - NX] = (float)value;
+    } else if (to <= V) {
+        m->uvs[2 * i + to - U] = (float)value;
+    } else {
+        p->coloured |= value != of->full;
+    }
+}
+
+/* Of a list of a face: one more corner, or a coordinate of one. */
+static koksma_status put_listed(ply *p, const element *e, size_t i, const property *of, long long n, long long j)
+{
+    const bool wedge = of->slot == WEDGES;
+    double real = 0;
+    long long whole = 0;
+    koksma_status status = take_number(p, of->item, !wedge, &real, &whole);
+    if (status || of->slot == UNUSED) {
+        return status;
+    }
+    if (wedge) {
+        const uint32_t *corners = p->corners.items;
+        if ((size_t)n == 2 * p->corners.n && p->mesh.uvs) {
+            p->mesh.uvs[2 * (size_t)corners[j / 2] + j % 2] = (float)real;
+        }
+        return KOKSMA_OK;
+    }
+    status = check_corner(p, e, i, whole);
+    uint32_t *to = status ? NULL : koksma__list_add(&p->corners, 1, sizeof *to);
+    if (!to) {
+        return status ? status : KOKSMA_MEMORY;
+    }
+    *to = (uint32_t)whole;
+    return KOKSMA_OK;
 }
 
 static koksma_status cut_short(const ply *p, const element *e, size_t i)
 {
-    return koksma__fail(KOKSMA_MALFORMED, "%s: the file ends within element '%s' number %zu of %zu", p->lines.path,
+    return koksma__fail(KOKSMA_MALFORMED, "%s: the file ends within element '%s' number %zu of %zu", p->text.path,
                         e->name, i, e->count);
 }
 
-static koksma_status take_binary_item(ply *p, const element *e, size_t i)
+static koksma_status take_list(ply *p, const element *e, size_t i, const property *of)
 {
-    const unsigned char **at = &p->lines.at, *end = p->lines.end;
-    for (int k = e->first; k < e->first + e->n; k++) {
-        const property *of = &p->properties[k];
-        long long n = 1;
-        if (of->count) {
-            if ((size_t)(end - *at) < of->count->bytes) {
-                return cut_short(p, e, i);
-            }
-            n = whole_number(p, of->count, *at);
-            *at += of->count->bytes;
-        }
-        if (n < 0 || (size_t)n > (size_t)(end - *at) / of->item->bytes) {
+    const koksma__text *t = &p->text;
+    long long n = 0;
+    double real;
+    if (!p->is_text && (size_t)(t->end - t->next) < of->count->bytes) {
+        return cut_short(p, e, i);
+    }
+    koksma_status status = take_number(p, of->count, true, &real, &n);
+    if (!status && n < 0) {
+        return p->is_text ? koksma__text_wrong(t, "a list of less than nothing") : cut_short(p, e, i);
+    }
+    if (!status && !p->is_text) {
+        if ((size_t)n > (size_t)(t->end - t->next) / of->item->bytes) {
             return cut_short(p, e, i);
         }
-        for (long long j = 0; of->corners && j < n; j++) {
-            const long long vertex = whole_number(p, of->item, *at + (size_t)j * of->item->bytes);
-            const koksma_status status = check_corner(p, i, vertex);
-            if (status) {
-                return status;
-            }
+        if (of->slot == UNUSED) {
+            p->text.next += (size_t)n * of->item->bytes;
+            n = 0;
         }
-        *at += (size_t)n * of->item->bytes;
     }
-    return KOKSMA_OK;
+    if (!status && of->slot == WEDGES && n && !p->mesh.uvs) {
+        p->mesh.uvs = calloc(2 * p->n_vertices + 1, sizeof *p->mesh.uvs);
+        status = p->mesh.uvs ? KOKSMA_OK : koksma__fail_memory(2 * p->n_vertices * sizeof *p->mesh.uvs);
+    }
+    for (long long j = 0; !status && j < n; j++) { /* as text it ends with the line, whatever is claimed */
+        status = put_listed(p, e, i, of, n, j);
+    }
+    return status;
 }
 
-koksma_status koksma__ply_clean(const char *path, const unsigned char *file, size_t size, koksma__bytes *out)
+static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices)
+{
+    const char *word;
+    size_t length;
+    koksma_status status = p->is_text ? koksma__text_full_line(&p->text, '\0') : KOKSMA_OK;
+    p->corners.n = 0;
+    for (int k = e->first; !status && k < e->first + e->n; k++) {
+        const property *of = &p->properties[k];
+        double real = 0;
+        long long whole = 0;
+        if (of->count) {
+            status = take_list(p, e, i, of);
+        } else if (!p->is_text && (size_t)(p->text.end - p->text.next) < of->item->bytes) {
+            status = cut_short(p, e, i);
+        } else {
+            status = take_number(p, of->item, false, &real, &whole);
+            if (!status && vertices && of->slot != UNUSED) {
+                put_vertex(p, i, of->slot, of->item, real);
+            }
+        }
+    }
+    if (!status && p->is_text && koksma__text_word(&p->text, &word, &length)) {
+        return koksma__text_wrong(&p->text, "more numbers than its element has");
+    }
+    if (status || vertices) {
+        return status;
+    }
+    return koksma__fan_add(p->text.path, &p->indices, p->corners.items, p->corners.n);
+}
+
+/* Room for the vertices, with what their properties are. */
+static koksma_status make_mesh(ply *p)
+{
+    bool normals = false, uvs = false;
+    for (int k = 0; k < p->n_properties; k++) {
+        const slot to = p->properties[k].slot;
+        normals |= to >= NX && to <= NZ;
+        uvs |= to == U || to == V;
+    }
+    const koksma_status status = koksma__mesh_init(p->n_vertices, 0, normals, uvs, &p->mesh);
+    return status ? koksma__fail_in(status, p->text.path) : KOKSMA_OK;
+}
+
+static koksma_status finish(ply *p)
+{
+    koksma__file_material *white = NULL;
+    koksma__fan_finish(&p->indices, &p->mesh);
+    p->out->unread.vertex_colours = p->coloured;
+    koksma_status status = koksma__file_take_mesh(p->out, &p->mesh, 0);
+    status = status ? status : koksma__file_add_placement(p->out, 0, NULL);
+    status = status ? status : koksma__file_add_material(p->out, 1, &white);
+    if (!status && *p->texture) {
+        white->colour_map.name = strdup(p->texture);
+        status = white->colour_map.name ? KOKSMA_OK : koksma__fail_memory(sizeof p->texture);
+    }
+    return status;
+}
+
+koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
 {
     ply *p = calloc(1, sizeof *p);
     if (!p) {
         return koksma__fail_memory(sizeof *p);
     }
-    p->lines = (koksma__lines){.path = path, .at = file, .end = file + size};
     p->out = out;
+    p->text = (koksma__text){.path = out->path, .next = (const char *)bytes, .end = (const char *)bytes + size};
     koksma_status status = take_header(p);
     status = status ? status : check_length(p);
-    if (!status && p->text) {
-        *out = (koksma__bytes){.data = malloc(size + 1), .room = size + 1};
-        status = out->data ? KOKSMA_OK : koksma__fail_memory(size);
-    }
-    if (!status && p->text) {
-        put(out, file, (size_t)(p->lines.at - file));
-    }
+    status = status ? status : make_mesh(p);
     for (int k = 0; !status && k < p->n_elements; k++) {
         const element *e = &p->elements[k];
+        const bool vertices = !strcmp(e->name, "vertex");
         for (size_t i = 0; !status && i < e->count; i++) {
-            status = p->text ? take_text_item(p, e, i) : take_binary_item(p, e, i);
+            status = take_item(p, e, i, vertices);
         }
     }
+    status = status ? status : finish(p);
+    koksma__mesh_fini(&p->mesh);
+    free(p->corners.items);
+    free(p->indices.items);
     free(p);
     return status;
 }

@@ -77,7 +77,7 @@ static void add_pixels(koksma_scene *scene)
     }
 }
 
-/* What follows from the rest. */
+/* Sets the members of a scene that are computed from the others, such as whether it has colours. */
 void koksma__scene_finish(koksma_scene *scene)
 {
     scene->grey = is_grey(scene->background) && is_grey(scene->ambient);

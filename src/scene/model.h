@@ -11,7 +11,7 @@ koksma_status koksma__model_parse(const char *path, koksma_scene *scene);
 
 /* Everything in a file, as a scene: meshes where its nodes place them, materials, cameras, lights. scene is empty;
    what the file has none of is left so. has_camera: scene->camera has eye, axes and angle. Errors: as
-   koksma__mesh_read. In mesh_assimp.c. */
+   koksma__mesh_read. In model_build.c. */
 koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera);
 
 /* The camera at eye that looks along forward; false where up is along it. */

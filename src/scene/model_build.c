@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "scene/model_build.h"
-
+/*
+ * A scene of what a mesh file holds (meshes/mesh_file.h): its materials with their textures, its meshes where they
+ * are placed, its camera and lights. A mesh goes into the scene when it is first placed; if other placements mirror
+ * it (glTF 2.0, section 3.7.4), or the first one did and others don't, it is there a second time, turned inside out.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,33 +12,19 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "image/formats.h"
-#include "meshes/mesh_file.h"
+#include "meshes/mesh_read.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "scene/model.h"
 #include "scene/parse.h"
 
-koksma_status koksma__build_init(koksma__build *build, size_t n_materials, size_t n_meshes)
-{
-    if (n_materials > KOKSMA__MAX_MATERIALS - 1) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d materials", KOKSMA__MAX_MATERIALS - 1);
-    }
-    build->meshes = malloc((n_meshes + 1) * sizeof *build->meshes);
-    build->glows = calloc(n_materials + 1, sizeof *build->glows);
-    if (!build->meshes || !build->glows) {
-        return koksma__fail_memory((n_meshes + 1) * sizeof *build->meshes);
-    }
-    for (size_t i = 0; i < n_meshes; i++) {
-        build->meshes[i][0] = build->meshes[i][1] = -1;
-    }
-    return KOKSMA_OK;
-}
-
-void koksma__build_fini(koksma__build *build)
-{
-    free(build->meshes);
-    free(build->glows);
-}
+typedef struct builder {
+    koksma_scene *scene;
+    koksma__mesh_file *file;
+    int (*meshes)[2];     /* the scene's, by the file's numbers, and mirrored; -1: not yet */
+    double (*glows)[3];   /* by material */
+    koksma_status status; /* of the materials so far */
+} builder;
 
 /* ---- Materials --------------------------------------------------------------------------------------------- */
 
@@ -46,7 +35,7 @@ static double clamp01(float x)
 
 /* An image of the file's own (glb), or a file beside it. Errors: MALFORMED (it isn't there, or we can't make it out),
    MISSING (it is there and can't be read), MEMORY. */
-static koksma_status read_texture(const koksma__build *build, const koksma__file_texture *from, koksma_image *image)
+static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma_image *image)
 {
     char full[KOKSMA__MAX_PATH];
     *image = (koksma_image){0};
@@ -56,9 +45,9 @@ static koksma_status read_texture(const koksma__build *build, const koksma__file
         return status;
     }
     if (from->within) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: bare texels", from->name);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: no bytes", from->name);
     }
-    if (!koksma__find_named(build->path, from->name, full)) {
+    if (!koksma__find_named(build->file->path, from->name, full)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->name);
     }
     const koksma_status status = koksma_image_read(full, image);
@@ -66,7 +55,7 @@ static koksma_status read_texture(const koksma__build *build, const koksma__file
 }
 
 /* Radiance beyond what scenes take is dimmed, in its own colour. */
-static void dim(koksma__build *build, double rgb[3])
+static void dim(builder *build, double rgb[3])
 {
     const double largest = fmax(fmax(rgb[0], rgb[1]), rgb[2]);
     build->scene->unread.too_bright += largest > BRIGHT;
@@ -76,7 +65,7 @@ static void dim(koksma__build *build, double rgb[3])
 }
 
 /* What isn't there or can't be made out is a warning; what fails otherwise is build->status. */
-static void note(koksma__build *build, koksma_status status, char text[256])
+static void note(builder *build, koksma_status status, char text[256])
 {
     if (status == KOKSMA_MISSING || koksma_status_exit_code(status) == koksma_status_exit_code(KOKSMA_SYSTEM)) {
         build->status = status;
@@ -108,7 +97,7 @@ static koksma_status tint(koksma_image *image, const double colour[3])
 }
 
 /* A texture that isn't there leaves the colour alone. */
-static void take_colour_map(koksma__build *build, const koksma__file_texture *from, koksma__material *m)
+static void take_colour_map(builder *build, const koksma__file_texture *from, koksma__material *m)
 {
     if (m->bsdf != &koksma__bsdf_lambert) {
         snprintf(m->lost, sizeof m->lost, "%s: metals have one colour here", from->name);
@@ -129,7 +118,7 @@ static void take_colour_map(koksma__build *build, const koksma__file_texture *fr
 
 /* Lights shine evenly: with the texture's mean. One that isn't there leaves the surface dark, as most of such a
    texture is. */
-static void take_glow_map(koksma__build *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
+static void take_glow_map(builder *build, const koksma__file_texture *from, double glow[3], koksma__material *m)
 {
     koksma_image image;
     const koksma_status status = read_texture(build, from, &image);
@@ -153,11 +142,10 @@ static void take_glow_map(koksma__build *build, const koksma__file_texture *from
     }
 }
 
-void koksma__build_material(koksma__build *build, const koksma__file_material *from)
+static void build_material(builder *build, size_t i)
 {
-    const size_t i = build->scene->n_materials++;
-    koksma__material *m = &build->scene->materials[i];
-    const double strength = i < KOKSMA__GLTF_MATERIALS ? build->gltf.strengths[i] : 1;
+    const koksma__file_material *from = koksma__file_material_at(build->file, i);
+    koksma__material *m = &build->scene->materials[build->scene->n_materials++];
     double *glow = build->glows[i];
     snprintf(m->name, sizeof m->name, "%zu", i);
     double *to = m->albedo[0];
@@ -168,7 +156,7 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     }
     for (int k = 0; k < 3; k++) {
         to[k] = clamp01(from->colour[k]);
-        glow[k] = from->glow[k] > 0 ? (double)from->glow[k] * strength : 0;
+        glow[k] = fmax(from->glow[k], 0);
     }
     memcpy(m->albedo[1], m->albedo[0], sizeof m->albedo[0]);
     build->scene->unread.see_through += from->see_through;
@@ -181,41 +169,78 @@ void koksma__build_material(koksma__build *build, const koksma__file_material *f
     dim(build, glow);
 }
 
-void koksma__build_grey(koksma__build *build)
-{
-    build->scene->n_materials = 1;
-    build->scene->materials[0].bsdf = &koksma__bsdf_lambert;
-    for (int i = 0; i < 6; i++) {
-        build->scene->materials[0].albedo[i / 3][i % 3] = 0.8;
-    }
-}
-
 /* ---- Placements, camera, lights -------------------------------------------------------------------------- */
 
-/* The scene's mesh for one of the file's, made where it is first placed. */
-static koksma_status find_mesh(koksma__build *build, const koksma__file_mesh *mesh, bool mirrored, int *out)
+/* Turns a mesh inside out: two corners of each triangle are swapped, normals turned round. */
+static void flip(koksma__mesh *mesh)
 {
-    int *known = &build->meshes[mesh->number][mirrored];
-    koksma_status status = KOKSMA_OK;
-    if (*known < 0) {
-        koksma__mesh *to = NULL;
-        status = koksma__scene_add_mesh(build->scene, &to);
-        status = status ? status : koksma__file_mesh_take(mesh, mirrored, to);
-        *known = (int)build->scene->n_meshes - 1;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        const uint32_t second = mesh->indices[3 * t + 1];
+        mesh->indices[3 * t + 1] = mesh->indices[3 * t + 2];
+        mesh->indices[3 * t + 2] = second;
     }
-    *out = *known;
-    return status;
+    for (size_t i = 0; mesh->normals && i < 3 * mesh->n_vertices; i++) {
+        mesh->normals[i] = 0 - mesh->normals[i];
+    }
 }
 
-static koksma_status place(koksma__build *build, int mesh, unsigned material, const double matrix[12])
+static koksma_status copy(const koksma__mesh *from, koksma__mesh *to)
 {
-    koksma_scene *scene = build->scene;
-    koksma__placement *p = NULL;
-    koksma_status status = koksma__scene_add_placement(scene, &p);
+    const koksma_status status =
+        koksma__mesh_init(from->n_vertices, from->n_triangles, from->normals != NULL, from->uvs != NULL, to);
     if (status) {
         return status;
     }
-    material = material < scene->n_materials ? material : 0;
+    memcpy(to->vertices, from->vertices, 3 * from->n_vertices * sizeof *to->vertices);
+    memcpy(to->indices, from->indices, 3 * from->n_triangles * sizeof *to->indices);
+    if (from->normals) {
+        memcpy(to->normals, from->normals, 3 * from->n_vertices * sizeof *to->normals);
+    }
+    if (from->uvs) {
+        memcpy(to->uvs, from->uvs, 2 * from->n_vertices * sizeof *to->uvs);
+    }
+    return KOKSMA_OK;
+}
+
+/* The scene's mesh for one of the file's, made where it is first placed. */
+static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int *out)
+{
+    int *known = build->meshes[number];
+    koksma_scene *scene = build->scene;
+    koksma__mesh *to = NULL, *from = &koksma__file_mesh_at(build->file, number)->mesh;
+    *out = known[mirrored];
+    if (known[mirrored] >= 0) {
+        return KOKSMA_OK;
+    }
+    koksma_status status = koksma__scene_add_mesh(scene, &to);
+    if (status) {
+        return status;
+    }
+    if (known[!mirrored] >= 0) {
+        status = copy(&scene->meshes[known[!mirrored]], to);
+    } else {
+        *to = *from; /* the file's own: nothing else needs it */
+        *from = (koksma__mesh){0};
+    }
+    if (!status && (mirrored || known[!mirrored] >= 0)) {
+        flip(to);
+    }
+    *out = known[mirrored] = (int)scene->n_meshes - 1;
+    return status ? status : koksma__mesh_check(to);
+}
+
+static koksma_status place(builder *build, const koksma__file_placement *from)
+{
+    koksma_scene *scene = build->scene;
+    const size_t material = koksma__file_mesh_at(build->file, from->mesh)->material;
+    const double *matrix = from->matrix;
+    int mesh = -1;
+    koksma__placement *p = NULL;
+    koksma_status status = find_mesh(build, from->mesh, koksma__matrix_mirrors(matrix), &mesh);
+    status = status ? status : koksma__scene_add_placement(scene, &p);
+    if (status) {
+        return status;
+    }
     p->mesh = mesh;
     p->material = (int)material;
     p->smooth = scene->meshes[mesh].normals != NULL;
@@ -237,16 +262,6 @@ static koksma_status place(koksma__build *build, int mesh, unsigned material, co
     return status;
 }
 
-void koksma__build_placement(void *context, const koksma__file_mesh *mesh, const double matrix[12])
-{
-    koksma__build *build = context;
-    int ours;
-    if (!build->status && koksma__file_triangles(mesh)) {
-        build->status = find_mesh(build, mesh, koksma__matrix_mirrors(matrix), &ours);
-        build->status = build->status ? build->status : place(build, ours, mesh->material, matrix);
-    }
-}
-
 static void transform(const double m[12], const double v[3], double w, double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -260,10 +275,10 @@ static bool within(const double v[3], double bound)
 }
 
 /* At the origin of its node, looking down its -z. */
-bool koksma__build_camera(koksma__build *build)
+static bool build_camera(builder *build)
 {
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1}, over[3] = {0, 1, 0};
-    const double fov = build->gltf.yfov_rad, *matrix = build->gltf.camera;
+    const double fov = build->file->yfov_rad, *matrix = build->file->camera;
     double eye[3], forward[3], up[3];
     transform(matrix, origin, 1, eye);
     transform(matrix, ahead, 0, forward);
@@ -273,10 +288,10 @@ bool koksma__build_camera(koksma__build *build)
 }
 
 /* Likewise. */
-static koksma_status build_light(koksma__build *build, size_t i)
+static koksma_status build_light(builder *build, size_t i)
 {
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
-    const koksma__gltf_light *from = &build->gltf.lights[i];
+    const koksma__file_light *from = (koksma__file_light *)build->file->lights.items + i;
     koksma__light *to = NULL;
     const koksma_status status = koksma__scene_add_light(build->scene, &to);
     if (status) {
@@ -295,13 +310,55 @@ static koksma_status build_light(koksma__build *build, size_t i)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__build_lights(koksma__build *build)
+/* ---- The whole ---------------------------------------------------------------------------------------------- */
+
+static koksma_status build_all(builder *build, bool *has_camera)
 {
-    koksma_status status = build->gltf.n_lights <= KOKSMA__GLTF_LIGHTS
-                               ? KOKSMA_OK
-                               : koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
-    for (size_t i = 0; !status && i < build->gltf.n_lights; i++) {
+    const koksma__mesh_file *f = build->file;
+    if (f->materials.n > KOKSMA__MAX_MATERIALS - 1) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d materials", KOKSMA__MAX_MATERIALS - 1);
+    }
+    if (f->lights.n > KOKSMA__MAX_LIGHTS) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
+    }
+    build->meshes = malloc((f->meshes.n + 1) * sizeof *build->meshes);
+    build->glows = calloc(f->materials.n + 1, sizeof *build->glows);
+    if (!build->meshes || !build->glows) {
+        return koksma__fail_memory((f->meshes.n + 1) * sizeof *build->meshes);
+    }
+    for (size_t i = 0; i < f->meshes.n; i++) {
+        build->meshes[i][0] = build->meshes[i][1] = -1;
+    }
+    for (size_t i = 0; !build->status && i < f->materials.n; i++) {
+        build_material(build, i);
+    }
+    koksma_status status = build->status;
+    for (size_t i = 0; !status && i < f->placements.n; i++) {
+        status = place(build, koksma__file_placement_at(f, i));
+    }
+    if (!status && !build->scene->n_placements) {
+        return koksma__fail(KOKSMA_MALFORMED, "no triangles");
+    }
+    *has_camera = !status && build_camera(build);
+    for (size_t i = 0; !status && i < f->lights.n; i++) {
         status = build_light(build, i);
     }
+    return status;
+}
+
+koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
+{
+    koksma__mesh_file file;
+    builder build = {.scene = scene, .file = &file};
+    koksma_status status = koksma__mesh_file_read(path, &file);
+    if (!status) {
+        scene->hash = file.hash;
+        scene->unread = file.unread;
+        status = build_all(&build, has_camera);
+        status = status ? koksma__fail_in(status, path) : KOKSMA_OK;
+    }
+    free(build.meshes);
+    free(build.glows);
+    koksma__mesh_file_fini(&file);
     return status;
 }

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/vector.h"
-#include "meshes/mesh.h"
+#include "meshes/mesh_read.h"
 #include "render/lights/lights.h"
 #include "scene/parse.h"
 

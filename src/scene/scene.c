@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "core/read_file.h"
 #include "core/status.h"
+#include "meshes/mesh_read.h"
 #include "scene/model.h"
 #include "scene/scenes_embedded.h"
 

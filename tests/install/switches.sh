@@ -27,18 +27,18 @@ configure -S "$work/parent" -B "$work/parent/build" || fail "add_subdirectory"
 grep -q "folders: .*/src" "$work/log" || fail "the parent project saw no folders"
 ! grep -q "folders: .*/tests" "$work/log" || fail "the parent project got our tests"
 
-# KOKSMA_ASSIMP as AUTO, then turned off and on in every spelling.
+# KOKSMA_EMBREE as AUTO, then turned off and on in every spelling.
 build=$work/build
 configure -S "$source" -B "$build" || fail "configure"
-if grep -q -- -lassimp "$build/koksma-lab.pc"; then
+if grep -q -- -lembree "$build/koksma-lab.pc"; then
   for word in off 0 NO false; do
-    configure "-DKOKSMA_ASSIMP=$word" "$build" || fail "KOKSMA_ASSIMP=$word"
-    ! grep -q -- -lassimp "$build/koksma-lab.pc" || fail "KOKSMA_ASSIMP=$word: koksma-lab.pc has -lassimp"
+    configure "-DKOKSMA_EMBREE=$word" "$build" || fail "KOKSMA_EMBREE=$word"
+    ! grep -q -- -lembree "$build/koksma-lab.pc" || fail "KOKSMA_EMBREE=$word: koksma-lab.pc has -lembree"
   done
-  configure -DKOKSMA_ASSIMP=on "$build" && grep -q -- -lassimp "$build/koksma-lab.pc" || fail "KOKSMA_ASSIMP=on"
+  configure -DKOKSMA_EMBREE=on "$build" && grep -q -- -lembree "$build/koksma-lab.pc" || fail "KOKSMA_EMBREE=on"
 fi
-! configure -DKOKSMA_ASSIMP=perhaps "$build" || fail "KOKSMA_ASSIMP=perhaps was taken"
-grep -q "KOKSMA_ASSIMP=PERHAPS: it takes AUTO, ON or OFF" "$work/log" || fail "KOKSMA_ASSIMP=perhaps"
+! configure -DKOKSMA_EMBREE=perhaps "$build" || fail "KOKSMA_EMBREE=perhaps was taken"
+grep -q "KOKSMA_EMBREE=PERHAPS: it takes AUTO, ON or OFF" "$work/log" || fail "KOKSMA_EMBREE=perhaps"
 
 # `make install` runs ldconfig where it installs for this machine, and does not mind when that fails.
 mkdir "$work/bin"

@@ -60,7 +60,7 @@ wanted.update(re.findall(r"npm install.* ([a-z][a-z-]+)\b", open("scripts/setup"
 for name in sorted(wanted):
     if re.sub(r"^(cairo)-.*", r"\1", name) not in text.lower():
         problems.append(f"the library {name} is not named in THIRD_PARTY.md")
-for path in ("random123", "embree", "assimp", "mpi"):
+for path in ("random123", "embree", "mpi"):
     if path not in libraries:
         problems.append(f"the library {path} is not named in THIRD_PARTY.md")
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Bare glTF files by what they say of a square, its texture and its lights. Without Embree and assimp all is skipped.
+/* Bare glTF files by what they say of a square, its texture and its lights. Without Embree all is skipped.
  */
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 #include <koksma/render.h>
 
 #include "meshes.h"
-#include "meshes/mesh_file.h"
-#include "scene/model_build.h"
+#include "meshes/mesh_read.h"
+#include "scene/scene.h"
 
 static void write_bytes(const char *path, const void *bytes, size_t size)
 {
@@ -281,42 +281,56 @@ static void mirrored_squares_glow_in_front(void **state)
     }
 }
 
-static const unsigned *corners_of(const void *faces, size_t i, size_t *n_corners)
-{
-    *n_corners = 3;
-    return (const unsigned *)faces + 3 * i;
-}
-
-/* Triangles run counterclockwise about their normals, whatever the matrix. */
+/* Triangles run counterclockwise about their normals, whatever the node's matrix, in a scene of the bare file (where
+   the placement mirrors) and as one mesh (where the file's reader does). */
 static void mirrored_normals_stay_outside(void **state)
 {
     (void)state;
-    static const float places[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[9] = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-    static const unsigned corners[3] = {0, 1, 2};
-    const koksma__file_mesh mesh = {
-        .n_vertices = 3, .n_faces = 1, .positions = places, .normals = normals, .faces = corners, .face = corners_of};
+    need_meshes();
+    static const float square[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    write_bytes("turn.bin", square, sizeof square);
     for (int i = 0; i < 8; i++) {
-        const double x = i & 1 ? -2 : 1, y = i & 2 ? -1 : 3, z = i & 4 ? -1 : 1;
-        const double matrix[12] = {x, 0, 0, 1, 0, y, 0, 2, 0, 0, z, 3};
-        koksma__mesh out;
-        koksma__gatherer g = {.out = &out, .normals = true};
-        assert_ok(koksma__mesh_init(3, 1, true, false, &out));
-        koksma__gather_append(&g, &mesh, matrix);
-        const float *v[3];
-        for (int c = 0; c < 3; c++) {
-            v[c] = out.vertices + 3 * out.indices[c];
+        const int x = i & 1 ? -2 : 1, y = i & 2 ? -1 : 3, z = i & 4 ? -1 : 1;
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
+            "\"scale\": [%d, %d, %d], \"translation\": [1, 2, 3]}, {\"mesh\": 0}], \"meshes\": [{\"primitives\": "
+            "[{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1}, \"mode\": 5}]}], \"accessors\": "
+            "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 0, "
+            "\"byteOffset\": 48, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}], \"bufferViews\": "
+            "[{\"buffer\": 0, \"byteLength\": 96}], \"buffers\": [{\"byteLength\": 96, \"uri\": \"turn.bin\"}]}",
+            x, y, z);
+        write_bytes("turn.gltf", text, strlen(text));
+        koksma__mesh one = {0};
+        koksma_scene *scene;
+        assert_ok(koksma__mesh_read("turn.gltf", &one));
+        assert_ok(koksma_scene_open("turn.gltf", &scene));
+        assert_int_equal(one.n_triangles, 4);
+        assert_int_equal(scene->n_placements, 2);
+        assert_int_equal(scene->n_meshes, x * y * z < 0 ? 2 : 1);
+        for (size_t t = 0; t < 4; t++) {
+            static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+            const koksma__placement *p = &scene->placements[t / 2];
+            const koksma__mesh *mesh = &scene->meshes[p->mesh];
+            float a[9], b[9];
+            koksma__placed_triangle(&one, identity, t, a);
+            koksma__placed_triangle(mesh, p->matrix, t % 2, b);
+            assert_memory_equal(a, b, sizeof a);
+            const double turn = (double)((a[3] - a[0]) * (a[7] - a[1]) - (a[4] - a[1]) * (a[6] - a[0]));
+            const double outside = t < 2 ? z : 1;
+            assert_true(turn * outside > 0);
+            assert_near((double)one.normals[3 * one.indices[3 * t] + 2], outside, 0);
+            /* by the inverse transposed, whose sign the determinant's goes with */
+            double normal[9];
+            koksma__normal_matrix(p->matrix, normal);
+            assert_true(normal[8] * (double)mesh->normals[3 * mesh->indices[3 * (t % 2)] + 2] * outside > 0);
         }
-        const float turn = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
-        assert_true((double)turn * z > 0);
-        assert_true((double)out.normals[2] * z > 0);
-        koksma__mesh_fini(&out);
+        koksma_scene_close(scene);
+        koksma__mesh_fini(&one);
     }
-    /* for placements that mirror: both turned round, which the placement undoes */
-    koksma__mesh out = {0};
-    assert_ok(koksma__file_mesh_take(&mesh, true, &out));
-    assert_int_equal(out.indices[1], 2);
-    assert_near((double)out.normals[2], -1, 0);
-    koksma__mesh_fini(&out);
+    unlink("turn.gltf");
+    unlink("turn.bin");
 }
 
 int main(void)

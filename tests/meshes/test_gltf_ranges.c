@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A glTF file with one number out of its range: each is refused in one line that names the file and the number's
-   place, with exit code 3, wherever the buffer is. The file as it was opens. Without Embree and assimp all is
+   place, with exit code 3, wherever the buffer is. The file as it was opens. Without Embree all is
    skipped.
  */
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree and assimp the
+/* Meshes against the analytic shapes that they approach, closed forms, and themselves. Without Embree the
    tests are skipped. */
 #include <pthread.h>
 #include <stdlib.h>

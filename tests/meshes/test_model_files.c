@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What comes of a mesh file however it is written, of its material files, and of what can't be rendered. Without
-   Embree and assimp the tests of meshes are skipped. */
+   Embree the tests of meshes are skipped. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,7 +128,7 @@ static void what_render_would_refuse_is_refused_at_once(void **state)
         assert_non_null(strstr(koksma_error_text(), "bad.pfm: pixel 0,0 has the value"));
     }
     unlink("bad.pfm");
-    if (koksma_mesh_tracer() && koksma_mesh_reader()) {
+    if (koksma_mesh_tracer()) {
         koksma_scene *scene;
         write_text("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
         write_text("refused.json", "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40},"

@@ -121,16 +121,16 @@ static void last_style(const char *svg, char *out, size_t size)
 static void eighteen_curves_differ(void **state)
 {
     enum { CURVES = 18, POINTS = 200 };
-    double xs[POINTS], ys[POINTS];
+    double line_xs[POINTS], line_ys[POINTS];
     char styles[CURVES][256];
     (void)state;
     for (int i = 0; i < POINTS; i++) {
-        xs[i] = ys[i] = i;
+        line_xs[i] = line_ys[i] = i;
     }
     for (size_t c = 0; c < CURVES; c++) {
         unsigned char *bytes;
         size_t size;
-        const koksma_curve curve = {.label = "a", .n = POINTS, .xs = xs, .ys = ys, .colour = c};
+        const koksma_curve curve = {.label = "a", .n = POINTS, .xs = line_xs, .ys = line_ys, .colour = c};
         const koksma_chart chart = {.curves = &curve, .n_curves = 1};
         assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_OK);
         char *svg = calloc(size + 1, 1);

@@ -428,7 +428,7 @@ static void groups_that_cannot_be_are_refused(void **state)
             fail_msg("%s", koksma_error_text());                                                                     \
         }                                                                                                            \
     } while (0)
-    REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has its own");
+    REFUSED(KOKSMA_ARGUMENT, bad.pairing = KOKSMA_PAIRING_NATIVE, "'pixel+time' has another");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 1, "a group of 1 uses");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].n_uses = 99, "a group of 99 uses");
     REFUSED(KOKSMA_ARGUMENT, bad.groups[0].uses[1] = KOKSMA_N_USES, "use 8 of a group");

@@ -21,7 +21,7 @@ typedef struct job {
     int half;
     double *grid; /* [y][x] */
     double *twiddles;
-    double *re, *im;     /* after the first pass: [ky][x], ky <= half */
+    double *re, *im;     /* real and imaginary parts after the transform along y: [ky][x], ky <= half */
     double *corrections; /* one over the kernel's transform, by |k| */
     double *power;
 } job;

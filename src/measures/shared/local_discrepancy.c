@@ -25,7 +25,7 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     }
     for (int k = 0; k < points->dim; k++) {
         if (!(x[k] >= 0 && x[k] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "a corner's coordinates are in [0,1]");
+            return koksma__fail(KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");
         }
         volume *= x[k];
     }

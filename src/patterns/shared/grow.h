@@ -19,7 +19,8 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
                                     const koksma_run *run, koksma_points *out);
 
-/* v[i] = the fraction of coordinate 0 of point i < n times 2^32, of which partners has the first 32. */
+/* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times that of point i. partners has the
+   partner of each of the 32 levels. */
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                                   size_t n, uint32_t *v);
 

@@ -6,8 +6,8 @@
 
 enum { KOKSMA__SOBOL_DIM = 1111, KOKSMA__SOBOL_OLD_DIM = 40 };
 
-/* The generator matrix of dimension k (0 ..): column b is word b, its first row the highest bit. old: the numbers of
-   Bratley & Fox, k < 40, instead of Joe & Kuo's, k < 1111. */
+/* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.
+   old: use the numbers of Bratley & Fox (k < 40) instead of those of Joe & Kuo (k < 1111). */
 const uint32_t *koksma__sobol_directions(int k, int old);
 
 /* partners[l], l < levels: the number such that points i and i ^ partners[l], i < 2^l, and 2^l + i of the digital

@@ -88,9 +88,9 @@ uint32_t koksma__set_key(const koksma__place_of_use *place, uint32_t use);
 /* The spec of a use: its group's, its own, or that of all. */
 const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32_t use);
 
-/* Dimensions of the sets of use u where it is in no group. One that has one dimension takes a set of one dimension
-   where the pattern has any; not from patterns that keep a distance, which is meant for the plane: there it takes the
-   first coordinate. */
+/* Returns the number of dimensions of the point sets for use u, which is in no group. A use of one dimension takes sets of
+   one dimension if the pattern has them. From patterns with a minimum distance, which is meant for the plane, it takes
+   the first coordinate of sets of two. */
 int koksma__use_set_dim(const koksma_spec *spec, int u);
 
 /* Whether every spec is one of a pattern, and every group is in order. Errors: ARGUMENT, DIM. */

@@ -99,7 +99,7 @@ static koksma_status check_native(const koksma_render_options *options)
         }
     }
     return *name ? koksma__fail(KOKSMA_ARGUMENT,
-                                "native pairing has one pattern for all uses; '%s' has its own, which takes shuffled "
+                                "native pairing has one pattern for all uses, and '%s' has another; choose shuffled "
                                 "or aligned pairing",
                                 name)
                  : KOKSMA_OK;

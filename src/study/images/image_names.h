@@ -13,7 +13,7 @@ typedef struct koksma__image_name {
     long long spp, trial;
 } koksma__image_name;
 
-/* The pattern of glob() for all paths that may fit. Errors: ARGUMENT (no places, or too long). */
+/* Writes the pattern for glob() that finds all paths that could match. Errors: ARGUMENT (no {name}, or too long). */
 koksma_status koksma__image_names_pattern(const char *places, char *pattern, size_t size);
 
 /* Whether a path fits places that have a pattern. Errors: MEMORY. */

@@ -74,8 +74,8 @@ static koksma_status set_adaptive(koksma__variant *variant, const char *word)
     return strcmp(word, "none") != 0 ? koksma_adaptive_parse(word, &variant->adaptive) : KOKSMA_OK;
 }
 
-/* One line an option that studies may vary. Splatting stands before the filter, for in older folders it stood behind:
-   their rows of both were compared with references that weren't splatted, and no text of today finds them. */
+/* One line for each option that studies may vary. Splatting comes before the filter. Older versions wrote it after the
+   filter and compared such rows with references that were not splatted; with this order the old rows are not found. */
 static const option known[] = {
     {"pairing", "shuffled", NEVER, set_pairing}, {"scope", "pixel", NEVER, set_scope},
     {"lights", "all", NEVER, set_lights},        {"splat", "no", UNLESS_BOX, set_splat},

@@ -119,7 +119,7 @@ static void receive_work(server *s, int from, int tag, size_t bytes)
     free(message);
 }
 
-/* Answers a request; with nothing when there is nothing now. */
+/* Answers a rank's request for jobs; the answer is empty when no job is ready. */
 static void assign(server *s, int to)
 {
     koksma__request request;

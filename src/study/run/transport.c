@@ -50,7 +50,7 @@ const koksma__transport *koksma__transport_load(const char **problem)
     if (!find(path, sizeof path)) {
         return NULL;
     }
-    /* Global, as Open MPI's own modules look there for its symbols; never unloaded. */
+    /* RTLD_GLOBAL, because modules of Open MPI look up its symbols globally. The library is never unloaded. */
     void *module = dlopen(path, RTLD_NOW | RTLD_GLOBAL);
     const koksma__transport *transport = module ? dlsym(module, KOKSMA__TRANSPORT_SYMBOL) : NULL;
     if (!transport) {

@@ -23,6 +23,12 @@ function draw(series, { log = false, width = 700, ...options } = {}) {
 }
 const one = (points, more = {}) => [{ label: "s", className: "s0", points, line: true, marks: 0, ...more }];
 
+for (const [low, high] of [[0.25, 0.25 * (1 + 2 ** -52)], [0, 1e-320], [1e-12, 1e-12], [7, 7]]) {
+  for (const log of [false, true]) {
+    const ticks = draw(one([[1, low], [2, high]]), { log }).all(n => n.attributes["text-anchor"] === "end").length;
+    assert(ticks <= 14, `${ticks} numbers on an axis from ${low} to ${high}, logarithmic: ${log}`);
+  }
+}
 for (let high = 10.001; high < 1e5; high *= 1.17) {
   for (const log of [false, true]) {
     const ticks = draw(one([[1, 10], [2, high]]), { log }).all(n => n.attributes["text-anchor"] === "end").length;

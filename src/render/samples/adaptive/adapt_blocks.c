@@ -81,7 +81,7 @@ static double sum_errors(const koksma__adaptive *run, int x, int y, int width, i
     return sum;
 }
 
-/* Cuts block b, if it can be; the second part is appended. */
+/* Cuts block b in two, if it can be cut; the second part becomes the last block. */
 static void cut(koksma__adaptive *run, size_t b, double total)
 {
     blocks *all = run->extra;

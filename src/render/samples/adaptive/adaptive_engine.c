@@ -249,7 +249,8 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     }
     const koksma__adaptive_rules *rules = adaptive->method->rules;
     if (adaptive->probes && !rules->probes) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to probe", name);
+        return koksma__fail(KOKSMA_ARGUMENT, "%s splits no strata, so that probes have no effect; leave them out",
+                            name);
     }
     const koksma_strata *strata = adaptive->strata;
     if (strata && !rules->show) {

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The bytes of a glTF file: buffers from files beside the model, from base64 in it, or from the second piece of a
+ * binary file; buffer views; accessors, whose elements lie one after the other or `byteStride` apart (glTF 2.0,
+ * sections 3.6.1 and 4.4). Numbers are little-endian whatever the machine is. A buffer that isn't there is an error
+ * only where something that is read lies in it.
+ */
+#include "meshes/gltf_buffers.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/read_file.h"
+#include "core/status.h"
+
+typedef koksma__json_node field;
+
+/* ---- Buffers ------------------------------------------------------------------------------------------------ */
+
+static int base64_value(char c)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *at = c ? strchr(digits, c) : NULL;
+    return at ? (int)(at - digits) : -1;
+}
+
+/* The file frees the bytes at its end. */
+static koksma_status keep(koksma__gltf *g, unsigned char *bytes, size_t size, koksma__gltf_bytes *out)
+{
+    unsigned char **kept = koksma__list_add(&g->out->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(bytes);
+        return KOKSMA_MEMORY;
+    }
+    *kept = bytes;
+    *out = (koksma__gltf_bytes){bytes, size};
+    return KOKSMA_OK;
+}
+
+/* RFC 4648, section 4. */
+koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *uri, koksma__gltf_bytes *out)
+{
+    static const char base64[] = ";base64";
+    const char *text = strchr(uri, ',');
+    const size_t mark = strlen(base64);
+    if (!text || (size_t)(text - uri) < mark || strncmp(text - mark, base64, mark) != 0) {
+        return koksma__json_fail(f, "uri: data that is not base64 is not read");
+    }
+    const size_t length = strlen(++text);
+    unsigned char *bytes = malloc(length / 4 * 3 + 4);
+    uint32_t bits = 0;
+    int n_bits = 0;
+    size_t size = 0;
+    if (!bytes) {
+        return koksma__fail_memory(length / 4 * 3 + 4);
+    }
+    for (size_t i = 0; i < length && text[i] != '='; i++) {
+        const int value = base64_value(text[i]);
+        if (value < 0) {
+            free(bytes);
+            return koksma__json_fail(f, "uri: character %zu of the data is not base64", i);
+        }
+        bits = bits << 6 | (uint32_t)value;
+        n_bits += 6;
+        if (n_bits >= 8) {
+            n_bits -= 8;
+            bytes[size++] = (unsigned char)(bits >> n_bits & 0xff);
+        }
+    }
+    return keep(g, bytes, size, out);
+}
+
+static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koksma__gltf_bytes *out)
+{
+    char file[KOKSMA__MAX_PATH];
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    if (!strncmp(uri, "data:", 5)) {
+        return koksma__gltf_decode(g, f, uri, out);
+    }
+    if (!koksma__find_named(g->out->path, uri, file)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__read_file(file, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    g->out->hash += koksma__hash(bytes, size);
+    return keep(g, bytes, size, out);
+}
+
+koksma_status koksma__gltf_load_buffers(koksma__gltf *g)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < g->n[KOKSMA__GLTF_BUFFERS]; i++) {
+        const field f = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, i);
+        koksma__gltf_bytes *b = &g->buffers[i];
+        const char *uri = NULL;
+        long long length = 0;
+        status = koksma__json_get_text(&f, "uri", false, &uri);
+        status = status ? status : koksma__json_get_whole(&f, "byteLength", true, 0, 1 << 30, &length);
+        if (!status && uri) {
+            status = load(g, &f, uri, b);
+        } else if (!i) {
+            *b = g->binary;
+        }
+        if (!status && b->bytes && b->size < (size_t)length) {
+            return koksma__json_fail(&f, "byteLength is %lld, and there are %zu bytes", length, b->size);
+        }
+    }
+    return status;
+}
+
+/* ---- Views and accessors ------------------------------------------------------------------------------------ */
+
+koksma_status koksma__gltf_view(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out, size_t *stride)
+{
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, view);
+    long long number = 0, offset = 0, length = 0, step = 0;
+    koksma_status status = koksma__json_get_whole(&f, "buffer", true, 0, KOKSMA__GLTF_ITEMS, &number);
+    status = status ? status : koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset);
+    status = status ? status : koksma__json_get_whole(&f, "byteLength", true, 0, 1 << 30, &length);
+    status = status ? status : koksma__json_get_whole(&f, "byteStride", false, 0, 252, &step);
+    if (status) {
+        return status;
+    }
+    if (!g->buffers[number].bytes) {
+        const field buffer = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, (size_t)number);
+        const char *uri = NULL;
+        status = koksma__json_get_text(&buffer, "uri", false, &uri);
+        return status ? status
+                      : koksma__json_fail(&buffer, uri ? "uri: there is no file '%.300s'" : "there is no uri%s",
+                                          uri ? uri : ", and no binary piece of the file");
+    }
+    *out = (koksma__gltf_bytes){g->buffers[number].bytes + offset, (size_t)length};
+    *stride = (size_t)step;
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *object, const char *key,
+                                       koksma__gltf_elements *out, long long *number)
+{
+    static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    long long n = 0, component = 0, view = 0, offset = 0;
+    const char *type = "";
+    koksma__gltf_bytes bytes = {0};
+    size_t stride = 0;
+    *out = (koksma__gltf_elements){0};
+    koksma_status status = koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number);
+    if (status) {
+        return status;
+    }
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)*number);
+    status = koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n);
+    status = status ? status : koksma__json_get_whole(&f, "componentType", true, 5120, 5126, &component);
+    status = status ? status : koksma__json_get_text(&f, "type", true, &type);
+    status = status ? status : koksma__json_get_flag(&f, "normalized", false, &out->normalised);
+    status = status ? status : koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset);
+    if (!status && !koksma__json_has(&f, "bufferView")) {
+        return koksma__json_fail(&f, "no bufferView: its elements are all 0");
+    }
+    status = status ? status : koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view);
+    status = status ? status : koksma__gltf_view(g, (size_t)view, &bytes, &stride);
+    if (status) {
+        return status;
+    }
+    for (int i = 0; i < 4; i++) {
+        out->width = strcmp(type, types[i]) ? out->width : i + 1;
+    }
+    const size_t size = (component < 5122 ? 1u : component < 5124 ? 2u : 4u) * (size_t)out->width;
+    out->first = bytes.bytes + offset;
+    out->n = (size_t)n;
+    out->component = (int)component;
+    out->stride = stride > size ? stride : size;
+    return KOKSMA_OK;
+}
+
+static uint32_t bits_at(const unsigned char *at, size_t bytes)
+{
+    uint32_t value = 0;
+    for (size_t i = 0; i < bytes; i++) {
+        value |= (uint32_t)at[i] << 8 * i;
+    }
+    return value;
+}
+
+size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i)
+{
+    const unsigned char *at = e->first + i * e->stride;
+    return e->component == 5121 ? *at : bits_at(at, e->component == 5123 ? 2 : 4);
+}
+
+/* glTF 2.0, section 3.6.2.2: c / 255 and the like, of signed ones max(c / 127, -1). */
+float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k)
+{
+    const unsigned char *at = e->first + i * e->stride;
+    float value = 0, full = 0;
+    if (e->component == 5126 || e->component == 5125) {
+        const uint32_t bits = bits_at(at + 4 * k, 4);
+        memcpy(&value, &bits, sizeof value);
+        return e->component == 5126 ? value : (float)bits;
+    }
+    if (e->component < 5122) {
+        value = e->component == 5121 ? (float)at[k] : (float)(signed char)at[k];
+        full = e->component == 5121 ? 255 : 127;
+    } else {
+        const uint32_t bits = bits_at(at + 2 * k, 2);
+        value = e->component == 5123 ? (float)bits : (float)(int16_t)bits;
+        full = e->component == 5123 ? 65535 : 32767;
+    }
+    return !e->normalised ? value : value < -full ? -1 : value / full;
+}

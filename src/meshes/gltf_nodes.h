@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The nodes of a glTF file. */
+#ifndef KOKSMA_MESHES_GLTF_NODES_H
+#define KOKSMA_MESHES_GLTF_NODES_H
+
+#include "meshes/gltf.h"
+
+/* Puts the placements of meshes in g->shown, lights and camera into the file. Errors: MALFORMED, MEMORY. */
+koksma_status koksma__gltf_read_nodes(koksma__gltf *g);
+
+#endif

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reader of glTF files. */
+#ifndef KOKSMA_MESHES_GLTF_READ_H
+#define KOKSMA_MESHES_GLTF_READ_H
+
+#include "meshes/mesh_file.h"
+
+/* Adds what the file, JSON or binary, and its buffers hold to out; out->path is set. Errors: MISSING, MALFORMED,
+   MEMORY. */
+koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+
+#endif

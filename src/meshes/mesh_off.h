@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reader of OFF files. */
+#ifndef KOKSMA_MESHES_MESH_OFF_H
+#define KOKSMA_MESHES_MESH_OFF_H
+
+#include "meshes/mesh_file.h"
+
+/* Adds what the file holds to out.
+   The whole file is in memory, with a zero byte behind its end, and is not empty; out->path is set. Errors:
+   MALFORMED, MEMORY. */
+koksma_status koksma__off_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+
+#endif

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Opens mesh files by the reader that the name's ending says, and joins what it reads to one mesh: the file's meshes
+ * one after the other, each where its nodes place it. A file of one mesh that is placed once at the identity, as all
+ * but glTF and OBJ files are, is handed over without a copy. The mesh has normals (texture coordinates) where all its
+ * parts have them.
+ */
+#include "meshes/mesh_read.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/hash.h"
+#include "core/status.h"
+#include "meshes/gltf_read.h"
+#include "meshes/mesh_obj.h"
+#include "meshes/mesh_off.h"
+#include "meshes/mesh_ply.h"
+
+/* ---- Readers -------------------------------------------------------------------------------- */
+
+/* A reader by the ending of a file's name. The hash of a bare model's scene is the sum over its files, the model's
+   own so many `times`: stored studies find their scenes by it, and the reader that made them opened the file so
+   often. */
+typedef struct reader {
+    const char *ending;
+    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma__mesh_file *out);
+    uint64_t times;
+} reader;
+
+static const reader readers[] = {{".obj", koksma__obj_read, 3},
+                                 {".ply", koksma__ply_read, 3},
+                                 {".off", koksma__off_read, 3},
+                                 {".gltf", koksma__gltf_read, 5},
+                                 {".glb", koksma__gltf_read, 5}};
+
+static const reader *find_reader(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof readers / sizeof *readers; i++) {
+        if (!strcmp(dot, readers[i].ending)) {
+            return &readers[i];
+        }
+    }
+    return NULL;
+}
+
+bool koksma__is_mesh_file(const char *path)
+{
+    return find_reader(path) != NULL;
+}
+
+koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
+{
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    const reader *how = find_reader(path);
+    *out = (koksma__mesh_file){.path = path};
+    if (!how) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
+    }
+    const bool plain = koksma__is_plain_file(path); /* where not, reading says why */
+    koksma_status status = koksma__read_file(path, plain ? KOKSMA__MAX_MESH_FILE : 1, &bytes, &size);
+    if (status) {
+        return status;
+    }
+    unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(bytes);
+        return KOKSMA_MEMORY;
+    }
+    *kept = bytes;
+    if (!plain || !size) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, plain ? "empty" : "no plain file");
+    }
+    out->hash = how->times * koksma__hash(bytes, size);
+    return how->read(bytes, size, out);
+}
+
+/* ---- One mesh ------------------------------------------------------------------------------- */
+
+static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+/* x -> matrix x for a vertex, and for a normal by the inverse transposed; sign undoes the determinant's. */
+static void append_vertices(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
+{
+    const double sign = koksma__matrix_mirrors(matrix) ? -1 : 1;
+    double turn[9];
+    koksma__normal_matrix(matrix, turn);
+    for (size_t i = 0; i < 3 * from->n_vertices; i++) {
+        const double *row = matrix + 4 * (i % 3), *turned = turn + 3 * (i % 3);
+        const float *v = from->vertices + (i - i % 3), *n = out->normals ? from->normals + (i - i % 3) : v;
+        out->vertices[3 * out->n_vertices + i] =
+            (float)(row[0] * (double)v[0] + row[1] * (double)v[1] + row[2] * (double)v[2] + row[3]);
+        if (out->normals) {
+            out->normals[3 * out->n_vertices + i] =
+                (float)(sign * (turned[0] * (double)n[0] + turned[1] * (double)n[1] + turned[2] * (double)n[2]));
+        }
+    }
+    if (out->uvs) {
+        memcpy(out->uvs + 2 * out->n_vertices, from->uvs, 2 * from->n_vertices * sizeof *from->uvs);
+    }
+}
+
+/* Behind the vertices and triangles that out has; there is room. */
+static void append(const koksma__mesh *from, const double matrix[12], koksma__mesh *out)
+{
+    const bool swapped = koksma__matrix_mirrors(matrix);
+    append_vertices(from, matrix, out);
+    for (size_t i = 0; i < 3 * from->n_triangles; i++) {
+        const size_t k = i % 3, corner = swapped && k ? 3 - k : k;
+        out->indices[3 * out->n_triangles + i] = (uint32_t)out->n_vertices + from->indices[i - k + corner];
+    }
+    out->n_vertices += from->n_vertices;
+    out->n_triangles += from->n_triangles;
+}
+
+static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
+{
+    size_t n_vertices = 0, n_triangles = 0;
+    bool normals = true, uvs = true;
+    for (size_t i = 0; i < f->placements.n; i++) {
+        const koksma__mesh *mesh = &koksma__file_mesh_at(f, koksma__file_placement_at(f, i)->mesh)->mesh;
+        n_vertices += mesh->n_vertices;
+        n_triangles += mesh->n_triangles;
+        normals &= mesh->normals != NULL;
+        uvs &= mesh->uvs != NULL;
+    }
+    const koksma_status status = koksma__mesh_init(n_vertices, n_triangles, normals, uvs, out);
+    if (status) {
+        return status;
+    }
+    out->n_vertices = out->n_triangles = 0;
+    for (size_t i = 0; i < f->placements.n; i++) {
+        const koksma__file_placement *p = koksma__file_placement_at(f, i);
+        append(&koksma__file_mesh_at(f, p->mesh)->mesh, p->matrix, out);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
+{
+    koksma__mesh_file f;
+    koksma_status status = koksma__mesh_file_read(path, &f);
+    if (!status) {
+        const koksma__file_placement *first = f.placements.items;
+        if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {
+            koksma__mesh *mesh = &koksma__file_mesh_at(&f, first->mesh)->mesh;
+            memcpy(mesh->name, out->name, sizeof mesh->name);
+            *out = *mesh;
+            *mesh = (koksma__mesh){0};
+        } else {
+            status = join(&f, out);
+        }
+        status = status ? status : koksma__mesh_check(out);
+        status = status ? koksma__fail_in(status, path) : KOKSMA_OK;
+    }
+    koksma__mesh_file_fini(&f);
+    return status;
+}
