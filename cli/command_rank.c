@@ -61,10 +61,27 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
 
 static const char *const decisions[] = {"undecided", "best", "equal", "worse"};
 static const char *const states[] = {"ranked", "too-slow", "refused"};
-static const char *const check_names[KOKSMA_RANK_CHECKS][5] = {
-    {"half_width", "half_height", "half_size", "half_size_best", "half_size_coherent"},
-    {"twice_width", "twice_height", "twice_size", "twice_size_best", "twice_size_coherent"}};
+static const char *const check_sizes[KOKSMA_RANK_CHECKS][2] = {{"half_width", "half_height"},
+                                                               {"twice_width", "twice_height"}};
+/* State, better pattern, coherence. */
+static const char *const advice_names[KOKSMA_RANK_CHECKS][3] = {
+    {"half_size", "half_size_best", "half_size_coherent"}, {"twice_size", "twice_size_best", "twice_size_coherent"}};
+static const char *const first_names[KOKSMA_RANK_CHECKS][3] = {
+    {"half_size_first", "half_size_first_best", "half_size_first_coherent"},
+    {"twice_size_first", "twice_size_first_best", "twice_size_first_coherent"}};
 static const char *const check_states[] = {"unchecked", "confirmed", "overturned", "unsettled"};
+
+static void put_check(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_check_result *result,
+                      const char *const names[3])
+{
+    cli_row_text(rows, names[0], check_states[result->state]);
+    if (result->state == KOKSMA_RANK_OVERTURNED) {
+        cli_row_text(rows, names[1], options->patterns[result->pattern]);
+    }
+    if (result->state == KOKSMA_RANK_CONFIRMED || result->state == KOKSMA_RANK_OVERTURNED) {
+        cli_row_flag(rows, names[2], result->coherent);
+    }
+}
 
 /* advised: a pattern, where there is one. */
 static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
@@ -83,15 +100,10 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
     cli_row_number(rows, "needed_s", ranking->needed_s);
     for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
         const koksma_rank_check *check = &ranking->checks[i];
-        cli_row_whole(rows, check_names[i][0], (uint64_t)check->width);
-        cli_row_whole(rows, check_names[i][1], (uint64_t)check->height);
-        cli_row_text(rows, check_names[i][2], check_states[check->state]);
-        if (check->state == KOKSMA_RANK_OVERTURNED) {
-            cli_row_text(rows, check_names[i][3], options->patterns[check->pattern]);
-        }
-        if (check->state == KOKSMA_RANK_CONFIRMED || check->state == KOKSMA_RANK_OVERTURNED) {
-            cli_row_flag(rows, check_names[i][4], check->coherent);
-        }
+        cli_row_whole(rows, check_sizes[i][0], (uint64_t)check->width);
+        cli_row_whole(rows, check_sizes[i][1], (uint64_t)check->height);
+        put_check(rows, options, &check->advice, advice_names[i]);
+        put_check(rows, options, &check->first, first_names[i]);
     }
 }
 
@@ -254,7 +266,8 @@ const cli_command cli_command_rank = {
         "\n"
         "The sequence of work depends on the command line, not on the machine: rounds of 8, 16, 32, ... trials\n"
         "until the best pattern is decided, and the best of those without bands; then the same for the first three\n"
-        "of these at half and twice the size; then rounds until every pair is decided. A pair is decided if the\n"
+        "of these and the first three of all at half and twice the size, with a remark where another one is the\n"
+        "best there; then rounds until every pair is decided. A pair is decided if the\n"
         "confidence interval of the ratio of its errors excludes 1 (different) or lies within 2 % of 1 (equal). A\n"
         "time limit ends the sequence early: a longer limit never names another best pattern. With too little time\n"
         "the answer is 'undecided', with an estimate of the time needed.\n"

@@ -201,29 +201,56 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
     fprintf(stderr, " would %s", ranking->n_slow ? "rank them" : "decide it");
 }
 
+/* Which pattern leaves the least error there, in bands or not, unless the advice's line says so. */
+static void advise_first(const koksma_rank_options *options, const koksma_rank_row *rows,
+                         const koksma_rank_check *check)
+{
+    const koksma_rank_check_result *first = &check->first;
+    switch (first->state) {
+    case KOKSMA_RANK_OVERTURNED:
+        fprintf(stderr, "; %s%s leaves the least error, not %s, which leaves ", options->patterns[first->pattern],
+                first->coherent ? " (in bands)" : "", options->patterns[rows[0].pattern]);
+        print_percent(first->behind, first->behind_low, first->behind_high, "more");
+        break;
+    case KOKSMA_RANK_UNSETTLED:
+        if (check->advice.state != KOKSMA_RANK_UNSETTLED) {
+            fprintf(stderr, "; undecided after %lld trials which of all leaves the least error", check->trials);
+        }
+        break;
+    case KOKSMA_RANK_UNCHECKED:
+        fprintf(stderr, "; the time was up before it was decided which of all leaves the least error");
+        break;
+    default:;
+    }
+}
+
 static void advise_sizes(const koksma_rank_options *options, const koksma_rank_row *rows,
                          const koksma_ranking *ranking)
 {
     for (int i = 0; i < KOKSMA_RANK_CHECKS; i++) {
         const koksma_rank_check *check = &ranking->checks[i];
+        const koksma_rank_check_result *advice = &check->advice;
         fprintf(stderr, "  at %d x %d: ", check->width, check->height);
-        switch (check->state) {
+        switch (advice->state) {
         case KOKSMA_RANK_CONFIRMED:
-            fprintf(stderr, "the same advice%s\n",
-                    check->coherent && ranking->n_coherent < ranking->n ? ", but in visible bands" : "");
+            fprintf(stderr, "the same advice%s",
+                    advice->coherent && ranking->n_coherent < ranking->n ? ", but in visible bands" : "");
             break;
         case KOKSMA_RANK_OVERTURNED:
-            fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", options->patterns[check->pattern],
-                    check->coherent ? " (in bands)" : "", options->patterns[rows[best_row(rows, ranking)].pattern]);
-            print_percent(check->behind, check->behind_low, check->behind_high, "more");
-            fprintf(stderr, "\n");
+            fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", options->patterns[advice->pattern],
+                    advice->coherent ? " (in bands)" : "", options->patterns[rows[best_row(rows, ranking)].pattern]);
+            print_percent(advice->behind, advice->behind_low, advice->behind_high, "more");
             break;
         case KOKSMA_RANK_UNSETTLED:
-            fprintf(stderr, "undecided after %lld trials\n", check->trials);
+            fprintf(stderr, "undecided after %lld trials", check->trials);
             break;
         default:
-            fprintf(stderr, "not checked%s\n", ranking->cut_short ? ", the time was up" : "");
+            fprintf(stderr, "not checked%s", ranking->cut_short ? ", the time was up" : "");
         }
+        if (advice->state && ranking->n_coherent && ranking->n_coherent < ranking->n) {
+            advise_first(options, rows, check);
+        }
+        fprintf(stderr, "\n");
     }
 }
 

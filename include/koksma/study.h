@@ -225,14 +225,21 @@ typedef enum koksma_rank_check_state {
     KOKSMA_RANK_UNSETTLED,  /* too few trials to decide */
 } koksma_rank_check_state;
 
-/* A check whether the best pattern is the best at another image size, too. It compares the first three patterns among
-   those whose error is not coherent, or among all if every error is. */
-typedef struct koksma_rank_check {
-    int width, height;
+/* Whether one pattern is the best at another size, too. */
+typedef struct koksma_rank_check_result {
     koksma_rank_check_state state;
     size_t pattern; /* if OVERTURNED: the better pattern, an index into the options' patterns */
     bool coherent;  /* whether the error of the best pattern at this size is coherent */
     double behind, behind_low, behind_high; /* if OVERTURNED: relative difference of the checked pattern to it */
+} koksma_rank_check_result;
+
+/* A check whether the best patterns are the best at another image size, too. It compares the first three patterns
+   among those whose error is not coherent, and the first three of all. */
+typedef struct koksma_rank_check {
+    int width, height;
+    koksma_rank_check_result advice; /* of the advised pattern, among those whose error is not coherent at the size
+                                        asked for; if every error is, the same as first */
+    koksma_rank_check_result first;  /* of the pattern with the least error, row 0, among all */
     long long trials;
 } koksma_rank_check;
 
@@ -262,7 +269,7 @@ typedef struct koksma_ranking {
 
    The sequence of work depends on the options, not on the machine. It is: rounds of 8, 16, 32, ... trials until the
    best pattern is decided; further rounds until the best of those whose error is not coherent (image.h) is decided;
-   the checks at half and twice the size; further rounds until every pair is decided. A pair is decided after a round
+   the checks of both at half and twice the size; further rounds until every pair is decided. A pair is decided after a round
    if the confidence interval of the ratio of its errors excludes 1, or lies within 2 % of 1 (equal). Decisions are
    final. All decisions at one size hold together with 96 % probability, those of each check with 99.5 %.
    A time limit ends this sequence early: a longer limit names the same best pattern, or one where there was none. A

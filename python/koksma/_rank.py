@@ -41,8 +41,18 @@ class Ranked:
 
 
 @dataclass(frozen=True)
+class FirstPlace:
+    """Whether the pattern with the least error, in bands or not, leaves the least at another size, too."""
+    state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
+    best: Optional[str]
+    behind: float  #: overturned: of the first pattern of the ranking against `best`
+    behind_interval: Tuple[float, float]
+    coherent: bool  #: confirmed, overturned: the error of what leaves the least there
+
+
+@dataclass(frozen=True)
 class SizeCheck:
-    """The first patterns whose error is not coherent at half or twice the size (the first ones, if all are)."""
+    """The advised pattern at half or twice the size, among the first whose error is not coherent (among all, if all are)."""
     size: Tuple[int, int]
     state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
     best: Optional[str]
@@ -50,6 +60,7 @@ class SizeCheck:
     behind_interval: Tuple[float, float]
     trials: int
     coherent: bool  #: confirmed, overturned: the error of what is the best there is
+    first: FirstPlace
 
 
 @dataclass(frozen=True)
@@ -117,8 +128,14 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         checks=tuple(_check(c, names) for c in out.checks))
 
 
+def _result(result: s.RankCheckResult, names: Sequence[str]) -> FirstPlace:
+    overturned = _CHECKS[result.state] == "overturned"
+    interval = (result.behind_low, result.behind_high) if overturned else (math.nan, math.nan)
+    return FirstPlace(_CHECKS[result.state], names[result.pattern] if overturned else None,
+                      result.behind if overturned else math.nan, interval, result.coherent)
+
+
 def _check(check: s.RankCheck, names: Sequence[str]) -> SizeCheck:
-    overturned = _CHECKS[check.state] == "overturned"
-    interval = (check.behind_low, check.behind_high) if overturned else (math.nan, math.nan)
-    return SizeCheck((check.width, check.height), _CHECKS[check.state], names[check.pattern] if overturned else None,
-                     check.behind if overturned else math.nan, interval, check.trials, check.coherent)
+    advice = _result(check.advice, names)
+    return SizeCheck((check.width, check.height), advice.state, advice.best, advice.behind, advice.behind_interval,
+                     check.trials, advice.coherent, _result(check.first, names))

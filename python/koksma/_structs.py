@@ -116,10 +116,14 @@ class RankRow(Structure):
                 ("coherence", CoherenceValues), ("reason", c_char * RANK_REASON)]
 
 
+class RankCheckResult(Structure):
+    _fields_ = [("state", c_int), ("pattern", c_size_t), ("coherent", c_bool), ("behind", c_double),
+                ("behind_low", c_double), ("behind_high", c_double)]
+
+
 class RankCheck(Structure):
-    _fields_ = [("width", c_int), ("height", c_int), ("state", c_int), ("pattern", c_size_t), ("coherent", c_bool),
-                ("behind", c_double),
-                ("behind_low", c_double), ("behind_high", c_double), ("trials", c_longlong)]
+    _fields_ = [("width", c_int), ("height", c_int), ("advice", RankCheckResult), ("first", RankCheckResult),
+                ("trials", c_longlong)]
 
 
 class Ranking(Structure):
@@ -155,5 +159,6 @@ LAYOUTS = [
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
+    ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),
 ]

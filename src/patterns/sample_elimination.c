@@ -9,6 +9,10 @@
  * Source: Yuksel 2015, in any dimension; shared/elimination.c has the formulas. The points come in the order in which
  * they were drawn; progressive-elimination orders them so that the first k are blue noise, too.
  * Relative radius at n = 1024 in the plane, mean of 10 sets: 0.696 at factor 5, 0.770 at factor 20.
+ *
+ * From 4 dimensions on nothing keeps single pairs apart: d_max is the radius of balls without gaps, and all distances
+ * below d_min = 0.59 d_max weigh the same. At n = 64 in 4 dimensions d_min is 0.281, and the smallest distance of 20
+ * sets is 0.036 to 0.223 (mean 0.099); the author's program has the same, set by set.
  */
 #include "patterns/patterns.h"
 #include "patterns/shared/elimination.h"

@@ -111,44 +111,75 @@ static void elimination_has_the_papers_formulas(void **state)
     assert_near(koksma__elimination_limit(100, 500), 0.65 * (1 - pow(0.2, 1.5)), 1e-15);
 }
 
-/* By the definition: the weight of point i while those with `gone` are out. */
-static double weight_of(const koksma_points *points, size_t i, const unsigned char *gone, double d_max, double d_min)
+enum { ELIMINATED = 150 };
+
+/* By the definition: what two points weigh on each other, over all images of one of them that are shifted by -1, 0 or 1
+   along each axis. More are not within d_max <= 1; all but the nearest are nearer than d_max only if it is above 1/2. */
+static double pair_weight(const double *x, const double *y, int dim, double d_max, double d_min)
 {
+    int n_images = 1;
     double weight = 0;
-    const size_t dim = (size_t)points->dim;
-    for (size_t j = 0; j < points->n; j++) {
-        const double d = sqrt(torus_distance2(points->xs + i * dim, points->xs + j * dim, points->dim));
-        weight += j != i && !gone[j] && d < d_max ? pow(1 - fmax(d, d_min) / d_max, 8) : 0;
+    for (int k = 0; k < dim; k++) {
+        n_images *= 3;
+    }
+    for (int image = 0; image < n_images; image++) {
+        double square = 0;
+        for (int k = 0, rest = image; k < dim; k++, rest /= 3) {
+            const double t = x[k] - y[k] + rest % 3 - 1;
+            square += t * t;
+        }
+        weight += sqrt(square) < d_max ? pow(1 - fmax(sqrt(square), d_min) / d_max, 8) : 0;
     }
     return weight;
 }
 
-/* Each point is the heaviest when it goes, but for roundings: two that have only each other weigh the same. */
+/* Each point is the heaviest when it goes, but for roundings: two that have only each other weigh the same. With
+   `nearest` one image of a point counts alone. */
+static void assert_heaviest_go(size_t count, size_t keep, int dim, bool nearest)
+{
+    static double pairs[ELIMINATED][ELIMINATED]; /* the diagonal stays 0 */
+    double weight[ELIMINATED] = {0};
+    unsigned char gone[ELIMINATED] = {0};
+    uint32_t order[ELIMINATED];
+    koksma_points points = test_points("random", count, dim, 7);
+    const double d_max = koksma__elimination_radius(keep, dim);
+    const double d_min = d_max * koksma__elimination_limit(keep, count);
+    assert_true(nearest || (d_max <= 1 && (d_max > 0.5) == (dim > 3)));
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < i; j++) {
+            const double *x = points.xs + i * (size_t)dim, *y = points.xs + j * (size_t)dim;
+            const double d = sqrt(torus_distance2(x, y, dim));
+            pairs[i][j] = pairs[j][i] = !nearest    ? pair_weight(x, y, dim, d_max, d_min)
+                                        : d < d_max ? pow(1 - fmax(d, d_min) / d_max, 8)
+                                                    : 0;
+            weight[i] += pairs[i][j];
+            weight[j] += pairs[i][j];
+        }
+    }
+    assert_ok(koksma__eliminate(count, dim, points.xs, keep, d_max, d_min, NULL, order));
+    for (size_t at = count; at-- > 0;) {
+        assert_int_equal(gone[order[at]], 0);
+        assert_true(at + 1 >= keep || order[at] < order[at + 1]);
+        for (size_t i = 0; at >= keep && i < count; i++) {
+            assert_true(gone[i] || weight[i] <= weight[order[at]] + 1e-12);
+        }
+        gone[order[at]] = 1;
+        for (size_t i = 0; i < count; i++) {
+            weight[i] -= pairs[i][order[at]];
+        }
+    }
+    koksma_points_fini(&points);
+}
+
+/* In 4 to 8 dimensions d_max is above 1/2 here, and all images within it count; in fewer there is one. */
 static void elimination_takes_the_heaviest(void **state)
 {
     (void)state;
-    enum { COUNT = 150, KEEP = 30 };
-    static const int dims[] = {1, 2, 3, 5};
-    for (int c = 0; c < 4; c++) {
-        unsigned char gone[COUNT] = {0}, seen[COUNT] = {0};
-        uint32_t order[COUNT];
-        koksma_points points = test_points("random", COUNT, dims[c], 7);
-        const double d_max = koksma__elimination_radius(KEEP, dims[c]);
-        const double d_min = d_max * koksma__elimination_limit(KEEP, COUNT);
-        assert_ok(koksma__eliminate(COUNT, dims[c], points.xs, KEEP, d_max, d_min, NULL, order));
-        for (size_t at = COUNT; at-- > 0;) {
-            assert_int_equal(seen[order[at]]++, 0);
-            assert_true(at + 1 >= KEEP || order[at] < order[at + 1]);
-            if (at >= KEEP) {
-                const double weight = weight_of(&points, order[at], gone, d_max, d_min);
-                for (size_t i = 0; i < COUNT; i++) {
-                    assert_true(gone[i] || weight_of(&points, i, gone, d_max, d_min) <= weight + 1e-12);
-                }
-                gone[order[at]] = 1;
-            }
-        }
-        koksma_points_fini(&points);
+    for (int dim = 1; dim <= 7; dim++) {
+        assert_heaviest_go(ELIMINATED, 30, dim, false);
     }
+    assert_heaviest_go(90, 64, 8, false); /* fewer make d_max larger than 1 */
+    assert_heaviest_go(ELIMINATED, 30, 9, true);
 }
 
 /* The mean relative radius of 1,024 of 5,120 uniform points, with a limit and without. */

@@ -228,6 +228,15 @@ class Rankings(unittest.TestCase):
         self.assertGreater(last.behind_interval[0], 0)
         self.assertEqual([check.size for check in ranking.checks], [(8, 6), (32, 24)])
         self.assertEqual({check.state for check in ranking.checks}, {"confirmed"})
+        self.assertEqual({check.first.state for check in ranking.checks}, {"confirmed"})
+        self.assertEqual({check.first.best for check in ranking.checks}, {None})
+        ranking = koksma.rank("ball", ["regular", "half-jittered", "n-rooks", "jittered"], 4, size=(64, 48), time_limit=None)
+        self.assertEqual((ranking.best, ranking.advised), ("half-jittered", "n-rooks"))
+        half, twice = ranking.checks
+        self.assertEqual([(check.state, check.best) for check in (half, twice)], [("confirmed", None)] * 2)
+        self.assertEqual((half.first.state, half.first.best, half.first.coherent), ("overturned", "n-rooks", False))
+        self.assertEqual((twice.first.state, twice.first.best, twice.first.coherent), ("overturned", "regular", True))
+        self.assertTrue(0 < twice.first.behind_interval[0] < twice.first.behind < twice.first.behind_interval[1])
         self.assertIsNone(ranking.needed_trials)
 
     def test_bands_are_not_advised(self):

@@ -16,8 +16,14 @@
  * A heap has the heaviest point on top; when it goes, its share of the weights of its neighbours goes, too. Cells of
  * about half d_max (in 3 dimensions or fewer, else d_max) hold the points that are left, so that a visit looks at a
  * bounded number of cells: O(m log m) in few dimensions, O(m^2) where d_max spans the torus. Memory: 16 dim + 44
- * bytes a point. The distance is that to the nearest of a point's images, and points in cells are renumbered so
- * that neighbours are near in memory.
+ * bytes a point. Points in cells are renumbered so that neighbours are near in memory.
+ *
+ * Where d_max is above 1/2, several images of one point are within d_max, and each of them weighs, as in the author's
+ * implementation: from equal candidates both keep equal points (n = 64 in 2 to 6 dimensions). A ball of radius d_max
+ * has 2^dim m/n points and images, too many above 8 dimensions: there, and below 4, where only sets of at most 11
+ * points have such a d_max, the nearest image alone weighs. It changes which points are kept, and hardly how evenly:
+ * the mean smallest distance of 64 points in 6 dimensions is 0.159 with all images and 0.155 with the nearest, 20 sets
+ * each.
  */
 #include "patterns/shared/elimination.h"
 
@@ -31,7 +37,7 @@
 #include "core/torus.h"
 #include "patterns/shared/fill.h"
 
-enum { GRID_DIMS = 8, LOOKS = 1 << 22 };
+enum { GRID_DIMS = 8, MIN_IMAGE_DIMS = 4, MAX_IMAGE_DIMS = 8, LOOKS = 1 << 22 };
 
 #define BETA 0.65 /* Yuksel's gamma is 1.5: a power that needs no pow() */
 
@@ -44,6 +50,7 @@ typedef struct elimination {
     int dim, grid_dims;
     size_t all, keep, count; /* points given, to keep, in the heap */
     double d_max, d_min;
+    bool all_images;        /* of a point weigh, not only the nearest */
     double *xs;             /* of the points as they are renumbered */
     uint32_t *origin;       /* a point's number as it was given */
     entry *heap;            /* the heaviest first */
@@ -180,12 +187,40 @@ static void leave_cell(elimination *e, uint32_t point)
 
 /* ---- Weights --------------------------------------------------------------------------------------------- */
 
+static double weight_at(const elimination *e, double square)
+{
+    const double t = 1 - fmax(sqrt(square), e->d_min) / e->d_max, t2 = t * t, t4 = t2 * t2;
+    return t4 * t4;
+}
+
+/* The weight of all images within d_max of a point. across: the difference to the nearest image along each axis; square:
+   the squared distance to the image that has been chosen along the axes before k, and is the nearest along k and the
+   others. Along an axis images are visited from the nearest to the farthest. */
+static double weight_of_images(elimination *e, const double *across, int k, double square)
+{
+    if (k == e->dim) {
+        e->looks++;
+        return weight_at(e, square);
+    }
+    const double d_max2 = e->d_max * e->d_max, nearest = fabs(across[k]);
+    double weight = weight_of_images(e, across, k + 1, square);
+    for (int side = 1;; side++) {
+        const double far = side % 2 ? 0.5 * (side + 1) - nearest : 0.5 * side + nearest;
+        const double moved = square + (far * far - nearest * nearest);
+        if (!(moved < d_max2)) {
+            return weight;
+        }
+        weight += weight_of_images(e, across, k + 1, moved);
+    }
+}
+
 /* While the heap is in the order of the points, `point` gains what its neighbours weigh on it; later they lose what
    it weighs on them. */
 static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve)
 {
     const size_t dim = (size_t)e->dim;
     const double *x = e->xs + point * dim, d_max2 = e->d_max * e->d_max;
+    double across[MAX_IMAGE_DIMS];
     const uint32_t *member = e->members + e->cell_start[cell];
     e->looks += e->cell_count[cell];
     for (uint32_t m = 0; m < e->cell_count[cell]; m++) {
@@ -194,17 +229,20 @@ static void weigh_cell(elimination *e, size_t cell, uint32_t point, bool relieve
         for (size_t k = 0; k < dim && square < d_max2; k++) {
             const double t = koksma__torus_difference(x[k], y[k]);
             square += t * t;
+            if (e->all_images) {
+                across[k] = t;
+            }
         }
         if (!(square < d_max2) || member[m] == point) {
             continue;
         }
-        const double t = 1 - fmax(sqrt(square), e->d_min) / e->d_max, t2 = t * t, t4 = t2 * t2;
+        const double weight = e->all_images ? weight_of_images(e, across, 0, square) : weight_at(e, square);
         if (relieve) {
             const size_t at = e->heap_place[member[m]];
-            e->heap[at].weight -= t4 * t4;
+            e->heap[at].weight -= weight;
             sink(e, at);
         } else {
-            e->heap[point].weight += t4 * t4;
+            e->heap[point].weight += weight;
         }
     }
 }
@@ -281,6 +319,7 @@ koksma_status koksma__eliminate(size_t count, int dim, const double *points, siz
                                 const koksma_run *run, uint32_t *order)
 {
     elimination e = {.dim = dim, .all = count, .keep = keep, .d_max = d_max, .d_min = d_min};
+    e.all_images = dim >= MIN_IMAGE_DIMS && dim <= MAX_IMAGE_DIMS && d_max > 0.5;
     const size_t cells = size_cells(&e), words = 4 * count + 2 * cells;
     const size_t bytes = count * ((size_t)dim * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
     e.xs = malloc(bytes);

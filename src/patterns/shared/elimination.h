@@ -15,8 +15,9 @@ double koksma__elimination_radius(size_t n, int dim);
 double koksma__elimination_limit(size_t n, size_t m);
 
 /* Takes the heaviest of `count` points out, one after the other, until `keep` are left. A point weighs the sum over
-   the others of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus and d < d_max. Of equal weights
-   the first point's goes first.
+   the others of (1 - max(d, d_min) / d_max)^8, where d is the distance on the torus and d < d_max; in 4 to 8 dimensions
+   over all periodic images of the others within d_max, which are several where d_max > 1/2. Of equal weights the first
+   point's goes first.
        order[0] .. order[keep - 1]       the points left, in the order in which they are given
        order[keep] .. order[count - 1]   those taken out, the last one first */
 koksma_status koksma__eliminate(size_t count, int dim, const double *points, size_t keep, double d_max, double d_min,

@@ -3,8 +3,8 @@
  * Which pattern leaves the least error in a scene. The sequence of work is
  *     1. a contest of all patterns at the size itself, until the best is decided, and then until the best of those is
  *        whose error is not coherent;
- *     2. contests of the first three of those (of all, where every error is coherent) at half and at twice the size,
- *        until the best is decided there;
+ *     2. contests of the first three of those and of the first three of all at half and at twice the size, until it is
+ *        decided which of those (of all, where every error is coherent) is the best there, and then which of all;
  *     3. the first contest again, until every pair is decided.
  * A time limit ends it anywhere, and rows are made of what is there. Every part is a function of the options alone
  * (ranking_contest.c, on patterns that are too slow for a limit, and ranking_decisions.c, on the statistics), so that
@@ -48,28 +48,28 @@ static size_t checked(const koksma__contest *c)
 }
 
 /* The mean error of contestant i after the round in which `best` was decided, or after its own last one before;
-   infinite for those that are not advised in its stead. */
-static double early_mean(const koksma__rank_table *table, size_t i, size_t best)
+   infinite for those that cannot take its place: among the advised, those in bands. */
+static double early_mean(const koksma__rank_table *table, size_t i, size_t best, bool advised)
 {
     const koksma__rank_entrant *e = &table->entrants[i];
     const int last = table->entrants[best].n_rounds;
-    return (e->coherent && !table->entrants[best].coherent) || e->out || !e->n_rounds
+    return (advised && e->coherent && !table->entrants[best].coherent) || e->out || !e->n_rounds
                ? (double)INFINITY
                : e->rounds[(e->n_rounds < last ? e->n_rounds : last) - 1].mean;
 }
 
-/* The one that is checked, and then those with the smallest errors. */
-static size_t first_patterns(const koksma__contest *c, size_t first[CHECKED])
+/* `best`, and then those with the smallest errors. */
+static size_t first_patterns(const koksma__contest *c, size_t best, bool advised, size_t first[CHECKED])
 {
-    const size_t best = checked(c);
     size_t n = 1;
     first[0] = best;
     for (size_t i = 0; i < c->n; i++) {
-        if (i == best || isinf(early_mean(&c->table, i, best))) {
+        const double mean = early_mean(&c->table, i, best, advised);
+        if (i == best || isinf(mean)) {
             continue;
         }
         size_t at = n;
-        for (; at > 1 && early_mean(&c->table, i, best) < early_mean(&c->table, first[at - 1], best); at--) {
+        for (; at > 1 && mean < early_mean(&c->table, first[at - 1], best, advised); at--) {
             if (at < CHECKED) {
                 first[at] = first[at - 1];
             }
@@ -82,51 +82,79 @@ static size_t first_patterns(const koksma__contest *c, size_t first[CHECKED])
     return n;
 }
 
-static void conclude(const koksma__contest *c, koksma_rank_check *check)
+/* The first patterns of those that may be advised, and then the others of the first patterns of all. *leader: the
+   index of the one with the least error. */
+static size_t checked_patterns(const koksma__contest *c, size_t patterns[2 * CHECKED], size_t *leader)
 {
-    const koksma__rank_table *table = &c->table;
-    const size_t leader = table->leader;
-    for (size_t i = 0; i < c->n; i++) {
-        const long long trials = (long long)koksma__contest_errors(c, i).n;
+    size_t all[CHECKED];
+    size_t n = first_patterns(c, checked(c), true, patterns);
+    const size_t n_all = first_patterns(c, c->table.leader, false, all);
+    for (size_t k = n_all; k-- > 0;) { /* all[0], the leader, last */
+        *leader = 0;
+        while (*leader < n && patterns[*leader] != all[k]) {
+            ++*leader;
+        }
+        if (*leader == n) {
+            patterns[n++] = all[k];
+        }
+    }
+    return n;
+}
+
+/* Whether contestant i is the best there, as `best` is decided to be. */
+static koksma_rank_check_result conclude(const koksma__contest *c, size_t i, size_t best)
+{
+    koksma_rank_check_result result = {.state = koksma__rank_check_best(&c->table, i, best)};
+    if (result.state == KOKSMA_RANK_CONFIRMED) {
+        result.coherent = c->contestants[i].coherence.coherent;
+    } else if (result.state == KOKSMA_RANK_OVERTURNED) {
+        const koksma__estimate q = koksma__rank_compare(&c->table, i, best);
+        result.pattern = c->contestants[best].pattern;
+        result.coherent = c->contestants[best].coherence.coherent;
+        result.behind = q.value - 1;
+        result.behind_low = q.low - 1;
+        result.behind_high = q.high - 1;
+    }
+    return result;
+}
+
+/* The advice is checked before the first place: a time limit may come between. Where every error is coherent, they are
+   the same. */
+static koksma_status check_best(koksma__contest *contest, size_t leader, koksma_rank_check *check)
+{
+    const bool same = contest->asked->table.advised == NOBODY;
+    koksma_status status = same ? KOKSMA_OK : koksma__contest_run(contest, KOKSMA__RANK_FIND_ADVISED);
+    if (!status && !same) {
+        check->advice = conclude(contest, 0, contest->table.advised);
+    }
+    status = status ? status : koksma__contest_run(contest, KOKSMA__RANK_FIND_LEADER);
+    if (!status) {
+        check->first = conclude(contest, leader, contest->table.leader);
+        check->advice = same ? check->first : check->advice;
+    }
+    for (size_t i = 0; check->advice.state && i < contest->n; i++) {
+        const long long trials = (long long)koksma__contest_errors(contest, i).n;
         check->trials = trials > check->trials ? trials : check->trials;
     }
-    if (leader == NOBODY || table->entrants[0].out) {
-        check->state = KOKSMA_RANK_UNSETTLED;
-    } else if (leader == 0 || table->pairs[leader * c->n].verdict == KOKSMA__RANK_SAME) {
-        check->state = KOKSMA_RANK_CONFIRMED;
-        check->coherent = c->contestants[0].coherence.coherent;
-    } else {
-        const koksma__estimate q = koksma__rank_compare(table, 0, leader);
-        check->state = KOKSMA_RANK_OVERTURNED;
-        check->pattern = c->contestants[leader].pattern;
-        check->coherent = c->contestants[leader].coherence.coherent;
-        check->behind = q.value - 1;
-        check->behind_low = q.low - 1;
-        check->behind_high = q.high - 1;
-    }
+    return status;
 }
 
 static koksma_status check_size(ranking *r, koksma_rank_check *check)
 {
-    size_t first[CHECKED], patterns[CHECKED];
+    size_t patterns[2 * CHECKED], leader;
     koksma__contest contest;
     koksma__study_scene scene = r->scene;
-    const size_t n = first_patterns(&r->contest, first);
+    const size_t n = checked_patterns(&r->contest, patterns, &leader);
     scene.width = check->width;
     scene.height = check->height;
     if (n < 2 || scene.width < 1 || scene.height < 1 || scene.width > KOKSMA_MAX_IMAGE_SIDE ||
         scene.height > KOKSMA_MAX_IMAGE_SIDE) {
         return KOKSMA_OK;
     }
-    for (size_t i = 0; i < n; i++) {
-        patterns[i] = r->contest.contestants[first[i]].pattern;
-    }
     koksma_status status =
         koksma__contest_init(&contest, r->options, &scene, r->variant, &r->control, patterns, n, CHECK_ALPHA);
-    status = status ? status : koksma__contest_run(&contest, KOKSMA__RANK_FIND_LEADER);
-    if (!status) {
-        conclude(&contest, check);
-    }
+    contest.asked = &r->contest;
+    status = status ? status : check_best(&contest, leader, check);
     koksma__contest_fini(&contest);
     return status;
 }

@@ -234,7 +234,7 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
         e->out = atomic_load(&p->refused);
         e->aside = atomic_load(&p->late);
         if (!e->out && !e->aside) {
-            e->coherent = p->coherence.coherent;
+            e->coherent = (c->asked ? &c->asked->contestants[p->pattern] : p)->coherence.coherent;
             e->rounds[e->n_rounds++] = summary(p);
         }
     }

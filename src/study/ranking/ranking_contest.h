@@ -37,6 +37,9 @@ typedef struct koksma__contest {
     koksma__study_scene scene; /* width and height: of this contest */
     const char *variant;
     koksma__run_control *control;
+    /* NULL, or the contest at the size asked for, whose contestants are all patterns in their order: those whose error is
+       coherent there are not advised here either. */
+    const struct koksma__contest *asked;
     int max_rounds;
     size_t n;
     koksma__contestant *contestants;

@@ -343,3 +343,10 @@ size_t koksma__rank_position(const koksma__rank_table *table, size_t i)
     }
     return position;
 }
+
+koksma_rank_check_state koksma__rank_check_best(const koksma__rank_table *table, size_t i, size_t best)
+{
+    return best == KOKSMA__RANK_NOBODY || table->entrants[i].out                         ? KOKSMA_RANK_UNSETTLED
+           : best == i || table->pairs[best * table->n + i].verdict == KOKSMA__RANK_SAME ? KOKSMA_RANK_CONFIRMED
+                                                                                         : KOKSMA_RANK_OVERTURNED;
+}

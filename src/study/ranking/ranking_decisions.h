@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <koksma/koksma.h>
+#include <koksma/study.h>
 
 #include "stats/statistics.h"
 
@@ -108,6 +108,10 @@ bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goa
 /* Whether i is decided against all others that are not out, and none of them leaves less; with `present`, against
    those that are not put off. */
 bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present);
+
+/* Whether i, the best of some patterns at the size asked for, is the best of them in this table of another size, whose
+   best of them is `best` (NOBODY: undecided). */
+koksma_rank_check_state koksma__rank_check_best(const koksma__rank_table *table, size_t i, size_t best);
 
 /* 1 + the number of patterns that are decided to leave less error. */
 size_t koksma__rank_position(const koksma__rank_table *table, size_t i);

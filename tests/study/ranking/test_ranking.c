@@ -294,6 +294,49 @@ static void pairs_that_matter_for_advice(void **state)
     koksma__rank_table_fini(&table);
 }
 
+/* A table of patterns 0, 1 and 2 at another size, with the same deviation of trials. */
+static koksma_rank_check_state check_first(const double means[3], double sd, size_t first, size_t *best)
+{
+    koksma__rank_table table;
+    assert_ok(koksma__rank_table_init(&table, 3, 0.005));
+    for (size_t i = 0; i < 3; i++) {
+        table.entrants[i].rounds[table.entrants[i].n_rounds++] = exact(means[i], sd, 8);
+    }
+    koksma__rank_decide(&table);
+    *best = table.leader;
+    const koksma_rank_check_state state = koksma__rank_check_best(&table, first, table.leader);
+    table.entrants[first].out = true; /* it cannot render that size */
+    assert_int_equal(koksma__rank_check_best(&table, first, table.leader), KOKSMA_RANK_UNSETTLED);
+    koksma__rank_table_fini(&table);
+    return state;
+}
+
+/* Pattern 0 is the first at the size asked for. Another size overturns that where another pattern is decided to be
+   the first there and 0 is decided not to be: not where they are the same within 2 %, nor where trials vary too much
+   to decide. */
+static void first_places_at_other_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        double means[3], sd;
+        koksma_rank_check_state state;
+        size_t best;
+    } rows[] = {
+        {{1, 1.3, 1.5}, 0.001, KOKSMA_RANK_CONFIRMED, 0},
+        {{1.3, 1, 1.5}, 0.001, KOKSMA_RANK_OVERTURNED, 1},
+        {{1.3, 1.1, 1}, 0.001, KOKSMA_RANK_OVERTURNED, 2},
+        {{1.03, 1, 1.5}, 0.001, KOKSMA_RANK_OVERTURNED, 1},
+        {{1.03, 1, 1.5}, 0.1, KOKSMA_RANK_UNSETTLED, KOKSMA__RANK_NOBODY}, /* 0 and 1 are open */
+        {{1.5, 1, 1.03}, 0.1, KOKSMA_RANK_UNSETTLED, KOKSMA__RANK_NOBODY}, /* so is who is the first */
+        {{1.01, 1, 1.5}, 0.001, KOKSMA_RANK_CONFIRMED, 1},                 /* the same as the best */
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        size_t best;
+        assert_int_equal(check_first(rows[r].means, rows[r].sd, 0, &best), rows[r].state);
+        assert_int_equal(best, rows[r].best);
+    }
+}
+
 static const char *const banded[] = {"zaremba", "regular", "random", "jittered"};
 
 static const koksma_rank_row *row_of(const koksma_rank_row *rows, size_t pattern)
@@ -404,6 +447,12 @@ static koksma_ranking rank_small(const koksma_rank_options *options, int threads
     return ranking;
 }
 
+static void assert_same_or_unchecked(const koksma_rank_check_result *a, const koksma_rank_check_result *whole)
+{
+    assert_true(!a->state || a->state == whole->state);
+    assert_true(a->state != KOKSMA_RANK_OVERTURNED || a->pattern == whole->pattern);
+}
+
 /* Wherever the time limit cuts the work, on any number of threads: the same best pattern or none, the same decisions
    or none, and always rows. */
 static void cut_everywhere(koksma_rank_options options, double step)
@@ -412,7 +461,8 @@ static void cut_everywhere(koksma_rank_options options, double step)
     const koksma_ranking all = rank_small(&options, 1, whole);
     size_t settled = 0, cut = 0, checked = 0;
     assert_true(all.settled && all.complete && !all.cut_short && all.n == 3);
-    assert_true(all.checks[0].state && all.checks[1].state);
+    assert_true(all.checks[0].advice.state && all.checks[1].advice.state);
+    assert_true(all.checks[0].first.state && all.checks[1].first.state);
     koksma__set_clock(ticking);
     for (double limit = 1; limit < 1e6; limit *= step) {
         for (int threads = 1; threads <= 2; threads++) {
@@ -426,10 +476,9 @@ static void cut_everywhere(koksma_rank_options options, double step)
             assert_true(!r.settled || rows[0].decision == KOKSMA_RANK_BEST);
             assert_true(!r.advised || rows[r.advised_row].pattern == whole[all.advised_row].pattern);
             for (int i = 0; i < 2; i++) {
-                checked += r.checks[i].state != KOKSMA_RANK_UNCHECKED;
-                assert_true(!r.checks[i].state || r.checks[i].state == all.checks[i].state);
-                assert_true(r.checks[i].state != KOKSMA_RANK_OVERTURNED ||
-                            r.checks[i].pattern == all.checks[i].pattern);
+                checked += r.checks[i].first.state != KOKSMA_RANK_UNCHECKED;
+                assert_same_or_unchecked(&r.checks[i].advice, &all.checks[i].advice);
+                assert_same_or_unchecked(&r.checks[i].first, &all.checks[i].first);
             }
             for (size_t i = 0; i < 3; i++) {
                 const koksma_rank_row *row = &rows[i], *other = row_of(whole, row->pattern);
@@ -600,6 +649,7 @@ int main(void)
         cmocka_unit_test(trials_are_foretold),
         cmocka_unit_test(the_best_without_bands_is_advised),
         cmocka_unit_test(pairs_that_matter_for_advice),
+        cmocka_unit_test(first_places_at_other_sizes),
         cmocka_unit_test(bands_are_found),
         cmocka_unit_test(coherence_is_that_of_the_pictures),
         cmocka_unit_test(time_limits_only_cut),
