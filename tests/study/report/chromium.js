@@ -108,7 +108,10 @@ const contrasts = () => {
     await page.setViewportSize({ width: 400, height: 800 });
     const sides = await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth, innerWidth]);
     check(sides[0] <= sides[2] && sides[1] <= sides[2], `at 400 pixels the page is ${sides} wide`);
-    const small = await page.evaluate(() => [...document.querySelectorAll(".plot > svg")].filter(s => s.viewBox.baseVal.width > 400).length);
+    // The page hears of its new width some frames later.
+    const wide = () => [...document.querySelectorAll(".plot > svg")].filter(s => s.viewBox.baseVal.width > 400).length;
+    await page.waitForFunction(`(${wide})() === 0`, null, { timeout: 60000 }).catch(() => {});
+    const small = await page.evaluate(wide);
     check(small === 0, `${small} charts are not drawn again for a narrow window`);
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-400.png`, fullPage: true });
     await page.setViewportSize({ width: 1280, height: 900 });
