@@ -141,7 +141,7 @@ static koksma_status check_best(koksma__contest *contest, size_t leader, koksma_
 
 static koksma_status check_size(ranking *r, koksma_rank_check *check)
 {
-    size_t patterns[2 * CHECKED], leader;
+    size_t patterns[2 * CHECKED], leader = 0;
     koksma__contest contest;
     koksma__study_scene scene = r->scene;
     const size_t n = checked_patterns(&r->contest, patterns, &leader);
