@@ -91,7 +91,7 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
 enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the most that nobody asked for */
 
 /* Reads CLI_CURVE_OPTIONS and CLI_RUN_OPTIONS; false after an error, also for an option that this curve has no use
-   for. before: what stands before a curve's name on the command line. */
+   for. before: the text before a curve's name on the command line. */
 bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list, const char *before,
                       cli_curves *c);
 

@@ -210,7 +210,7 @@ static koksma_status take_property(koksma__text *t, const char *word, size_t len
 
 static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma__mesh_file *f, size_t *current)
 {
-    koksma__file_material idle = {0};
+    koksma__file_material unnamed = {0};
     const char *word, *rest;
     size_t length;
     if (t->stop - t->at > MAX_LINE || memchr(t->at, '\0', (size_t)(t->stop - t->at))) {
@@ -232,9 +232,9 @@ static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma
     }
     const bool known = *current < f->materials.n;
     const koksma_status status =
-        take_property(t, word, length, known ? koksma__file_material_at(f, *current) : &idle);
-    free(idle.colour_map.name);
-    free(idle.glow_map.name);
+        take_property(t, word, length, known ? koksma__file_material_at(f, *current) : &unnamed);
+    free(unnamed.colour_map.name);
+    free(unnamed.glow_map.name);
     return status;
 }
 

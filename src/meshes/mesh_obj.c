@@ -176,11 +176,11 @@ static int take_corner(obj *o, const char *at, const char *end, corner *out)
 {
     int kinds = 0;
     for (int kind = PLACE; kind < KINDS; kind++) {
-        const bool idle = kind != PLACE && (at == end || *at == '/');
-        if (!idle && !take_index(o, kind, &at, end, &out->names[kind])) {
+        const bool absent = kind != PLACE && (at == end || *at == '/');
+        if (!absent && !take_index(o, kind, &at, end, &out->names[kind])) {
             return 0;
         }
-        kinds |= idle ? 0 : 1 << kind;
+        kinds |= absent ? 0 : 1 << kind;
         if (at == end || *at != '/') {
             break;
         }

@@ -63,7 +63,7 @@ typedef struct koksma__pipeline {
     void (*close)(void *scratch);
     /* Whether no ray of the group can meet anything, wherever in the pixels its samples are: then values has their
        colours, and nothing needs to be drawn or traced. NULL: it is never known. */
-    bool (*idle)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
+    bool (*is_empty)(const koksma__frame *frame, void *scratch, const koksma__group *group, koksma__values *values);
     /* Fills values (film and weights are there). Errors: the sampler's, MEMORY. */
     koksma_status (*trace)(const koksma__frame *frame, void *scratch, const koksma__group *group,
                            koksma__values *values);

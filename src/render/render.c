@@ -39,11 +39,11 @@ static koksma_status render_group(job *j, size_t task, const koksma__group *grou
 {
     const koksma__frame *f = j->frame;
     koksma_status status = KOKSMA_OK;
-    const bool idle = j->pipeline->idle && j->pipeline->idle(f, r->pipeline_scratch, group, &r->values);
-    if (!idle) {
+    const bool empty = j->pipeline->is_empty && j->pipeline->is_empty(f, r->pipeline_scratch, group, &r->values);
+    if (!empty) {
         status = koksma__group_draw(f, group, KOKSMA__USE_PIXEL, true, &r->draw, r->values.film);
     }
-    if (!status && !idle && group->start[group->count]) {
+    if (!status && !empty && group->start[group->count]) {
         koksma__film_place(f, group, true, &r->values);
         status = j->pipeline->trace(f, r->pipeline_scratch, group, &r->values);
     }

@@ -108,7 +108,7 @@ static float colour_of_nothing(const koksma__frame *f)
     return background < clamp ? background : clamp;
 }
 
-static bool idle(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
+static bool is_empty(const koksma__frame *f, void *opened, const koksma__group *group, koksma__values *values)
 {
     scratch *r = opened;
     const size_t n = group->start[group->count];
@@ -225,5 +225,5 @@ const koksma__pipeline koksma__pipeline_lambert_lanes = {.name = "lambert-lanes"
                                                          .culls = true,
                                                          .open = open_scratch,
                                                          .close = close_scratch,
-                                                         .idle = idle,
+                                                         .is_empty = is_empty,
                                                          .trace = trace};

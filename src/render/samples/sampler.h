@@ -45,7 +45,7 @@ typedef struct koksma__sampler {
     size_t kept_sets;  /* groups; a native pattern is one */
     size_t kept_slots; /* pixels: a pixel's sets are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
-    /* The pairs of a use of a pixel, plus offset; the second number of a one-dimensional use is idle. */
+    /* The pairs of a use of a pixel, plus offset; the second number of a one-dimensional use is unused. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
     void (*release)(struct koksma__sampler *sampler);

@@ -182,13 +182,13 @@ static bool all_ended(const server *s)
     return all;
 }
 
-/* Until all results are in, and then for those who are still to be told; a rank that says nothing for long is lost.
+/* Until all results are in, and then for the ranks that do not know it yet; one that sends nothing for long is lost.
  */
 static void serve(server *s)
 {
     double over_s = 0;
     for (;;) {
-        const bool served = serve_one(s), over = koksma__run_state_is_over(&s->state);
+        const bool handled = serve_one(s), over = koksma__run_state_is_over(&s->state);
         over_s = !over ? 0 : over_s > 0 ? over_s : koksma__now_s();
         if (over && (all_ended(s) || koksma__now_s() - over_s > GOODBYE_S)) {
             return;
@@ -196,7 +196,7 @@ static void serve(server *s)
         if (!over && !koksma__keep_going(&s->phase->control->run, koksma__run_state_fraction(&s->state))) {
             koksma__run_state_stop(&s->state, KOKSMA_INTERRUPTED, "interrupted");
         }
-        if (!served) {
+        if (!handled) {
             koksma__mpi_rest(REST_S);
         }
     }
