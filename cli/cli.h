@@ -70,6 +70,14 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
+/* "did you mean 'NAME'? " with the nearest name of a table (koksma_closest_name()), or "". Returns text. */
+const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96]);
+
+/* The name of a command, an integrator or a filter, for cli_meant(); `table` is not used. */
+const char *cli_command_name(const void *table, size_t i);
+const char *cli_integrator_name(const void *table, size_t i);
+const char *cli_filter_name(const void *table, size_t i);
+
 /* "koksma NAME: text" on stderr; returns the exit code of a wrong command line. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 

@@ -33,7 +33,9 @@ static int run(const cli_arguments *arguments)
     }
     const cli_command *command = cli_command_find(arguments->operands[0]);
     if (!command) {
-        return cli_usage_error(arguments, "no command '%s'; 'koksma --help' names them", arguments->operands[0]);
+        char meant[96];
+        return cli_usage_error(arguments, "no command '%s'; %s'koksma --help' names them", arguments->operands[0],
+                               cli_meant(arguments->operands[0], cli_command_name, NULL, meant));
     }
     cli_print_help(command);
     return CLI_YES;

@@ -20,6 +20,12 @@ const cli_command *cli_command_at(size_t i)
     return commands[i] ? cli_expand(commands[i], i) : NULL;
 }
 
+const char *cli_command_name(const void *table, size_t i)
+{
+    (void)table;
+    return cli_command_at(i) ? cli_command_at(i)->name : NULL;
+}
+
 const cli_command *cli_command_find(const char *name)
 {
     for (size_t i = 0; commands[i]; i++) {
@@ -56,7 +62,9 @@ int main(int argc, char **argv)
                                                   : !strcmp(first, "--version")                    ? "version"
                                                                                                    : first);
     if (!command) {
-        fprintf(stderr, "koksma: no command '%s'; 'koksma --help' names them\n", first);
+        char meant[96];
+        fprintf(stderr, "koksma: no command '%s'; %s'koksma --help' names them\n", first,
+                cli_meant(first, cli_command_name, NULL, meant));
         return CLI_USAGE;
     }
     return cli_run(command, argc - 1, argv + 1);

@@ -36,15 +36,45 @@ void cli_print_help(const cli_command *command)
     }
 }
 
+const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96])
+{
+    const char *closest = koksma_closest_name(word, name, table);
+    snprintf(text, 96, closest ? "did you mean '%s'? " : "%.0s", closest ? closest : "");
+    return text;
+}
+
+static const char *option_name(const void *options, size_t i)
+{
+    return i ? ((const cli_option *)options)[i - 1].name : "help";
+}
+
+/* word: --NAME or --NAME=VALUE */
+static int unknown_option(const cli_arguments *arguments, const char *word)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+    bool known = !strcmp(name, "help");
+    for (const cli_option *o = arguments->command->options; o->name; o++) {
+        known = known || !strcmp(o->name, name);
+    }
+    if (known) {
+        return cli_usage_error(arguments, "option --%s takes no argument", name);
+    }
+    const char *closest = koksma_closest_name(name, option_name, arguments->command->options);
+    return cli_usage_error(arguments, "no option --%s; %s%s%s'koksma %s --help' names them", name,
+                           closest ? "did you mean --" : "", closest ? closest : "", closest ? "? " : "",
+                           arguments->command->name);
+}
+
 static int parse_failure(const cli_arguments *arguments, int code, char **argv)
 {
     /* With a short option getopt sets optopt; with a long one the word before optind is the culprit. */
     if (optopt > 0 && optopt < LONG_BASE) {
         return cli_usage_error(arguments, code == ':' ? "option -%c takes an argument" : "no option -%c", optopt);
     }
-    return cli_usage_error(arguments,
-                           code == ':' ? "option %s takes an argument" : "option %s is unknown or takes no argument",
-                           argv[optind - 1]);
+    const char *word = argv[optind - 1];
+    return code == ':' ? cli_usage_error(arguments, "option %s takes an argument", word)
+                       : unknown_option(arguments, word);
 }
 
 /* A second value goes on a line of its own. */

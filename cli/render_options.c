@@ -38,17 +38,32 @@ static const char *lights_name(int i)
     return koksma_light_selection_name((koksma_light_selection)i);
 }
 
+const char *cli_integrator_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_integrator_at(i) ? koksma_integrator_at(i)->name : NULL;
+}
+
+const char *cli_filter_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_filter_at(i) ? koksma_filter_at(i)->name : NULL;
+}
+
 bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_integrator **integrator,
                                const koksma_filter **filter)
 {
     const char *integrator_name = cli_text(arguments, "integrator", (*integrator)->name);
+    char meant[96];
     const char *filter_name = cli_text(arguments, "filter", (*filter)->name);
     *integrator = koksma_integrator_find(integrator_name);
     *filter = koksma_filter_find(filter_name);
     if (!*integrator) {
-        cli_usage_error(arguments, "--integrator %s: 'koksma list integrators' names them", integrator_name);
+        cli_usage_error(arguments, "--integrator %s: %s'koksma list integrators' names them", integrator_name,
+                        cli_meant(integrator_name, cli_integrator_name, NULL, meant));
     } else if (!*filter) {
-        cli_usage_error(arguments, "--filter %s: 'koksma list filters' names them", filter_name);
+        cli_usage_error(arguments, "--filter %s: %s'koksma list filters' names them", filter_name,
+                        cli_meant(filter_name, cli_filter_name, NULL, meant));
     }
     return *integrator && *filter;
 }

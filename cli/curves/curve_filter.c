@@ -52,8 +52,10 @@ static int draw(cli_curves *c)
     for (int i = 0; i < n; i++) {
         filters[i] = koksma_filter_find(arguments->operands[i]);
         if (!filters[i]) {
-            return cli_usage_error(arguments, "no filter '%s'; 'koksma list filters' names them",
-                                   arguments->operands[i]);
+            char meant[96];
+            return cli_usage_error(arguments, "no filter '%s'; %s'koksma list filters' names them",
+                                   arguments->operands[i],
+                                   cli_meant(arguments->operands[i], cli_filter_name, NULL, meant));
         }
     }
     double *numbers = malloc(2 * POSITIONS * (size_t)n * sizeof *numbers);

@@ -72,6 +72,14 @@ KOKSMA_API int koksma_status_exit_code(koksma_status status);
    reason. The string is valid until the next failing call of this thread; before the first it is empty. */
 KOKSMA_API const char *koksma_error_text(void);
 
+/* Name i of a table, NULL past its end. */
+typedef const char *koksma_name_at(const void *table, size_t i);
+
+/* Returns the name of a table that a misspelt word was most likely meant to be, for "did you mean"; NULL if none is
+   near, or word is NULL, empty or longer than 64 characters. Case does not count.
+     name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL */
+KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
+
 /* Returns the instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref" (plain C,
    for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one;
    the first call that computes reads it. The first three give the same bits; "ref" may differ in the last digits of

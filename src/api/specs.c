@@ -4,8 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "core/suggestion.h"
 
 /* Copies rest to others without the parameter that all patterns have, "shift=0" or "shift=1". */
 static koksma_status take_shift(const char *name, const char *rest, char *others, bool *shift)
@@ -40,6 +42,9 @@ static koksma_status take_shift(const char *name, const char *rest, char *others
     return KOKSMA_OK;
 }
 
+KOKSMA__NAME_AT(koksma_pattern)
+KOKSMA__NAME_AT(koksma_measure)
+
 koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 {
     char name[64];
@@ -51,7 +56,8 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
     }
     const koksma_pattern *pattern = koksma_pattern_find(name);
     if (!pattern) {
-        return koksma__fail(KOKSMA_UNKNOWN, "no pattern '%s'; 'koksma list patterns' names them", name);
+        return koksma__fail_unknown("pattern", name, koksma_pattern_name_at, NULL,
+                                    "'koksma list patterns' names them");
     }
     spec->pattern = pattern = pattern->alias_of ? koksma_pattern_find(pattern->alias_of) : pattern;
     if (!pattern->takes_path) {
@@ -81,7 +87,8 @@ koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
     }
     spec->measure = koksma_measure_find(name);
     if (!spec->measure) {
-        return koksma__fail(KOKSMA_UNKNOWN, "no measure '%s'; 'koksma list measures' names them", name);
+        return koksma__fail_unknown("measure", name, koksma_measure_name_at, NULL,
+                                    "'koksma list measures' names them");
     }
     return koksma__params_parse(name, spec->measure->params, rest, spec->params);
 }

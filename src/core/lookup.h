@@ -6,6 +6,10 @@
  *     KOKSMA__LOOKUP(koksma_pattern, table)
  *
  * defines koksma_pattern_at(i), NULL past the end, and koksma_pattern_find(name), NULL if unknown.
+ *
+ *     KOKSMA__NAME_AT(koksma_pattern)
+ *
+ * defines koksma_pattern_name_at(NULL, i) for koksma__fail_unknown() (core/suggestion.h).
  */
 #ifndef KOKSMA_CORE_LOOKUP_H
 #define KOKSMA_CORE_LOOKUP_H
@@ -26,6 +30,13 @@
             }                                                                                                        \
         }                                                                                                            \
         return NULL;                                                                                                 \
+    }
+
+#define KOKSMA__NAME_AT(type)                                                                                        \
+    static const char *type##_name_at(const void *table, size_t i)                                                   \
+    {                                                                                                                \
+        (void)table;                                                                                                 \
+        return type##_at(i) ? type##_at(i)->name : NULL;                                                             \
     }
 
 #endif

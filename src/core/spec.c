@@ -59,13 +59,21 @@ static int find_param(const koksma_param *params, const char *name)
     return -1;
 }
 
+static const char *param_name(const void *params, size_t i)
+{
+    return params ? ((const koksma_param *)params)[i].name : NULL;
+}
+
 static koksma_status fail_unknown_param(const char *member, const koksma_param *params, const char *key)
 {
     char names[256] = "";
     for (int i = 0; params && params[i].name; i++) {
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", params[i].name);
     }
-    return koksma__fail(KOKSMA_ARGUMENT, "%s: no parameter '%s'; it has %s", member, key, *names ? names : "none");
+    const char *closest = koksma_closest_name(key, param_name, params);
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: no parameter '%s'; %s%s%sit has %s", member, key,
+                        closest ? "did you mean '" : "", closest ? closest : "", closest ? "'? " : "",
+                        *names ? names : "none");
 }
 
 koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text, double *values)

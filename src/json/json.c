@@ -236,6 +236,18 @@ static const json_t *find(const json_t *object, const char *key)
     return value || !other_spelling(key, other, sizeof other) ? value : json_object_get(object, other);
 }
 
+static const char *key_at(const void *keys, size_t i)
+{
+    return ((const char *const *)keys)[i];
+}
+
+static koksma_status fail_unknown_field(const koksma__json_node *member, const char *key, const char *const *keys)
+{
+    const char *closest = koksma_closest_name(key, key_at, keys);
+    return closest ? koksma__json_fail(member, "unknown field; did you mean '%s'?", closest)
+                   : koksma__json_fail(member, "unknown field");
+}
+
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
 {
     if (!json_is_object((const json_t *)node->value)) {
@@ -259,7 +271,7 @@ koksma_status koksma__json_only(const koksma__json_node *node, const char *const
             }
             return twice ? koksma__json_fail(
                                &member, "'%s' is the same field in the other spelling; remove one of them", other)
-                         : koksma__json_fail(&member, "unknown field");
+                         : fail_unknown_field(&member, key, keys);
         }
     }
     return KOKSMA_OK;

@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "core/read_file.h"
 #include "core/status.h"
+#include "core/suggestion.h"
 #include "meshes/mesh_read.h"
 #include "scene/model.h"
 #include "scene/scenes_embedded.h"
@@ -22,6 +23,12 @@ enum { N_SHIPPED = sizeof embedded_texts / sizeof *embedded_texts };
 const char *koksma_scene_name_at(size_t i)
 {
     return i < N_SHIPPED ? embedded_texts[i].name : NULL;
+}
+
+static const char *shipped_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_scene_name_at(i);
 }
 
 /* An empty scene, with what goes with one that can be rendered. */
@@ -82,9 +89,8 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
         }
     }
     if (!is_path(name_or_path)) {
-        return koksma__fail(KOKSMA_UNKNOWN,
-                            "no scene '%s'; 'koksma list scenes' names them, and a file's name ends in .json",
-                            name_or_path);
+        return koksma__fail_unknown("scene", name_or_path, shipped_name, NULL,
+                                    "'koksma list scenes' names them, and a file's name ends in .json");
     }
     if (koksma__is_mesh_file(name_or_path)) {
         return open_model(name_or_path, out);

@@ -67,10 +67,11 @@ static void wrong_plans(void **state)
     (void)state;
     wrong_plan("{\"name\": \"a\", \"title\": \"b\"}",
                "plan 'p': line 1: the plan has neither 'discrepancies' nor 'images': nothing to do");
-    wrong_plan("{\n\"name\": \"a\",\n\"nome\": 1}", "plan 'p': line 3: nome: unknown field");
+    wrong_plan("{\n\"name\": \"a\",\n\"nome\": 1}", "plan 'p': line 3: nome: unknown field; did you mean 'name'?");
     wrong_plan(
         "{\"name\": \"a\",\n \"title\": \"b\",\n \"discrepancies\": [\n {\"patterns\": [\"random\",\n \"rendom\"]}]}",
-        "plan 'p': line 5: discrepancies[0].patterns[1]: no pattern 'rendom'; 'koksma list patterns' names them");
+        "plan 'p': line 5: discrepancies[0].patterns[1]: no pattern 'rendom'; did you mean 'random'? 'koksma list "
+        "patterns' names them");
     wrong_plan("{\"name\": \"a\", \"title\": \"b\", \"discrepancies\": [{\"patterns\": [\"random\"], \"measures\": "
                "[\"star\"],\n\"n\": [0], \"trials\": 1}]}",
                "plan 'p': line 2: discrepancies[0].n[0]: 0 is not in 1 to 268435456");
@@ -121,7 +122,7 @@ static void wrong_groups(void **state)
                    "plan 'p': line 5: questions[0].groups[0].scenes[1]: 'ball' stands twice");
     wrong_question(CORRELATION "\"groups\": []", "plan 'p': line 3: questions[0].groups: an empty list");
     wrong_question(CORRELATION "\"groups\": [{\"title\": \"g\",\n\"scene\": \"ball\"}]",
-                   "plan 'p': line 4: questions[0].groups[0].scene: unknown field");
+                   "plan 'p': line 4: questions[0].groups[0].scene: unknown field; did you mean 'scenes'?");
     wrong_question("\"kind\": \"equal\",\n\"groups\": [{\"title\": \"g\", \"scenes\": [\"ball\"]}]",
                    "plan 'p': line 3: questions[0].groups: a question of kind equal takes no groups");
 }

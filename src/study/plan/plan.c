@@ -56,7 +56,7 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
     for (size_t w = 0; w < b->warps.n; w++) {
         const koksma_warp *warp = koksma_warp_find(b->warps.at[w]);
         if (!warp) {
-            return koksma__json_fail(node, "no warp '%s'; 'koksma measure --help' names them", b->warps.at[w]);
+            return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", b->warps.at[w]);
         }
         for (size_t m = 0; m < b->measures.n; m++) {
             koksma_spec spec;

@@ -6,6 +6,7 @@
 #include "core/lookup.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "core/suggestion.h"
 #include "render/samples/adaptive/adaptive.h"
 
 static const koksma_adaptive *const table[] = {
@@ -15,6 +16,7 @@ static const koksma_adaptive *const table[] = {
 };
 
 KOKSMA__LOOKUP(koksma_adaptive, table)
+KOKSMA__NAME_AT(koksma_adaptive)
 
 koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
 {
@@ -27,7 +29,8 @@ koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *o
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
     out->method = koksma_adaptive_find(name);
     if (!out->method) {
-        return koksma__fail(KOKSMA_UNKNOWN, "no adaptive method '%s'; 'koksma list adaptive' names them", name);
+        return koksma__fail_unknown("adaptive method", name, koksma_adaptive_name_at, NULL,
+                                    "'koksma list adaptive' names them");
     }
     return koksma__params_parse(name, out->method->params, text[length] ? text + length + 1 : "", out->params);
 }

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The name that a misspelt word was meant to be: the one that the fewest edits lead to. An edit inserts, deletes or
+ * replaces a character or swaps two neighbours (Damerau 1964; the distance without edits inside a swapped pair,
+ * "optimal string alignment", three rows at a time). One that only the word's end is missing from counts as one edit,
+ * so that `jitter` means jittered. Equally close: the one with the longer common beginning, then the first.
+ */
+#include <ctype.h>
+#include <string.h>
+
+#include "core/suggestion.h"
+
+enum { MAX_WORD = 64 };
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static size_t common_beginning(const char *a, const char *b)
+{
+    size_t i = 0;
+    while (a[i] && a[i] == b[i]) {
+        i++;
+    }
+    return i;
+}
+
+static bool equal(char a, char b)
+{
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
+static size_t edits(const char *a, size_t n, const char *b, size_t m)
+{
+    size_t rows[3][MAX_WORD + 1] = {{0}}; /* rows[i % 3][j]: from the first i characters of a to the first j of b */
+    for (size_t j = 0; j <= m; j++) {
+        rows[0][j] = j;
+    }
+    for (size_t i = 1; i <= n; i++) {
+        size_t *row = rows[i % 3];
+        const size_t *last = rows[(i + 2) % 3], *before = rows[(i + 1) % 3];
+        row[0] = i;
+        for (size_t j = 1; j <= m; j++) {
+            row[j] = least(least(last[j], row[j - 1]) + 1, last[j - 1] + !equal(a[i - 1], b[j - 1]));
+            if (i > 1 && j > 1 && equal(a[i - 1], b[j - 2]) && equal(a[i - 2], b[j - 1])) {
+                row[j] = least(row[j], before[j - 2] + 1);
+            }
+        }
+    }
+    return rows[n % 3][m];
+}
+
+const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table)
+{
+    const size_t length = word ? strlen(word) : 0;
+    if (length == 0 || length > MAX_WORD || !name) {
+        return NULL;
+    }
+    const char *closest = NULL, *candidate;
+    size_t fewest = 1 + (length + 1) / 3; /* words of which more is wrong have nothing in common */
+    for (size_t i = 0; (candidate = name(table, i)) != NULL; i++) {
+        const size_t beginning = common_beginning(word, candidate), size = strlen(candidate);
+        if (size > MAX_WORD) {
+            continue;
+        }
+        const size_t distance = length >= 3 && beginning == length ? 1 : edits(word, length, candidate, size);
+        if (distance < fewest || (distance == fewest && closest && beginning > common_beginning(word, closest))) {
+            fewest = distance;
+            closest = candidate;
+        }
+    }
+    return closest;
+}
+
+koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name, const void *table,
+                                   const char *where)
+{
+    const char *closest = koksma_closest_name(word, name, table);
+    return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s%s%s", what, word, closest ? "did you mean '" : "",
+                        closest ? closest : "", closest ? "'? " : "", where);
+}

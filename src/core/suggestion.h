@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a misspelt name was meant to be: koksma_closest_name() of koksma.h in messages. */
+#ifndef KOKSMA_CORE_SUGGESTION_H
+#define KOKSMA_CORE_SUGGESTION_H
+
+#include "core/status.h"
+
+/* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says what names them.
+   `name` and `table` are those of koksma_closest_name(). */
+KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name, const void *table,
+                                   const char *where);
+
+#endif
