@@ -1,9 +1,9 @@
 #!/bin/sh
-# readme.sh PROGRAM: the commands that README.md shows are run, in their order and in one folder; studies of papers, which
-# take minutes, with their --help. Files that it speaks of are there before.
+# readme.sh PROGRAM: the commands that README.md and docs/commands.md show are run, in their order and in one folder;
+# rankings and studies of papers, which take minutes, with their --help. Files that they speak of are there before.
 set -u
 program=$(readlink -f "$1")
-readme=$(cd "$(dirname "$0")/../.." && pwd)/README.md
+root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
@@ -16,7 +16,7 @@ koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
   koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null || exit 1
 count=0 failed=0
-sed -n 's/^    \(koksma .*\)/\1/p' "$readme" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
+sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
 while read -r command; do
   case $command in
     'koksma reproduce '* | 'koksma rank '*) command="$command --help" ;;
@@ -25,7 +25,7 @@ while read -r command; do
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac
   if ! timeout 3000 sh -c "$command" >out 2>&1 </dev/null; then
-    echo "README.md: $command: $(tail -1 out)"
+    echo "$command: $(tail -1 out)"
     failed=$((failed + 1))
   fi
   count=$((count + 1))

@@ -45,9 +45,9 @@ case $flags in *-fsanitize*) ;; *) # a sanitized library can't be loaded into a 
 import koksma
 print('%.9g' % koksma.measure(koksma.generate('jittered', 16, seed=7), 'star').value, koksma.render('ball', spp=1, size=(2, 2)).shape)")
     [ "$said" = "${shared%% *} (2, 2, 1)" ] || fail "Python says $said"
-    # What README tells a stranger to type, letter by letter.
+    # What docs/install.md tells a stranger to type, letter by letter.
     PATH=/usr/bin:$PATH CC=$compiler LD_LIBRARY_PATH=$libraries CMAKE_PREFIX_PATH=$work/moved PYTHONPATH=$(dirname "$python") \
-      /usr/bin/python3 "$source/tests/docs/fences.py" "$program" "$source/README.md" || fail "README"
+      /usr/bin/python3 "$source/tests/docs/fences.py" "$program" "$source/docs/install.md" || fail "docs/install.md"
   fi ;;
 esac
 echo "installed, moved, found, equal"
