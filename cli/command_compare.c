@@ -127,6 +127,8 @@ const cli_command cli_command_compare = {
         "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that fewer than 0.5 % of noise\n"
         "reaches the value: the error has bands or another pattern, at frequency_x and frequency_y cycles a pixel\n"
         "(--json). Every pixel must be a finite number.\n",
+    .examples = "koksma compare ball.exr reference.exr\n"
+                "koksma compare ball.exr reference.exr -o difference.png\n",
     .options = options,
     .run = run,
 };

@@ -104,15 +104,13 @@ static void add_answer(answer *a, const char *call, const char *text)
 
 /* ---- Operands: the lines of a synopsis, "VERB FILE" or "FILE" ----------------------------------------- */
 
-/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. Other lines go on with one. */
+/* Usage i (0..) of a command, after "koksma NAME "; NULL past the end. */
 static const char *usage_at(const cli_command *command, size_t i)
 {
-    char begin[64];
-    snprintf(begin, sizeof begin, "koksma %s ", command->name);
     const char *line = command->synopsis;
     while (line && i-- > 0) {
-        line = strstr(line, begin);
-        line = line ? line + strlen(begin) : NULL;
+        line = strchr(line, '\n');
+        line = line ? line + 1 : NULL;
     }
     return line;
 }
@@ -362,6 +360,7 @@ const cli_command cli_command_completion = {
     .summary = "print a shell's completion script",
     .synopsis = "bash|zsh|fish",
     .details = "In bash: source <(koksma completion bash). 'make install' puts the scripts where the shells look.",
+    .examples = "koksma completion bash >koksma.bash\n",
     .options = options,
     .run = run,
 };

@@ -64,6 +64,8 @@ const cli_command cli_command_curve = {
     .synopsis = "{curve} FILE|-|pattern:SPEC@N... [--trials T] [--json]",
     .details = "{curve-meanings}"
                "`koksma plot --curve` draws them.",
+    .examples = "koksma curve rings pattern:poisson-disk-maximal@1024\n"
+                "koksma curve pairs points.txt\n",
     .options = options,
     .run = run,
 };

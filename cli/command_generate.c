@@ -90,6 +90,9 @@ const cli_command cli_command_generate = {
         "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",
+    .examples = "koksma generate sobol:scramble=owen -n 64 --seed 1 -o points.csv\n"
+                "koksma generate n-rooks -n 16\n"
+                "koksma generate jittered -n 64 --warp concentric-disk -o disk.txt\n",
     .options = options,
     .run = run,
 };

@@ -48,6 +48,7 @@ const cli_command cli_command_help = {
     .summary = "print what the commands do, or all about one of them",
     .synopsis = "[COMMAND]",
     .details = "The same as koksma --help, and koksma COMMAND --help or -h.",
+    .examples = "koksma help rank\n",
     .options = options,
     .run = run,
 };

@@ -247,6 +247,8 @@ const cli_command cli_command_list = {
     .details =
         "uses are what a sample is spent on, with their dimensions: 'koksma render -p USE=PATTERN' samples one by a\n"
         "pattern of its own, '-p USE+USE=PATTERN' several by one pattern of their dimensions together.",
+    .examples = "koksma list patterns\n"
+                "koksma list scenes --json\n",
     .options = options,
     .run = run,
 };

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Manual pages, from the tables that parse the command line and print --help. */
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli.h"
+#include "fill.h"
 
 /* Text for roff: backslashes, hyphens of options, and lines that begin with a dot or quote stay what they are; a line
    may break between alternatives. */
@@ -46,56 +48,81 @@ static void put_options(const cli_command *command)
 
 static void put_synopsis(const char *name, const char *synopsis)
 {
-    const char *line = synopsis;
-    printf(".B koksma %s\n", name);
-    for (;;) {
-        const char *end = strchr(line, '\n');
+    for (const char *use = synopsis; use; use = strchr(use, '\n')) {
         char text[512];
-        snprintf(text, sizeof text, "%.*s", end ? (int)(end - line) : (int)strlen(line), line);
-        put(text + strspn(text, " "));
+        use += *use == '\n';
+        snprintf(text, sizeof text, "%.*s", (int)strcspn(use, "\n"), use);
+        printf("%s.B koksma %s\n", use == synopsis ? "" : ".br\n", name);
+        put(text);
         printf("\n");
-        if (!end) {
-            return;
-        }
-        printf(".br\n");
-        line = end + 1;
     }
+}
+
+static void put_details(const char *details)
+{
+    char paragraph[CLI_PARAGRAPH];
+    bool apart;
+    printf(".SH DESCRIPTION\n");
+    for (const char *at = details; (at = cli_next_paragraph(at, paragraph, &apart));) {
+        printf(apart ? ".PP\n" : ".br\n");
+        put(paragraph);
+        printf("\n");
+    }
+}
+
+static void put_exit_status(void)
+{
+    printf(
+        ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
+        "missing or\nmalformed; 4 the system failed; 130 interrupted, finished results are kept.\n");
+}
+
+/* The name of a page, in capitals, as sections of a manual have it. */
+static void put_title(const char *command)
+{
+    printf(".TH KOKSMA");
+    for (const char *at = command; *at; at++) {
+        printf(at == command ? "\\-%c" : "%c", toupper((unsigned char)*at));
+    }
+    printf(" 1 \"\" \"koksma %s\"\n", koksma_version());
 }
 
 static void put_page(const cli_command *command)
 {
-    printf(".TH KOKSMA\\-%s 1 \"\" \"koksma %s\"\n.nh\n.ad l\n.SH NAME\nkoksma\\-%s \\- ", command->name,
-           koksma_version(), command->name);
+    put_title(command->name);
+    printf(".nh\n.ad l\n.SH NAME\nkoksma\\-%s \\- ", command->name);
     put(command->summary);
     printf("\n.SH SYNOPSIS\n");
     put_synopsis(command->name, command->synopsis);
     if (command->details) {
-        printf(".SH DESCRIPTION\n.nf\n");
-        put(command->details);
-        printf("\n.fi\n");
+        put_details(command->details);
     }
     put_options(command);
+    if (command->examples) {
+        printf(".SH EXAMPLES\n.nf\n");
+        put(command->examples);
+        printf(".fi\n");
+    }
+    put_exit_status();
     printf(".SH \"SEE ALSO\"\n.BR koksma (1)\n");
 }
 
 static void put_overview(void)
 {
     const cli_command *command;
-    printf(".TH KOKSMA 1 \"\" \"koksma %s\"\n.SH NAME\nkoksma \\- sampling patterns for ray tracing, and the error "
+    put_title("");
+    printf(".SH NAME\nkoksma \\- sampling patterns for ray tracing, and the error "
            "that they leave\n.SH SYNOPSIS\n.B koksma\n.I COMMAND\n[\\fIOPTION\\fR]... [\\fIOPERAND\\fR]...\n"
-           ".SH COMMANDS\n",
-           koksma_version());
+           ".SH COMMANDS\n");
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         printf(".TP\n.BR koksma\\-%s (1)\n", command->name);
         put(command->summary);
         printf("\n");
     }
-    printf(
-        ".SH \"EXIT STATUS\"\n0 done; 1 it ran and the answer is no; 2 the command line is wrong; 3 a named file is "
-        "missing or\nmalformed; 4 the system failed; 130 interrupted, finished results are kept.\n"
-        ".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
-        "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
-        "bits.\n");
+    put_exit_status();
+    printf(".SH ENVIRONMENT\n.TP\n.B KOKSMA_KERNELS\nthe instruction set of the inner loops: ref, baseline, avx2 or "
+           "avx512.\nBy default it is the fastest that the processor has. Results of the last three have equal "
+           "bits.\n");
 }
 
 static int run(const cli_arguments *arguments)
@@ -118,7 +145,7 @@ const cli_command cli_command_manual = {
     .name = "manual",
     .summary = "print a manual page, as man reads it",
     .synopsis = "[COMMAND]",
-    .details = "koksma manual generate | man -l -",
+    .examples = "koksma manual rank | man -l -\n",
     .options = options,
     .run = run,
 };

@@ -350,6 +350,11 @@ const cli_command cli_command_measure = {
         "their values are exact. Other measures, and extreme:grid, take the time they need.\n"
         "disk also stops after 2^28 point tests (lattices of hundreds of points, other sets of thousands); it then\n"
         "reports bounds and warns.\n",
+    .examples = "koksma measure points.txt -m star,l2-star,extreme\n"
+                "koksma measure pattern:random@64 pattern:jittered@64 -m l2-star --trials 100\n"
+                "koksma measure --prefixes powers pattern:sobol@4096\n"
+                "koksma measure --sizes 16,64,256 pattern:n-rooks@256 -m star --trials 10\n"
+                "koksma measure --paired -t 9 --warp concentric-disk,polar-disk pattern:jittered@64\n",
     .options = options,
     .run = run,
 };

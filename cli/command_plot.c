@@ -70,6 +70,10 @@ const cli_command cli_command_plot = {
     .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
     .details = "{chart-meanings}"
                "Points and power spectra of several sources are drawn side by side, curves in one chart.",
+    .examples = "koksma plot pattern:n-rooks@16 -o points.svg --witness star\n"
+                "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
+                "koksma plot pattern:jittered@64 --warp polar-disk --grid 8 -o disk.png\n"
+                "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 -o c.svg\n",
     .options = options,
     .run = run,
 };

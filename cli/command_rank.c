@@ -258,8 +258,8 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
-    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size]\n"
-                "  [--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--json]",
+    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size] "
+                "[--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the mean absolute error of the\n"
         "image. Patterns are compared as they are used, including random shifts.\n"
@@ -285,8 +285,12 @@ const cli_command cli_command_rank = {
         "Only the integrators path and irradiance-cache render light that surfaces reflect onto each other.\n"
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
+        "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
         "one.\n",
+    .examples = "koksma rank ball --spp 16\n"
+                "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
+                "koksma rank cornell --integrator path --time-limit 300\n",
     .options = options,
     .run = run,
 };

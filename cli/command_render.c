@@ -207,8 +207,8 @@ static const cli_option options[] = {
 const cli_command cli_command_render = {
     .name = "render",
     .summary = "render a scene",
-    .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S]\n"
-                "                     [--adaptive METHOD [--budget SPP]] -o FILE",
+    .synopsis = "SCENE [-p [USE[+USE]=]PATTERN]... [-n SPP] [--size WxH] [--integrator I] [--filter F] [-s S] "
+                "[--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
         "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md) or a mesh file (.obj, .ply, .off,\n"
         ".gltf, .glb).\n"
@@ -220,6 +220,10 @@ const cli_command cli_command_render = {
         "the dimensions of one set. --scope image spreads one set of SPP x pixels points over the whole image.\n"
         "--adaptive takes SPP samples in every pixel first, then more in rounds until METHOD or the budget ends "
         "it.\n",
+    .examples = "koksma render ball -p sobol:scramble=owen -n 16 -o ball.png\n"
+                "koksma render balls -p random -p pixel+time=scan-time -n 16 -o balls.exr\n"
+                "koksma render cornell --integrator path --filter mitchell --splat -o c.exr\n"
+                "koksma render glossy --adaptive hierarchical --counts counts.png -o glossy.exr\n",
     .options = options,
     .run = run,
 };

@@ -153,6 +153,8 @@ const cli_command cli_command_reproduce = {
         "again, and ends with the same report. The verdict compares our mean with the published one: agrees, fitted\n"
         "(within 25 % in a scene that was fitted to the published numbers), explained (differs for a known reason),\n"
         "unexplained, new (the paper has no number) or waiting (too few trials).\n",
+    .examples = "koksma reproduce shirley1991 -o thesis --quick\n"
+                "koksma reproduce shirley1991 mitchell1992 -o both\n",
     .options = option_table,
     .run = run,
 };

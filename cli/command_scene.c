@@ -40,6 +40,7 @@ const cli_command cli_command_scene = {
         "SCENE is a name, a JSON file (docs/scenes.md) or a mesh file. An error names file, line, field and reason\n"
         "(exit code 3). A warning is about something odd that can be rendered (exit code 1). stdout lists what the\n"
         "scene contains.\n",
+    .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,
 };

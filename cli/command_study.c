@@ -336,23 +336,29 @@ const cli_command cli_command_study = {
     .name = "study",
     .summary = "run patterns x measures or scenes x trials, from a plan",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
-                "       koksma study new [FILE]\n"
-                "       koksma study estimate PLAN... [--json]\n"
-                "       koksma study export DIR [--format csv|json|npy] [-o FILE]\n"
-                "       koksma study report DIR\n"
-                "       koksma study images 'PLACES' --reference FILE [--json]",
+                "new [FILE]\n"
+                "estimate PLAN... [--json]\n"
+                "export DIR [--format csv|json|npy] [-o FILE]\n"
+                "report DIR\n"
+                "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
         "the current folder.\n"
-        "run       runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
-        "          started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2\n"
-        "new       writes an example plan; it overwrites no file\n"
-        "estimate  measures samples and prints what the study would cost on one thread\n"
-        "export    writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
-        "          'export' and 'report' fail while a run uses DIR, and if DIR cannot be written\n"
-        "report    writes DIR/report.html\n"
-        "images    compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
-        "          braces. 'koksma compare --help' explains coherence\n",
+        "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
+        "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
+        "new: writes an example plan; it overwrites no file.\n"
+        "estimate: measures samples and prints what the study would cost on one thread.\n"
+        "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
+        "'export' and 'report' fail while a run uses DIR, and if DIR cannot be written.\n"
+        "report: writes DIR/report.html.\n"
+        "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
+        "braces. 'koksma compare --help' explains coherence.\n",
+    .examples = "koksma study new plan.json\n"
+                "koksma study estimate ./plan.json\n"
+                "koksma study run ./plan.json -o results --quick\n"
+                "koksma study export results --format csv -o rows.csv\n"
+                "koksma study report results\n"
+                "koksma study images 'mine_{sampler}_{spp}_{trial}.exr' --reference truth.exr\n",
     .options = options,
     .run = run,
 };

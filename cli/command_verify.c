@@ -150,9 +150,12 @@ const cli_command cli_command_verify = {
     .details =
         "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"
         "{property-meanings}"
+        "\n"
         "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "
         "looked\n"
         "at; 2 for a wrong command line, as an unknown property; 3 for points that are missing or malformed.",
+    .examples = "koksma verify pattern:sobol@1024\n"
+                "koksma verify points.txt --expect distinct\n",
     .options = options,
     .run = run,
 };

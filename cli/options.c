@@ -15,24 +15,57 @@
 
 #include <koksma/render.h>
 
+#include "fill.h"
+
 /* No table has the letter of --help. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
 
 static bool complained; /* one error, one line */
 
+enum { LEFT = 22, HELP_COLUMN = 29 }; /* the width of "--NAME ARGUMENT", and where its help begins */
+
+static void print_option(char letter, const char *name, const char *argument, const char *help)
+{
+    char left[160];
+    const int used = snprintf(left, sizeof left, argument ? "--%s %s" : "--%s", name, argument);
+    printf(letter ? "  -%c, " : "  %c   ", letter ? letter : ' ');
+    if (used > LEFT) {
+        cli_fill_use(left, HELP_COLUMN - LEFT - 1, HELP_COLUMN - LEFT + 3);
+        printf("%*s", HELP_COLUMN, "");
+    } else {
+        printf("%-*s ", LEFT, left);
+    }
+    cli_fill(help, HELP_COLUMN, HELP_COLUMN);
+}
+
 void cli_print_help(const cli_command *command)
 {
-    printf("koksma %s: %s\n\nusage: koksma %s%s%s\n\n", command->name, command->summary, command->name,
-           *command->synopsis ? " " : "", command->synopsis);
-    for (const cli_option *o = command->options; o->name; o++) {
-        char left[96];
-        const int used = snprintf(left, sizeof left, o->argument ? "--%s %s" : "--%s", o->name, o->argument);
-        printf(o->letter ? "  -%c, %-22s" : "  %c   %-22s", o->letter ? o->letter : ' ', left);
-        printf(used > 22 ? "\n%28s %s\n" : "%.0s %s\n", "", o->help);
+    char paragraph[CLI_PARAGRAPH];
+    bool apart;
+    cli_fill(command->summary, (size_t)printf("koksma %s: ", command->name), 2);
+    printf("\n");
+    const char *begin = "usage:";
+    for (const char *use = command->synopsis; use; use = strchr(use, '\n')) {
+        use += *use == '\n';
+        const int column = printf("%-6s koksma %s ", begin, command->name);
+        cli_fill_use(use, (size_t)column, (size_t)column);
+        begin = "";
     }
-    printf("  -%c, %-22s %s\n", HELP_LETTER, "--help", "this text");
-    if (command->details) {
-        printf("\n%s\n", command->details);
+    printf("\n");
+    for (const cli_option *o = command->options; o->name; o++) {
+        print_option(o->letter, o->name, o->argument, o->help);
+    }
+    print_option(HELP_LETTER, "help", NULL, "this text");
+    printf(command->details ? "\n" : "");
+    for (const char *at = command->details; at && (at = cli_next_paragraph(at, paragraph, &apart));) {
+        printf(apart ? "\n" : "");
+        cli_fill(paragraph, 0, cli_is_heading(paragraph) ? 2 : 0);
+    }
+    if (command->examples) {
+        printf("\nexamples:\n");
+        for (const char *at = command->examples; *at; at += strcspn(at, "\n"), at += *at == '\n') {
+            printf("  %.*s\n", (int)strcspn(at, "\n"), at);
+        }
     }
 }
 

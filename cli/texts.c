@@ -25,7 +25,7 @@
 
 #include "curves.h"
 
-enum { POOL = 1 << 15, WIDTH = 110, MOST_COMMANDS = 32 };
+enum { POOL = 1 << 15, MOST_COMMANDS = 32 };
 
 static char pool[POOL];
 static size_t used;
@@ -40,20 +40,12 @@ static void put(const char *text, size_t length)
     used += length;
 }
 
-/* "name: meaning.", broken into lines. */
+/* "name: meaning.", a paragraph. */
 static void put_meaning(const char *name, const char *meaning)
 {
-    size_t column = strlen(name) + 1;
     put(name, strlen(name));
-    put(":", 1);
-    for (const char *at = meaning; *at; at += strcspn(at, " ")) {
-        at += strspn(at, " ");
-        const size_t length = strcspn(at, " ");
-        const bool fits = column + 1 + length <= WIDTH;
-        put(fits ? " " : "\n", 1);
-        put(at, length);
-        column = fits ? column + 1 + length : length;
-    }
+    put(": ", 2);
+    put(meaning, strlen(meaning));
     put(".\n", 2);
 }
 

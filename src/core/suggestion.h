@@ -7,7 +7,7 @@
 
 /* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says what names them.
    `name` and `table` are those of koksma_closest_name(). */
-KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name, const void *table,
-                                   const char *where);
+KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name,
+                                               const void *table, const char *where);
 
 #endif

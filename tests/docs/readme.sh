@@ -1,6 +1,7 @@
 #!/bin/sh
-# readme.sh PROGRAM: the commands that README.md and docs/commands.md show are run, in their order and in one folder;
-# rankings and studies of papers, which take minutes, with their --help. Files that they speak of are there before.
+# readme.sh PROGRAM: the commands that README.md, docs/commands.md and the examples of every --help show are run, in their
+# order and in one folder; rankings and studies of papers, which take minutes, with their --help. Files that they speak of
+# are there before. Every command has an example, in its manual page as well.
 set -u
 program=$(readlink -f "$1")
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -14,14 +15,25 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n
 meshes=$(koksma version | grep -c '^meshes: Embree')
 koksma generate n-rooks -n 16 -q -o points.txt &&
   koksma render ball -n 1 --size 16x16 -q -o ball.exr >/dev/null &&
-  koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null || exit 1
+  koksma render ball -n 4 --size 16x16 -q -o reference.exr >/dev/null && cp reference.exr truth.exr &&
+  cp ball.exr mine_regular_1_0.exr || exit 1
 count=0 failed=0
 sed -n 's/^    \(koksma .*\)/\1/p' "$root/README.md" "$root/docs/commands.md" | sed 's/  *# .*//' | sed 's/-o DIR/-o dir/' >commands
+for command in $(koksma --help | sed -n 's/^  \([a-z]*\)  .*/\1/p'); do
+  koksma "$command" --help | sed -n '/^examples:/,$s/^  //p' >examples
+  cat examples >>commands
+  grep -q "^koksma $command" examples && koksma manual "$command" | grep -q '^.SH EXAMPLES' || {
+    echo "koksma $command --help, or its manual page, has no examples"
+    failed=$((failed + 1))
+  }
+done
 while read -r command; do
   case $command in
+    'koksma study new '*) rm -f plan.json ;;
     'koksma reproduce '* | 'koksma rank '*) command="$command --help" ;;
     *.obj*) [ "$meshes" -eq 1 ] && command="$command --size 32x32 -q" || command=true ;;
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
+    'koksma manual '*) command -v man >/dev/null || command=true ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac
   if ! timeout 3000 sh -c "$command" >out 2>&1 </dev/null; then
@@ -31,4 +43,4 @@ while read -r command; do
   count=$((count + 1))
 done <commands
 echo "$count commands, $failed failed"
-[ "$failed" -eq 0 ] && [ "$count" -ge 10 ]
+[ "$failed" -eq 0 ] && [ "$count" -ge 60 ]
