@@ -8,17 +8,15 @@
 void cli_print_overview(FILE *stream)
 {
     const cli_command *command;
-    fputs("koksma: sampling patterns for ray tracing, how irregular they are, and the error that they leave\n\n"
+    fputs("koksma: sampling patterns for ray tracing, and the error that they leave\n\n"
           "usage: koksma COMMAND [OPTION]... [OPERAND]...\n\n",
           stream);
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
-    fputs("\n'koksma COMMAND --help' prints the options. Exit codes: 0 done; 1 it ran and the answer is no; 2 the "
-          "command "
-          "line is\n"
-          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, finished "
-          "results are kept.\n",
+    fputs("\n'koksma COMMAND --help' prints options and examples. Exit codes: 0 done; 1 it\n"
+          "ran and the answer is no; 2 the command line is wrong; 3 a named file is missing\n"
+          "or malformed; 4 the system failed; 130 interrupted, finished results are kept.\n",
           stream);
 }
 

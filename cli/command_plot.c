@@ -66,7 +66,7 @@ static const cli_option options[] = {
 
 const cli_command cli_command_plot = {
     .name = "plot",
-    .summary = "draw points, where a measure finds them worst, spectra and convergence",
+    .summary = "draw points, where they are worst, spectra and convergence",
     .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
     .details = "{chart-meanings}"
                "Points and power spectra of several sources are drawn side by side, curves in one chart.",
