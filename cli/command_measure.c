@@ -354,7 +354,7 @@ const cli_command cli_command_measure = {
                 "koksma measure pattern:random@64 pattern:jittered@64 -m l2-star --trials 100\n"
                 "koksma measure --prefixes powers pattern:sobol@4096\n"
                 "koksma measure --sizes 16,64,256 pattern:n-rooks@256 -m star --trials 10\n"
-                "koksma measure --paired -t 9 --warp concentric-disk,polar-disk pattern:random@9\n",
+                "koksma measure --paired --trials 100 pattern:random@64 pattern:jittered@64\n",
     .options = options,
     .run = run,
 };

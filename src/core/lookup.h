@@ -33,9 +33,9 @@
     }
 
 #define KOKSMA__NAME_AT(type)                                                                                        \
-    static const char *type##_name_at(const void *table, size_t i)                                                   \
+    static const char *type##_name_at(const void *unused, size_t i)                                                  \
     {                                                                                                                \
-        (void)table;                                                                                                 \
+        (void)unused;                                                                                                \
         return type##_at(i) ? type##_at(i)->name : NULL;                                                             \
     }
 
