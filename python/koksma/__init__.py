@@ -9,20 +9,30 @@
 Points are NumPy arrays of shape (n, dim) over the memory that the library itself fills. Equal arguments give equal
 bits, the same as the program's. What fails raises koksma.Error with the library's own line.
 """
+try:
+    import numpy as _numpy  # noqa: F401
+except ModuleNotFoundError:
+    raise ImportError("koksma needs NumPy: apt install python3-numpy, or pip install numpy") from None
+
 from ._compare import Comparison, compare
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
 from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
                       write)
+from ._plot import Picture, plot, plot_convergence
 from ._rank import Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
-from ._spectrum import Spectrum, spectrum
+from ._series import Convergence, Trials, convergence, trials
+from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
+from ._study import Cost, Study, Summary, TableRow, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Comparison", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError",
-    "OutOfMemoryError", "Ranked", "Ranking", "SizeCheck", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical",
-    "compare", "generate", "measure", "measures", "patterns", "rank", "read", "read_image", "render", "scenes", "spectrum",
-    "verify", "version", "write",
+    "ArgumentError", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
+    "MissingError", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
+    "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "canonical", "compare",
+    "convergence", "generate", "measure", "measures", "pair_correlation", "patterns", "plans", "plot",
+    "plot_convergence", "rank", "read", "read_image", "render", "scenes", "spectrum", "trials", "verify", "version",
+    "write",
 ]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint64, c_void_p
+from ctypes import POINTER, byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_uint64, c_void_p
 from functools import lru_cache
 from operator import index
 from pathlib import Path
-from typing import Iterator, Optional, SupportsIndex
+from typing import Callable, Iterator, Optional, SupportsIndex
 
 from . import _structs as s
 from ._signals import Signals
@@ -56,6 +56,10 @@ def _places(name: str) -> Iterator[str]:
     if folder:
         yield str(Path(folder).absolute() / name)  # with a slash, so that no other folder is searched
         return
+    bundled = Path(__file__).resolve().parent / "lib" / name  # of a wheel
+    if bundled.exists():
+        yield str(bundled)
+        return
     for parent in Path(__file__).resolve().parents:  # of an installed package: PREFIX/lib/python3/dist-packages/koksma
         if parent.name.startswith("lib"):
             yield from (str(p) for p in [parent / name, *sorted(parent.glob("*-linux-*/" + name))] if p.exists())
@@ -98,6 +102,12 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_points_read", c_char_p, points)
     _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p, run)
     _declare(library, c_int, "koksma_evaluate", spec, points, run, POINTER(s.Value))
+    _declare(library, c_int, "koksma_evaluate_prefixes", spec, points, POINTER(c_size_t), c_size_t, run, POINTER(s.Value))
+    _declare(library, c_bool, "koksma_log_line", c_size_t, POINTER(c_double), POINTER(c_double), POINTER(s.Line))
+    _declare(library, c_double, "koksma_student_975", c_size_t)
+    _declare(library, c_double, "koksma_rate", spec, POINTER(s.Measure), c_int)
+    _declare(library, c_double, "koksma_best_rate", POINTER(s.Measure), c_int)
+    _declare(library, c_int, "koksma_pair_correlation", points, c_double, c_size_t, run, POINTER(c_double))
     _declare(library, c_void_p, "koksma_warp_find", c_char_p)
     _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))
     _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
@@ -131,6 +141,21 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
              POINTER(s.Ranking))
+    _declare(library, c_char_p, "koksma_plan_name_at", c_size_t)
+    _declare(library, c_int, "koksma_study_open", POINTER(s.StudyOptions), POINTER(c_void_p))
+    _declare(library, c_int, "koksma_study_close", c_void_p)
+    _declare(library, c_int, "koksma_study_run", c_void_p, POINTER(s.Run), POINTER(s.StudySummary))
+    _declare(library, c_int, "koksma_study_estimate", c_void_p, POINTER(s.Run), POINTER(s.StudyCost))
+    _declare(library, c_int, "koksma_study_export", c_char_p, c_int, c_char_p)
+    _declare(library, c_int, "koksma_study_report", c_void_p, POINTER(s.Run))
+    _declare(library, c_char_p, "koksma_study_table_at", c_void_p, c_size_t)
+    _declare(library, c_char_p, "koksma_study_verdict_name", c_int)
+    _declare(library, c_int, "koksma_study_table_row", c_void_p, c_char_p, c_size_t, POINTER(s.StudyRow), POINTER(c_bool))
+    data, size = POINTER(POINTER(c_ubyte)), POINTER(c_size_t)
+    _declare(library, c_int, "koksma_plot_panels", POINTER(s.Panel), c_size_t, c_double, c_int, data, size)
+    _declare(library, c_int, "koksma_plot_chart", POINTER(s.Chart), c_int, data, size)
+    _declare(library, c_int, "koksma_plot_format_of", c_char_p, POINTER(c_int))
+    _declare(library, c_int, "koksma_plot_write", c_char_p, c_char_p, c_size_t)
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)
@@ -156,14 +181,23 @@ def check(status: int) -> None:
 
 
 def call(function: object, *arguments: object, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
-         run_at: int) -> None:
-    """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler raises stops it,
-    and comes out: KeyboardInterrupt after Ctrl-C."""
+         run_at: int, progress: Optional[Callable[[float], object]] = None) -> None:
+    """Calls a library function that takes a koksma_run as argument `run_at`. What a signal's handler or `progress` raises
+    stops it, and comes out: KeyboardInterrupt after Ctrl-C."""
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
     threads = whole("threads", threads, 0, s.MAX_INT)
     signals = Signals()
-    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(lambda _context, _fraction_done: not signals.raised), None)
+
+    def keep_going(_context: object, fraction_done: float) -> bool:
+        if progress is not None and not signals.raised:
+            try:
+                progress(fraction_done)
+            except BaseException as error:  # noqa: BLE001  no exception passes through C
+                signals.raised.append(error)
+        return not signals.raised
+
+    run = s.Run(threads, time_limit or 0.0, s.KeepGoing(keep_going), None)
     try:
         signals.take()
         status = function(*arguments[:run_at], byref(run), *arguments[run_at:])

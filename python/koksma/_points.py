@@ -7,7 +7,7 @@ import os
 import weakref
 from ctypes import byref
 from dataclasses import dataclass
-from typing import Any, Callable, List, Optional, SupportsIndex, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -65,6 +65,16 @@ class Value:
 
     def __float__(self) -> float:
         return self.value
+
+    def __repr__(self) -> str:
+        parts = [f"{self.value:.6g}"]
+        if not self.exact and self.lower < self.upper:
+            parts.append(f"between {self.lower:.6g} and {self.upper:.6g}")
+        if self.standard_error > 0:
+            parts.append(f"standard error {self.standard_error:.2g}")
+        if self.witness:
+            parts.append(repr(self.witness))
+        return f"Value({', '.join(parts)})"
 
 
 @dataclass(frozen=True)
@@ -186,15 +196,55 @@ def generate(pattern: str, n: Optional[SupportsIndex] = None, dim: Optional[Supp
     return out
 
 
-def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None,
-            threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Value:
+@overload
+def measure(points: npt.ArrayLike, measure: str = "star", *, warp: Optional[str] = None, threads: SupportsIndex = 0,
+            time_limit: Optional[float] = None) -> Value: ...
+@overload
+def measure(points: npt.ArrayLike, measure: Sequence[str], *, warp: Optional[str] = None, threads: SupportsIndex = 0,
+            time_limit: Optional[float] = None) -> Dict[str, Value]: ...
+def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", *, warp: Optional[str] = None,
+            threads: SupportsIndex = 0, time_limit: Optional[float] = None) -> Union[Value, Dict[str, Value]]:
     """How uneven points in [0,1]^dim are; smaller is more even (of distances larger is).
 
-    measure: a spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all.
-    warp: measures the points mapped to another domain, such as "concentric-disk".
-    time_limit: in seconds; a measure that is cut short gives bounds, and `exact` is False. "disk" is so without a
-    limit of time, too, after 2^28 looks at points.
+    Parameters
+    ----------
+    points : array_like of shape (n, dim)
+    measure : str or sequence of str
+        A spec such as "star", "l2-star" or "disk:r=0.1"; measures() has them all. Of several the values come as a dict.
+    warp : str, optional
+        Measures the points mapped to another domain, such as "concentric-disk".
+    threads : int
+        0: one for each processor. The value does not depend on it.
+    time_limit : float, optional
+        In seconds, for each measure; one that is cut short gives bounds, and `exact` is False. "disk" is so without a limit,
+        too, after 2^28 point tests.
+
+    Returns
+    -------
+    Value, or dict of Value
+
+    Raises
+    ------
+    ArgumentError
+        The spec is unknown, or does not take these dimensions, this number of points or their coordinates.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.measure([[0.25, 0.25], [0.75, 0.75]], "star").value
+    0.4375
+    >>> sorted(koksma.measure(koksma.generate("sobol", 16), ["star", "l2-star"]))
+    ['l2-star', 'star']
     """
+    if isinstance(measure, str):
+        return value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
+    array = as_points(points)
+    return {name: value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in measure}
+
+
+def value_of(points: npt.ArrayLike, measure: str, *, warp: Optional[str] = None, threads: SupportsIndex = 0,
+             time_limit: Optional[float] = None) -> Value:
+    """One measure of one set."""
     array = as_points(points)
     parsed, value, c_points = spec("measure", measure), s.Value(), view(array)
     if warp is None:
@@ -245,8 +295,8 @@ def is_sequence(pattern: str) -> bool:
     return bool(spec("pattern", pattern).pattern.contents.claims & SEQUENCE)
 
 
-def canonical(pattern: str) -> str:
-    """The canonical text of a pattern's spec, under which results are stored."""
-    parsed, room = spec("pattern", pattern), ctypes.create_string_buffer(s.MAX_SPEC)
+def canonical(text_of_spec: str, kind: str = "pattern") -> str:
+    """The canonical text of a spec of a "pattern" or "measure", under which results are stored."""
+    parsed, room = spec(kind, text_of_spec), ctypes.create_string_buffer(s.MAX_SPEC)
     core().koksma_spec_text(byref(parsed), room)
     return os.fsdecode(room.value)  # it may have a path

@@ -2,7 +2,7 @@
 """The power spectrum of plane point sets."""
 from __future__ import annotations
 
-from ctypes import byref
+from ctypes import byref, c_double
 from dataclasses import dataclass
 from typing import Iterable, Sequence, SupportsIndex
 
@@ -75,3 +75,48 @@ def spectrum(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", half: SupportsInde
         return _result(raw)
     finally:
         core().koksma_spectrum_fini(byref(raw))
+
+
+def pair_correlation(sets: "npt.ArrayLike | Iterable[npt.ArrayLike]", r_max: float = 0.25, bins: SupportsIndex = 64, *,
+                     threads: SupportsIndex = 0) -> "PairCorrelation":
+    """The density of pairs at each distance on the unit torus over that of random points; 1 for random points.
+
+    Parameters
+    ----------
+    sets : array_like of shape (n, 2), or an iterable of them
+        Of several the mean is returned.
+    r_max : float
+        Distances up to r_max, above 0 and at most 1/2.
+    bins : int
+        Equal bins of distance.
+
+    Returns
+    -------
+    PairCorrelation
+
+    Examples
+    --------
+    >>> import koksma
+    >>> bool(koksma.pair_correlation(koksma.generate("poisson-disk:d=0.1,torus=1", 50), 0.08, 8).density.max() == 0)
+    True
+    """
+    width = whole("bins", bins, 1, 1 << 24)
+    total, count, values = np.zeros(width), 0, (c_double * width)()
+    for points in _each(sets):
+        c_points = view(array := as_points(points))
+        call(core().koksma_pair_correlation, byref(c_points), r_max, width, values, threads=threads, run_at=3)
+        del array
+        total += np.frombuffer(values)
+        count += 1
+    if not count:
+        raise ArgumentError("a pair correlation takes at least one set of points")
+    return PairCorrelation((np.arange(width) + 0.5) * r_max / width, total / count, count)
+
+
+@dataclass(frozen=True, eq=False)
+class PairCorrelation:
+    """density[b] is that of pairs in the bin whose middle is distance[b]; the mean over `sets` sets."""
+
+    distance: npt.NDArray[np.float64]
+    density: npt.NDArray[np.float64]
+    sets: int

@@ -93,6 +93,51 @@ class CoherenceValues(Structure):
     _fields_ = [("images", c_size_t), ("coherence", c_double), ("low", c_double), ("high", c_double),
                 ("frequency_x", c_double), ("frequency_y", c_double), ("common", c_double), ("noise_low", c_double),
                 ("noise_high", c_double), ("p", c_double), ("coherent", c_bool)]
+class Line(Structure):
+    _fields_ = [("count", c_size_t), ("slope", c_double), ("slope_error", c_double), ("intercept", c_double)]
+
+
+class ScatterOptions(Structure):
+    _fields_ = [("size", c_double), ("columns", c_size_t), ("rows", c_size_t), ("local_discrepancy", c_bool), ("warp", c_void_p),
+                ("witness", POINTER(Witness)), ("caption", c_char_p)]
+
+
+class Panel(Structure):
+    _fields_ = [("points", POINTER(Points)), ("scatter", ScatterOptions), ("spectrum", POINTER(Spectrum)), ("white", c_double),
+                ("caption", c_char_p)]
+
+
+class Curve(Structure):
+    _fields_ = [("label", c_char_p), ("n", c_size_t), ("xs", POINTER(c_double)), ("ys", POINTER(c_double)),
+                ("errors", POINTER(c_double)), ("marks", c_bool), ("dashed", c_bool), ("colour", c_size_t)]
+
+
+class Chart(Structure):
+    _fields_ = [("x_label", c_char_p), ("y_label", c_char_p), ("log_x", c_bool), ("log_y", c_bool), ("curves", POINTER(Curve)),
+                ("n_curves", c_size_t), ("has_level", c_bool), ("level", c_double), ("size", c_double)]
+
+
+class StudyOptions(Structure):
+    _fields_ = [("plans", POINTER(c_char_p)), ("n_plans", c_size_t), ("folder", c_char_p), ("trials", c_longlong),
+                ("quick", c_bool)]
+
+
+class StudySummary(Structure):
+    _fields_ = [("jobs", c_size_t), ("done_before", c_size_t), ("done_now", c_size_t), ("workers", c_int), ("seconds", c_double),
+                ("idle_seconds", c_double), ("processor_seconds", c_double), ("store_seconds", c_double), ("complete", c_bool)]
+
+
+class StudyCost(Structure):
+    _fields_ = [("jobs", c_size_t), ("references", c_size_t), ("rows", c_uint64), ("seconds", c_double),
+                ("reference_seconds", c_double), ("bytes", c_double)]
+
+
+class StudyRow(Structure):
+    _fields_ = [("pattern", c_char_p), ("label", c_char_p), ("n", c_longlong), ("published", c_double * 3), ("mean", c_double),
+                ("low", c_double), ("high", c_double), ("sd", c_double), ("max", c_double), ("converged", c_double),
+                ("trials", c_size_t), ("verdict", c_int)]
+
+
 class UseGroup(Structure):
     _fields_ = [("pattern", Spec), ("n_uses", c_int), ("uses", c_int * N_USES)]
 
@@ -158,6 +203,10 @@ LAYOUTS = [
     ("image.h", "koksma_image", Image), ("image.h", "koksma_image_error", ImageError),
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
+    ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),
+    ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("study.h", "koksma_study_options", StudyOptions),
+    ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
+    ("study.h", "koksma_study_row", StudyRow),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),

@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures over many sets of a pattern, and against the number of points."""
+from __future__ import annotations
+
+import math
+from ctypes import byref, c_double, c_size_t
+from dataclasses import dataclass
+from typing import Optional, Sequence, SupportsIndex
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _structs as s
+from ._library import ArgumentError, call, core, spec, whole
+from ._points import as_points, canonical, generate, is_sequence, value_of, view
+
+
+@dataclass(frozen=True, eq=False)
+class Trials:
+    """The values of a measure over sets with seeds seed, seed + 1, ...
+
+    Attributes
+    ----------
+    pattern, measure : str
+    n, dim, seed : int
+    values : ndarray of shape (trials,)
+    exact : int
+        How many of them are exact; the others are bounds of a search that was cut short.
+    """
+
+    pattern: str
+    measure: str
+    n: int
+    dim: int
+    seed: int
+    values: npt.NDArray[np.float64]
+    exact: int
+
+    @property
+    def mean(self) -> float:
+        return float(self.values.mean())
+
+    @property
+    def sd(self) -> float:
+        """Standard deviation of a set's value; NaN for one set."""
+        return float(self.values.std(ddof=1)) if len(self.values) > 1 else math.nan
+
+    @property
+    def standard_error(self) -> float:
+        """Of the mean; NaN for one set."""
+        return self.sd / math.sqrt(len(self.values))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % confidence interval of the mean, by Student's t."""
+        half = core().koksma_student_975(len(self.values) - 1) * self.standard_error
+        return self.mean - half, self.mean + half
+
+    def __float__(self) -> float:
+        return self.mean
+
+    def __repr__(self) -> str:
+        return (f"Trials({self.pattern!r}, n={self.n}, {self.measure!r}: {self.mean:.6g} +- {self.standard_error:.2g}, "
+                f"{len(self.values)} sets)")
+
+
+@dataclass(frozen=True, eq=False)
+class Convergence:
+    """A measure against the number of points, and the slope of its mean on logarithmic axes.
+
+    Attributes
+    ----------
+    pattern, measure : str
+    dim : int
+    sizes : ndarray of shape (k,)
+    values : ndarray of shape (trials, k)
+    slope, slope_error : float
+        By least squares. The error comes from the trials (their values vary together when they are prefixes of one
+        sequence); with one trial it is that of the residuals. NaN with fewer than three sizes.
+    proven, best : float
+        The exponents that are proven for the pattern, and the best that any points can have; NaN if unknown.
+    """
+
+    pattern: str
+    measure: str
+    dim: int
+    sizes: npt.NDArray[np.int64]
+    values: npt.NDArray[np.float64]
+    slope: float
+    slope_error: float
+    proven: float
+    best: float
+
+    @property
+    def mean(self) -> npt.NDArray[np.float64]:
+        return self.values.mean(axis=0)
+
+    @property
+    def standard_error(self) -> npt.NDArray[np.float64]:
+        """Of each mean; NaN with one trial."""
+        t = len(self.values)
+        return self.values.std(axis=0, ddof=1) / math.sqrt(t) if t > 1 else np.full(len(self.sizes), math.nan)
+
+    def __repr__(self) -> str:
+        return (f"Convergence({self.pattern!r}, {self.measure!r}, n={self.sizes[0]}..{self.sizes[-1]}: "
+                f"slope {self.slope:.3f} +- {self.slope_error:.2g})")
+
+
+def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,
+           seed: SupportsIndex = 0, threads: SupportsIndex = 0) -> Trials:
+    """Measures many sets of a pattern.
+
+    Parameters
+    ----------
+    pattern, measure : str
+        Specs, such as "poisson-disk:d=0.2" and "disk:r=0.1".
+    n, dim : int
+        Points of each set, and their dimensions.
+    trials, seed : int
+        Sets with the seeds seed .. seed + trials - 1.
+    threads : int
+        0: one for each processor. The values do not depend on it.
+
+    Returns
+    -------
+    Trials
+
+    Raises
+    ------
+    ArgumentError
+        A spec is wrong, or the pattern has no such set.
+
+    Notes
+    -----
+    The same values as `koksma measure pattern:SPEC@N --trials T` averages.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.trials("jittered", 64, "l2-star", trials=100)
+    Trials('jittered', n=64, 'l2-star': 0.0177216 +- 0.00015, 100 sets)
+    """
+    count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
+    found = [value_of(generate(pattern, n, dim, seed + t, threads=threads), measure, threads=threads) for t in range(count)]
+    return Trials(canonical(pattern), canonical_measure(measure), whole("n", n, 1, s.MAX_COORDINATES),
+                  whole("dim", dim, 1, s.MAX_DIM), seed, np.array([v.value for v in found]), sum(v.exact for v in found))
+
+
+def canonical_measure(measure: str) -> str:
+    """The canonical text of a measure's spec."""
+    return canonical(measure, "measure")
+
+
+def convergence(pattern: str, measure: str = "star", sizes: Optional[Sequence[SupportsIndex]] = None, *,
+                dim: SupportsIndex = 2, trials: SupportsIndex = 1, seed: SupportsIndex = 0,
+                prefixes: Optional[bool] = None, threads: SupportsIndex = 0) -> Convergence:
+    """A measure against the number of points, with the slope of its mean.
+
+    Parameters
+    ----------
+    pattern, measure : str
+        Specs.
+    sizes : sequence of int, optional
+        Numbers of points; by default 16, 64, 256 and 1024.
+    dim, trials, seed : int
+        As for `trials`.
+    prefixes : bool, optional
+        True: the first points of one set, which the pattern must be a sequence for. False: a set of each size. By default
+        True for sequences.
+    threads : int
+        0: one for each processor.
+
+    Returns
+    -------
+    Convergence
+
+    Raises
+    ------
+    ArgumentError
+        Prefixes of a pattern that is no sequence, no size, or what `generate` and `measure` refuse.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> koksma.convergence("sobol", "l2-star", [16, 64, 256])
+    Convergence('sobol', 'l2-star', n=16..256: slope -0.963 +- 0.0098)
+    """
+    numbers = [whole("a size", k, 1, s.MAX_COORDINATES) for k in (sizes if sizes is not None else (16, 64, 256, 1024))]
+    count, seed = whole("trials", trials, 1, 1 << 24), whole("seed", seed, 0, s.MAX_SEED)
+    if not numbers:
+        raise ArgumentError("sizes: it takes at least one number of points")
+    if prefixes and not is_sequence(pattern):
+        raise ArgumentError(f"{pattern} is no sequence: its first points are a part of the set; prefixes=False measures a set "
+                            "of each size")
+    nested = is_sequence(pattern) if prefixes is None else prefixes
+    measured, values = spec("measure", measure), np.empty((count, len(numbers)))
+    for t in range(count):
+        if not nested:
+            values[t] = [value_of(generate(pattern, k, dim, seed + t, threads=threads), measure, threads=threads).value
+                         for k in numbers]
+            continue
+        points = as_points(generate(pattern, max(numbers), dim, seed + t, threads=threads))
+        raw, c_points = (s.Value * len(numbers))(), view(points)
+        call(core().koksma_evaluate_prefixes, byref(measured), byref(c_points), (c_size_t * len(numbers))(*numbers),
+             len(numbers), raw, threads=threads, run_at=4)
+        values[t] = [v.value for v in raw]
+    slope, error = _slope(np.array(numbers, dtype=float), values)
+    parsed = spec("pattern", pattern)
+    return Convergence(canonical(pattern), canonical_measure(measure), whole("dim", dim, 1, s.MAX_DIM), np.array(numbers),
+                       values, slope, error, -core().koksma_rate(byref(parsed), measured.measure, whole("dim", dim, 1, s.MAX_DIM)),
+                       -core().koksma_best_rate(measured.measure, whole("dim", dim, 1, s.MAX_DIM)))
+
+
+def _slope(sizes: npt.NDArray[np.float64], values: npt.NDArray[np.float64]) -> tuple[float, float]:
+    """Of the means; the error of several trials by the delta method, as koksma measure has it."""
+    means, line = values.mean(axis=0), s.Line()
+    as_c = lambda xs: (c_double * len(xs))(*xs)  # noqa: E731
+    if not core().koksma_log_line(len(sizes), as_c(sizes), as_c(means), byref(line)):
+        return math.nan, math.nan
+    if len(values) < 2:
+        return line.slope, line.slope_error
+    used = (means > 0) & np.isfinite(means)
+    x = np.log(sizes[used]) - np.log(sizes[used]).mean()
+    influence = (values[:, used] / means[used]) @ x / (x @ x)
+    return line.slope, float(influence.std(ddof=1) / math.sqrt(len(values)))

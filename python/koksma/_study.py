@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Studies: patterns x measures or scenes x trials, kept in a folder, and their report."""
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from ctypes import byref, c_bool, c_char_p, c_void_p
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _structs as s
+from ._library import ArgumentError, call, check, lab, text, whole
+
+Plan = Union[str, "os.PathLike[str]", Dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a run did: jobs of it are point sets and renderings; `complete` is False after a time limit."""
+
+    jobs: int
+    done_before: int
+    done_now: int
+    workers: int
+    seconds: float
+    complete: bool
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a study is estimated to cost: `seconds` on one thread, of them `reference_seconds` for references."""
+
+    jobs: int
+    references: int
+    rows: int
+    seconds: float
+    reference_seconds: float
+    bytes: float
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """A row of a published table beside our numbers. NaN: there is none. `published` is mean, sd and maximum."""
+
+    pattern: str
+    label: str
+    n: int
+    published: tuple[float, float, float]
+    mean: float
+    interval: tuple[float, float]
+    sd: float
+    max: float
+    trials: int
+    verdict: str
+
+
+class Study:
+    """A study that is open; also a context manager.
+
+    Parameters
+    ----------
+    plan : str, path, dict, or a sequence of them
+        The name of a plan that ships ("shirley1991"), a JSON file, or the plan itself; studies/README.md lists the
+        fields. Empty: the plan that the folder has.
+    folder : path, optional
+        Where results are kept; created if it does not exist. Without one only `estimate` can be called.
+    trials : int, optional
+        Replaces the plan's numbers of trials.
+    quick : bool
+        Every block's `quick` number of trials, where it has one.
+
+    Raises
+    ------
+    MalformedError
+        The plan is wrong; the text names file, line and field.
+    koksma.SystemError
+        The folder can't be written, or another run uses it.
+
+    Notes
+    -----
+    One thread at a time may use a study. Results do not depend on threads or interruptions.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> plan = {"name": "mine", "title": "Mine", "discrepancies": [{"id": "d", "patterns": ["random", "jittered"],
+    ...         "measures": ["star"], "n": [16, 64], "trials": 10}]}
+    >>> with koksma.Study(plan, "results") as study:  # doctest: +SKIP
+    ...     study.run()
+    ...     rows = study.rows()
+    ...     study.report()
+    """
+
+    def __init__(self, plan: Union[Plan, Sequence[Plan]] = (), folder: Union[str, "os.PathLike[str]", None] = None, *,
+                 trials: Optional[SupportsIndex] = None, quick: bool = False) -> None:
+        self._handle = c_void_p()
+        self.folder = None if folder is None else Path(folder)
+        plans = [plan] if isinstance(plan, (str, os.PathLike, dict)) else list(plan)
+        with tempfile.TemporaryDirectory(prefix="koksma-plan-") as room:
+            names = []
+            for i, one in enumerate(plans):
+                if isinstance(one, dict):
+                    path = Path(room) / f"plan-{i}.json"
+                    path.write_text(json.dumps(one, indent=1, allow_nan=False), encoding="utf-8")
+                    names.append(text(os.fspath(path)))
+                else:  # a path is a file, a text may be a name
+                    names.append(text(os.path.join(os.curdir, one) if isinstance(one, os.PathLike) else one))
+            options = s.StudyOptions((c_char_p * len(names))(*names), len(names),
+                                     None if folder is None else text(os.fspath(folder)),
+                                     0 if trials is None else whole("trials", trials, 1, 100000000), quick)
+            check(lab().koksma_study_open(byref(options), byref(self._handle)))
+
+    def _open(self) -> c_void_p:
+        if not self._handle:
+            raise ArgumentError("the study is closed")
+        return self._handle
+
+    def run(self, *, threads: SupportsIndex = 0, time_limit: Optional[float] = None,
+            progress: Optional[Callable[[float], object]] = None) -> Summary:
+        """Runs all jobs that are not done.
+
+        time_limit: in seconds; ends the run early, `complete` is False then. progress: called from time to time with the
+        fraction that is done. Ctrl-C keeps what is done. Raises ArgumentError if a pattern found no set for a job (all
+        other jobs are done).
+        """
+        raw = s.StudySummary()
+        call(lab().koksma_study_run, self._open(), byref(raw), threads=threads, time_limit=time_limit, run_at=1,
+             progress=progress)
+        return Summary(raw.jobs, raw.done_before, raw.done_now, raw.workers, raw.seconds, raw.complete)
+
+    def estimate(self, *, time_limit: Optional[float] = None) -> Cost:
+        """The cost of the whole study, from jobs run for `time_limit` seconds (5)."""
+        raw = s.StudyCost()
+        call(lab().koksma_study_estimate, self._open(), byref(raw), time_limit=time_limit, run_at=1)
+        return Cost(raw.jobs, raw.references, raw.rows, raw.seconds, raw.reference_seconds, raw.bytes)
+
+    def rows(self) -> npt.NDArray[np.void]:
+        """All results, sorted by key, as a structured array (pandas.DataFrame takes it); texts are Unicode. Closes the
+        study: the folder can be read by one at a time."""
+        if self.folder is None:
+            raise ArgumentError("the study has no folder")
+        self.close()
+        with tempfile.TemporaryDirectory(prefix="koksma-rows-") as room:
+            path = os.path.join(room, "rows.npy")
+            check(lab().koksma_study_export(text(os.fspath(self.folder)), 2, text(path)))
+            raw = np.load(path)
+        kinds = [(name, f"U{raw.dtype[name].itemsize}" if raw.dtype[name].kind == "S" else raw.dtype[name])
+                 for name in raw.dtype.names]
+        decoded = np.empty(raw.shape, dtype=kinds)
+        for name in raw.dtype.names:
+            decoded[name] = np.char.decode(raw[name], "utf-8") if raw.dtype[name].kind == "S" else raw[name]
+        return decoded
+
+    def report(self) -> Path:
+        """Writes report.html and report.json into the folder; returns the path of the first."""
+        call(lab().koksma_study_report, self._open(), run_at=1)
+        return Path(self.folder or "") / "report.html"
+
+    def tables(self) -> List[str]:
+        """The ids of the plan's published tables, such as "5.1"."""
+        ids: List[str] = []
+        while lab().koksma_study_table_at(self._open(), len(ids)):
+            ids.append(lab().koksma_study_table_at(self._open(), len(ids)).decode())
+        return ids
+
+    def table(self, id: str) -> List[TableRow]:
+        """A published table beside our numbers."""
+        rows: List[TableRow] = []
+        raw, found = s.StudyRow(), c_bool()
+        while True:
+            check(lab().koksma_study_table_row(self._open(), text(id), len(rows), byref(raw), byref(found)))
+            if not found.value:
+                return rows
+            rows.append(TableRow(raw.pattern.decode(), raw.label.decode(), raw.n, tuple(raw.published), raw.mean,
+                                 (raw.low, raw.high), raw.sd, raw.max, raw.trials,
+                                 lab().koksma_study_verdict_name(raw.verdict).decode()))
+
+    def close(self) -> None:
+        """Writes what is not yet on disk, and frees the study."""
+        handle, self._handle = self._handle, c_void_p()
+        if handle:
+            check(lab().koksma_study_close(handle))
+
+    def __enter__(self) -> "Study":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        try:
+            self.close()
+        except Exception:  # noqa: BLE001  nobody is there to be told
+            pass
+
+
+def plans() -> List[str]:
+    """The names of the plans that ship."""
+    names: List[str] = []
+    while lab().koksma_plan_name_at(len(names)):
+        names.append(lab().koksma_plan_name_at(len(names)).decode())
+    return names

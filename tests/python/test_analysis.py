@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Trials, convergence, pair correlation, pictures and studies of the Python package, against the program KOKSMA (in the
+environment) and against numpy; and the examples of all docstrings."""
+import csv
+import doctest
+import importlib
+import inspect
+import io
+import json
+import math
+import os
+import pathlib
+import pkgutil
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+import numpy as np
+
+import koksma
+
+PROGRAM = os.environ["KOKSMA"]
+PLAN = {"name": "small", "title": "Small", "discrepancies": [
+    {"id": "d", "patterns": ["random", "jittered", "sobol:scramble=owen"], "measures": ["star", "l2-star"], "n": [4, 16],
+     "trials": 5, "quick": 2}]}
+
+
+def rows(*arguments):
+    done = subprocess.run([PROGRAM, *arguments, "--json"], check=True, capture_output=True, text=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+class Series(unittest.TestCase):
+    def test_trials_are_the_programs(self):
+        for pattern, measure, dim in [("jittered", "l2-star", 2), ("random", "star", 3), ("sobol:scramble=owen", "disk:r=0.2", 2)]:
+            ours = koksma.trials(pattern, 64, measure, dim=dim, trials=12, seed=5)
+            (theirs,) = rows("measure", f"pattern:{pattern}@64@{dim}", "-m", measure, "--trials", "12", "-s", "5")
+            self.assertAlmostEqual(ours.mean, theirs["value"], delta=1e-14)
+            self.assertAlmostEqual(ours.sd, theirs["sd"], delta=1e-12)
+            self.assertAlmostEqual(ours.standard_error, theirs["standard_error"], delta=1e-12)
+            self.assertEqual(float(ours), ours.mean)
+            self.assertTrue(ours.interval[0] < ours.mean < ours.interval[1])
+
+    def test_interval_is_students(self):
+        values = koksma.trials("random", 8, trials=4).values
+        half = 3.182446305284263 * values.std(ddof=1) / 2  # t of 3 degrees of freedom, from tables
+        low, high = koksma.trials("random", 8, trials=4).interval
+        self.assertAlmostEqual(high - low, 2 * half, delta=1e-9)
+
+    def test_convergence_is_the_programs(self):
+        sizes = [16, 64, 256]
+        ours = koksma.convergence("sobol:scramble=owen", "l2-star", sizes, trials=6)
+        theirs = rows("measure", "--prefixes", "16,64,256", "pattern:sobol:scramble=owen@256", "-m", "l2-star", "--trials", "6")
+        np.testing.assert_allclose(ours.mean, [r["value"] for r in theirs[:3]], rtol=1e-13)
+        slope = theirs[3]
+        self.assertAlmostEqual(ours.slope, slope["value"], delta=1e-12)
+        self.assertAlmostEqual(ours.slope_error, slope["standard_error"], delta=1e-12)
+        line = np.polyfit(np.log(sizes), np.log(ours.mean), 1)[0]
+        self.assertAlmostEqual(ours.slope, line, delta=1e-12)
+
+    def test_no_sequence_has_sets_of_each_size(self):
+        ours = koksma.convergence("n-rooks", "star", [16, 64, 256], trials=3)
+        for k, n in enumerate(ours.sizes):
+            np.testing.assert_array_equal(ours.values[:, k], koksma.trials("n-rooks", int(n), trials=3).values)
+        with self.assertRaisesRegex(koksma.ArgumentError, "no sequence"):
+            koksma.convergence("n-rooks", "star", prefixes=True)
+
+    def test_rates(self):
+        self.assertEqual(koksma.convergence("random", "star", [4, 16, 64]).proven, -0.5)
+        self.assertEqual(koksma.convergence("jittered", "star", [4, 16, 64]).proven, -0.75)
+
+    def test_many_measures(self):
+        points = koksma.generate("hammersley", 32)
+        every = koksma.measure(points, ["star", "l2-star", "extreme"])
+        self.assertEqual(list(every), ["star", "l2-star", "extreme"])
+        for name, value in every.items():
+            one = koksma.measure(points, name)
+            self.assertEqual((value.value, value.witness), (one.value, one.witness))
+
+    def test_pair_correlation_by_the_definition(self):
+        points, r_max, bins = koksma.generate("n-rooks", 40, seed=3), 0.4, 10
+        gaps = np.abs(points[:, None] - points)
+        distance = np.hypot(*np.minimum(gaps, 1 - gaps).transpose(2, 0, 1))[~np.eye(40, dtype=bool)]
+        edges = np.linspace(0, r_max, bins + 1)
+        expected = np.histogram(distance, edges)[0] / (40 * 39 * np.pi * np.diff(edges**2))
+        np.testing.assert_allclose(koksma.pair_correlation(points, r_max, bins).density, expected, rtol=1e-12)
+        both = koksma.pair_correlation([points, koksma.generate("random", 40)], r_max, bins)
+        self.assertEqual(both.sets, 2)
+
+    def test_wrong(self):
+        for bad in (dict(trials=0), dict(seed=-1)):
+            with self.assertRaises(ValueError):
+                koksma.trials("random", 4, **bad)
+        with self.assertRaisesRegex(ValueError, "did you mean 'star'"):
+            koksma.trials("random", 4, "starr")
+
+
+class Pictures(unittest.TestCase):
+    def test_points(self):
+        sets = [koksma.generate(p, 16) for p in ("n-rooks", "sobol")]
+        picture = koksma.plot(*sets, witness="star", captions=["n-rooks", "sobol"])
+        root = xml.etree.ElementTree.fromstring(picture.svg)
+        self.assertTrue(root.tag.endswith("svg"))
+        self.assertIn("<svg", picture._repr_svg_())
+        self.assertEqual(picture.bytes("png")[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(picture.bytes("pdf")[:5], b"%PDF-")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.svg"
+            picture.save(path)
+            self.assertEqual(len(path.read_text().splitlines()), len(picture.svg.splitlines()))
+            with self.assertRaises(ValueError):
+                picture.save(path.with_suffix(".gif"))
+
+    def test_moved_points_are_another_picture(self):
+        points = koksma.generate("n-rooks", 16)
+        before = koksma.plot(points).svg
+        points[0] = 0.5
+        self.assertNotEqual(before, koksma.plot(points).svg)
+
+    def test_convergence(self):
+        results = [koksma.convergence(p, "star", [4, 16, 64], trials=2) for p in ("random", "sobol")]
+        self.assertIn("<svg", koksma.plot_convergence(*results).svg)
+
+    def test_wrong(self):
+        points = koksma.generate("random", 4)
+        for call in (lambda: koksma.plot(), lambda: koksma.plot(points, witness="l2-star"),
+                     lambda: koksma.plot(points, captions=["a", "b"]), lambda: koksma.plot_convergence(),
+                     lambda: koksma.plot(np.zeros((3, 1))).svg):
+            with self.assertRaises(ValueError):
+                call()
+
+
+class Studies(unittest.TestCase):
+    def test_a_plan_from_a_dict(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = []
+            with koksma.Study(PLAN, folder) as study:
+                summary = study.run(threads=1, progress=done.append)
+                self.assertTrue(summary.complete)
+                self.assertEqual(summary.done_now, summary.jobs)
+                self.assertTrue(study.report().exists())
+                results = study.rows()
+            self.assertTrue(all(0 <= f <= 1 for f in done))
+            text = subprocess.run([PROGRAM, "study", "export", folder], check=True, capture_output=True, text=True).stdout
+            theirs = list(csv.DictReader(io.StringIO(text)))
+            self.assertEqual(len(results), len(theirs))
+            self.assertEqual(len(results), 3 * 2 * 2 * 5)
+            for mine, row in zip(results, theirs):
+                self.assertEqual((mine["pattern"], mine["what"], int(mine["n"])), (row["pattern"], row["what"], int(row["n"])))
+                self.assertEqual(float(mine["value"]), float(row["value"]))
+            with koksma.Study(PLAN, folder) as again:
+                self.assertEqual(again.run().done_now, 0)
+
+    def test_the_rows_are_values_of_points(self):
+        with tempfile.TemporaryDirectory() as folder, koksma.Study(PLAN, folder, quick=True) as study:
+            study.run()
+            for row in study.rows():
+                points = koksma.generate(row["pattern"], int(row["n"]), seed=int(row["seed"]))
+                self.assertEqual(koksma.measure(points, str(row["what"])).value, row["value"])
+
+    def test_an_error_of_progress_comes_out(self):
+        class Enough(Exception):
+            pass
+
+        def stop(_fraction):
+            raise Enough
+
+        with tempfile.TemporaryDirectory() as folder, koksma.Study(PLAN, folder) as study:
+            try:
+                study.run(progress=stop)
+            except Enough:
+                pass
+            else:
+                self.skipTest("it was done before it asked")
+
+    def test_tables(self):
+        with tempfile.TemporaryDirectory() as folder, koksma.Study("shirley1991", folder, trials=2) as study:
+            self.assertIn("5.1", study.tables())
+            table = study.table("5.1")
+            self.assertTrue(all(row.verdict in ("waiting", "new") and math.isnan(row.mean) for row in table))
+            self.assertEqual(table[0].published[0], float(table[0].published[0]))
+            with self.assertRaises(ValueError):
+                study.table("no such")
+
+    def test_wrong(self):
+        for plan in ({"name": "x"}, "nosuch", {**PLAN, "colour": 1}):
+            with self.assertRaises(koksma.Error):
+                koksma.Study(plan)
+        study = koksma.Study(PLAN)
+        self.assertGreater(study.estimate(time_limit=0.1).jobs, 0)
+        study.close()
+        study.close()
+        with self.assertRaisesRegex(koksma.ArgumentError, "closed"):
+            study.run()
+        self.assertIn("shirley1991", koksma.plans())
+
+
+class Docstrings(unittest.TestCase):
+    def test_examples(self):
+        tried = 0
+        for module in pkgutil.iter_modules(koksma.__path__):
+            if module.name != "_program":
+                result = doctest.testmod(importlib.import_module(f"koksma.{module.name}"))
+                self.assertEqual(result.failed, 0, module.name)
+                tried += result.attempted
+        self.assertGreater(tried, 8)
+
+    def test_every_name_has_one(self):
+        for name in koksma.__all__:
+            thing = getattr(koksma, name)
+            if inspect.isclass(thing) or inspect.isfunction(thing):
+                self.assertTrue(inspect.getdoc(thing), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
