@@ -15,16 +15,9 @@
 
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 
-typedef enum koksma__shape_kind {
-    KOKSMA__SHAPE_PLANE,     /* endless */
-    KOKSMA__SHAPE_RECTANGLE, /* |u| <= half[0], |v| <= half[1] */
-    KOKSMA__SHAPE_DISK,      /* u^2 + v^2 <= half[0]^2 */
-    KOKSMA__SHAPE_SPHERE
-} koksma__shape_kind;
-
-/* A place on a flat shape is centre + u axis_u + v axis_v; the axes and the normal are an orthonormal frame. */
+/* A position on a flat shape is centre + u axis_u + v axis_v; the axes and the normal are an orthonormal frame. */
 typedef struct koksma__shape {
-    koksma__shape_kind kind;
+    const struct koksma__shape_type *type;
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2];   /* half sides; of a disk and a sphere half[0] is the radius; of a plane infinite */
     double motion[3]; /* of a sphere: at time t its centre is at centre + t motion */
@@ -110,9 +103,8 @@ struct koksma_scene {
 /* The number of a material; -1 if there is none of that name. */
 int koksma__find_material(const koksma_scene *scene, const char *name);
 
-/* One more shape, zeroed but for light = -1; it moves when the next one is added. Errors: MALFORMED (too many),
-   MEMORY. */
-koksma_status koksma__scene_add_shape(koksma_scene *scene, koksma__shape **out);
+/* One more shape, a copy of *from; it moves when the next one is added. Errors: MALFORMED (too many), MEMORY. */
+koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *from, koksma__shape **out);
 
 /* One more light, zeroed. Errors: MALFORMED (too many). */
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);

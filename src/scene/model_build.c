@@ -15,6 +15,7 @@
 #include "meshes/mesh_read.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
+#include "render/placements.h"
 #include "scene/model.h"
 #include "scene/parse.h"
 

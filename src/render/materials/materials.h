@@ -5,7 +5,7 @@
  * are of length 1 and lead away from the surface; n.out > 0. A material's lobes are told apart, because integrators
  * follow some and not others.
  *
- * tests/unit/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
+ * tests/render/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
  * integrate to what sampling returns, no energy is gained, reciprocity holds where it is claimed.
  */
 #ifndef KOKSMA_RENDER_MATERIALS_MATERIALS_H

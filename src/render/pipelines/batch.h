@@ -64,10 +64,10 @@ typedef struct koksma__batch_camera {
     float eye[3], base[3], step_x[3], step_y[3];
 } koksma__batch_camera;
 
-/* n . p = offset on the plane; half as in koksma__shape, squared radius for a disk. */
+/* half as in koksma__shape; radius2: of a sphere about the centre that holds a shape that isn't flat. */
 typedef struct koksma__batch_shape {
-    int kind; /* koksma__shape_kind */
-    bool moves;
+    int kind; /* index in koksma__shape_types */
+    bool is_flat, moves;
     int32_t id, material;
     float centre[3], motion[3], normal[3], axis_u[3], axis_v[3];
     float half_u, half_v, radius2, inverse_radius;
