@@ -29,6 +29,11 @@ typedef struct koksma_study koksma_study;
 /* Returns the name of plan i of those in the library; NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* Sets *out to kind i of the questions that a plan may ask, or to section i of the report; returns false past the end.
+   The title is the heading in the report. */
+KOKSMA_API bool koksma_question_at(size_t i, koksma_entry *out);
+KOKSMA_API bool koksma_report_section_at(size_t i, koksma_entry *out);
+
 /* Returns the path of the module that links MPI; NULL: this build has none. */
 KOKSMA_API const char *koksma_study_mpi(void);
 

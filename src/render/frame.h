@@ -53,7 +53,7 @@ typedef struct koksma__values {
 } koksma__values;
 
 typedef struct koksma__pipeline {
-    const char *name;
+    const char *name, *title;
     int preference; /* among those that take a picture */
     /* Whether it can render this picture. */
     bool (*takes)(const koksma__frame *frame);

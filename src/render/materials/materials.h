@@ -72,6 +72,10 @@ typedef struct koksma__bsdf {
 extern const koksma__bsdf *const koksma__bsdfs[];
 extern const koksma__kind *const koksma__material_kinds[];
 
+/* The fields of scene files that a kind has beside its parameters: those of all materials, and of the diffuse part.
+   Ends at NULL. */
+const char *const *koksma__material_keys(const koksma__bsdf *bsdf);
+
 /* The values of the parameter of this name, which the material's kind has. */
 double *koksma__material_value(koksma__material *material, const char *name);
 

@@ -219,11 +219,13 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
     return status;
 }
 
-const koksma__pipeline koksma__pipeline_lambert_lanes = {.name = "lambert-lanes",
-                                                         .preference = 1,
-                                                         .takes = takes,
-                                                         .culls = true,
-                                                         .open = open_scratch,
-                                                         .close = close_scratch,
-                                                         .is_empty = is_empty,
-                                                         .trace = trace};
+const koksma__pipeline koksma__pipeline_lambert_lanes = {
+    .name = "lambert-lanes",
+    .title = "grey Lambert surfaces under rectangles that no ray sees, in lanes",
+    .preference = 1,
+    .takes = takes,
+    .culls = true,
+    .open = open_scratch,
+    .close = close_scratch,
+    .is_empty = is_empty,
+    .trace = trace};

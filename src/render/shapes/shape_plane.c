@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* plane: n.(p - c) = 0, endless. */
+/* plane: n.(p - c) = 0, infinite. */
 #include "render/shapes/flat_loops.h"
 
 static int within(const koksma__batch_shape *s, float u, float v)
@@ -28,7 +28,7 @@ static const koksma__parameter parameters[] = {KOKSMA__SHAPE_CENTRE, KOKSMA__SHA
 
 const koksma__shape_type KOKSMA__SHAPE(plane) = {
     .kind = {.name = "plane",
-             .title = "an endless plane",
+             .title = "an infinite plane",
              .cite = "-",
              .parameters = parameters,
              .keys = KOKSMA__FLAT_SHAPE_KEYS},
