@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma render`: renders a scene into an image file and prints one row: options, rays and time. Before it starts
+ * it compares the memory that the picture takes with the machine's, and refuses what is larger. An interrupted
+ * picture is written with the pixels that were done.
+ */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>

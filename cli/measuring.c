@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Values of measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
+ * size, differences from the first source with equal seeds (--paired), and slopes. A trial is one set, whose first
+ * points are measured for --prefixes, or one set of each size for --sizes. What an interruption leaves is printed,
+ * too.
+ */
 #include "measuring.h"
 
 #include <math.h>
