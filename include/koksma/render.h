@@ -135,7 +135,7 @@ enum { KOKSMA_MAX_USE_GROUPS = KOKSMA_N_USES / 2, KOKSMA_MAX_PATTERNS_TEXT = KOK
 typedef struct koksma_integrator {
     const char *name, *title, *cite;
     int depth;         /* the most bounces, unless the options set another number */
-    const void *rules; /* for the renderer */
+    const void *flags; /* for the renderer */
 } koksma_integrator;
 
 /* Returns integrator i of the table, or the one with this name; NULL if there is none. */

@@ -38,10 +38,10 @@ typedef struct koksma__material {
     double period, phase[2], angle_rad;
     double values[KOKSMA__MAX_VALUES]; /* of the kind's parameters, where its file puts them */
     koksma_image *image;               /* the albedo over a surface's coordinates, in place of albedo; or NULL */
-    /* of a model file's material; "": it isn't so */
+    /* warnings about a model file's material; "": none */
     char lost[256];   /* why its texture is left out */
-    char dark[256];   /* why it doesn't glow */
-    char evened[256]; /* the texture over which its glow varies, and of which the mean is taken */
+    char dark[256];   /* why its emission is left out */
+    char evened[256]; /* the emissive texture whose mean the light has */
 } koksma__material;
 
 /* A flat light shines from the side that its normal points to. What a surface of albedo a reflects of a rectangle

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which shapes a part of the film can see. A ray from the eye o through film place (x, y) goes along
+ * Which shapes a part of the film can see. A ray from the eye o through film position (x, y) goes along
  * d = base + x step_x + y step_y, so
  *
  *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
  *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
  *                -u and v. N and these are linear in (x, y): a rectangle of the film sees nothing where N <= 0 in all
  *                of it, or one of the four is > 0 in all of it.
- *   others:      the line through the eye misses the sphere around the shape if and only if |e x d|^2 - r^2 d.d > 0, a quadratic form in (x,
- * y), bounded from below by its value, slopes and curvatures at the middle.
+ *   others:      the line through the eye misses the sphere around the shape if and only if
+ *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
+ *                curvatures at the middle.
  *
  * Bounds are in double precision, but batch_shapes.c finds hits in floats. Shapes are widened by more than its
- * rounding: a place at distance R from the eye is off by some 10 units in the last place of R across the ray, and on
- * a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d amounts
- * to.
+ * rounding: a position at distance R from the eye is off by some 10 units in the last place of R across the ray, and
+ * on a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d
+ * amounts to.
  */
 #include "render/frustum_cull.h"
 

@@ -14,7 +14,7 @@
 #define KOKSMA__FLAT_KEYS ((const char *const[]){"normal", "facing", "up", "radiance", "strength", NULL})
 #define KOKSMA__FLAT_EXAMPLE "\"facing\": [0.1, -0.2, 0.3], \"radiance\": [3, 2, 1]"
 
-/* Reads those, and adds the surface of a visible light. */
+/* Reads the fields KOKSMA__FLAT_KEYS, and adds the surface of a visible light to the scene. */
 koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
                                        const koksma__shape_type *shape);
 

@@ -26,7 +26,7 @@ static koksma_status parse_scale(const field *f, double scale[3])
     return status;
 }
 
-static koksma_status parse_place(const field *f, const koksma__mesh *mesh, koksma__placement *p)
+static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, koksma__placement *p)
 {
     double translate[3] = {0}, rotate_deg[3] = {0}, scale[3] = {1, 1, 1};
     koksma_status status = koksma__json_get_numbers(f, "translate", false, -FAR, FAR, 3, translate);
@@ -60,7 +60,7 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
 
-static koksma_status place(const field *f, koksma_scene *scene, int mesh, int material)
+static koksma_status add_placement(const field *f, koksma_scene *scene, int mesh, int material)
 {
     koksma__placement *p = NULL;
     koksma_status status = koksma__scene_add_placement(scene, &p);
@@ -69,7 +69,7 @@ static koksma_status place(const field *f, koksma_scene *scene, int mesh, int ma
     }
     p->mesh = mesh;
     p->material = material;
-    status = parse_place(f, &scene->meshes[mesh], p);
+    status = parse_placement(f, &scene->meshes[mesh], p);
     status = status ? status : koksma__json_get_flag(f, "smooth", false, &p->smooth);
     if (!status && material < 0) {
         status = parse_emission(f, scene, p);
@@ -120,7 +120,7 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
         return status;
     }
     scene->hash ^= koksma__mesh_hash(mesh) + scene->n_meshes;
-    return place(f, scene, (int)scene->n_meshes - 1, shape->material);
+    return add_placement(f, scene, (int)scene->n_meshes - 1, shape->material);
 }
 
 static koksma_status parse_instance(const char *scene_name, const field *f, koksma_scene *scene, koksma__shape *shape)
@@ -133,13 +133,16 @@ static koksma_status parse_instance(const char *scene_name, const field *f, koks
     }
     const int mesh = find_mesh(scene, of);
     return mesh < 0 ? koksma__json_fail(f, "no mesh named '%s' before it", of)
-                    : place(f, scene, mesh, shape->material);
+                    : add_placement(f, scene, mesh, shape->material);
 }
 
-#define PLACE "emission", "translate", "rotate_deg", "scale", "motion", "smooth"
+#define PLACEMENT "emission", "translate", "rotate_deg", "scale", "motion", "smooth"
 
 const koksma__shape_type koksma__shape_mesh = {
-    .kind = {.name = "mesh", .title = "the triangles of a file", .cite = "-", .keys = KEYS("file", "name", PLACE)},
+    .kind = {.name = "mesh",
+             .title = "the triangles of a file",
+             .cite = "-",
+             .keys = KEYS("file", "name", PLACEMENT)},
     .takes_checker = true,
     .takes_image = true,
     .may_emit = true,
@@ -147,7 +150,10 @@ const koksma__shape_type koksma__shape_mesh = {
 };
 
 const koksma__shape_type koksma__shape_instance = {
-    .kind = {.name = "instance", .title = "the mesh of that name once more", .cite = "-", .keys = KEYS("of", PLACE)},
+    .kind = {.name = "instance",
+             .title = "the mesh of that name once more",
+             .cite = "-",
+             .keys = KEYS("of", PLACEMENT)},
     .takes_checker = true,
     .takes_image = true,
     .may_emit = true,
