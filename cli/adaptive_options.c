@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Options of adaptive sampling for `koksma render` (adaptive_options.h): reads them, and refuses those that the
+ * method has no use for; prints the method's numbers in the row of results; writes --counts, an image of the
+ * samples of each pixel (divided by the largest for PNG, where 1 is white), and --strata, a drawing of one pixel's
+ * strata.
+ */
 #include "adaptive_options.h"
 
 #include <stdio.h>

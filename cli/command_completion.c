@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scripts for shells, from the tables that parse the command line. What an argument is, is told by the word that the
-   table has for it: its choices, or a noun that is in `nouns` below; other nouns are the user's own numbers. Names of
-   patterns, measures and scenes are asked of the program while the user types. */
+/* Completion scripts for bash, zsh and fish, from the tables that parse the command line. The table's word for an
+   argument says what to offer: alternatives with | between, or a noun of `nouns` below; other nouns are numbers, for
+   which nothing is offered. The scripts ask the program for names of patterns, measures and scenes while the user
+   types. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -82,8 +83,8 @@ static void add_noun(answer *a, const char *call, const char *text, size_t lengt
 
 static const char lower[] = "abcdefghijklmnopqrstuvwxyz0123456789-", upper[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/* Adds what text, up to its first blank, stands for: alternatives with | between, each a word or with nouns in it.
-   call: of the script's function that prints a table's names. */
+/* Adds what a shell may offer for the first word of text: alternatives with | between, each a word itself or a noun.
+   call: how the script calls its function that prints the names of a table. */
 static void add_answer(answer *a, const char *call, const char *text)
 {
     const char *end = text + strcspn(text, " \n");

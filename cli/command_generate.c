@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma generate`: makes one point set of a pattern, maps it by --warp, and writes it to a file or to standard
+ * output. The comment in the file has the pattern, the seed and the warp, and of sets whose neighbours are far
+ * apart the smallest distance.
+ */
 #include <koksma/verify.h>
 
 #include <stdio.h>

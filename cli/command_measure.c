@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma measure`: values of measures for files and patterns. One set of each source gives rows with exact values,
+ * bounds or witnesses, whichever the measure has; --trials, --prefixes, --sizes and --paired go to measuring.c,
+ * which collects means, standard errors and slopes. A search that --time-limit cuts short gives bounds, with a
+ * warning.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

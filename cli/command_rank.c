@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma rank`: ranks patterns by the error that they leave in a scene, once for each number of samples. The work
+ * is koksma_rank_patterns's; here are the lists of patterns, the share of the time limit that each ranking gets,
+ * the rows, and the exit code (1: the best pattern is undecided). The advice is rank_advice.c.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

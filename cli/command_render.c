@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma render`: renders a scene into an image file and prints one row: options, rays and time. Before it starts
+ * it compares the memory that the picture takes with the machine's, and refuses what is larger. An interrupted
+ * picture is written with the pixels that were done.
+ */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -93,8 +98,8 @@ static double in_gib(uint64_t bytes)
     return (double)bytes / (1024.0 * 1024 * 1024);
 }
 
-/* Says what a large picture takes; false: more than the machine has, whose swapping would take longer than the
-   picture. */
+/* Prints how much memory a large picture takes; false: more than the machine has, so that swapping would take longer
+   than rendering. */
 static bool announce_size(const cli_arguments *arguments, const koksma_scene *scene,
                           const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma reproduce`: runs the plans that reproduce papers, writes the report, and prints a table beside the
+ * published numbers. It is `koksma study run` with these tables; both papers together bring the plan
+ * open-questions. Under mpirun only rank 0 has a folder and prints.
+ */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma scene check`: reads a scene file, warns about what can be rendered but looks like a mistake, and prints
+ * what the scene contains.
+ */
 #include <string.h>
 
 #include "cli.h"

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma study`: new writes an example of a plan; run measures and renders what plans list, into a folder, and
+ * goes on where an earlier run ended; estimate says what it will cost; export and report print the results again;
+ * images compares sets of images. One function for each verb, and one table of which options each takes.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

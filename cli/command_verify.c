@@ -66,7 +66,7 @@ static const char *misspelt(const char *list, char *name, size_t size)
     return NULL;
 }
 
-/* Whether a property of the list fails, or was not looked at, which is told. */
+/* Whether a property of the list fails or was not tested; the latter is reported on stderr. */
 static bool disappoints(const char *list, const char *source, const koksma_points *points,
                         const koksma_findings *findings)
 {
@@ -82,7 +82,8 @@ static bool disappoints(const char *list, const char *source, const koksma_point
             }
         }
         if (!seen) {
-            fprintf(stderr, "koksma verify: %s: %s was not looked at: it isn't for %zu points in %d dimensions\n",
+            fprintf(stderr,
+                    "koksma verify: %s: %s was not tested: it does not apply to %zu points in %d dimensions\n",
                     source, name, points->n, points->dim);
             return true;
         }

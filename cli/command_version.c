@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma version`: the version, the instruction set of the inner loops, and which optional libraries this build
+ * has, as text or JSON.
+ */
 #include <stdio.h>
 
 #include <koksma/image.h>

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Values of measures over many sets or several sizes, for `koksma measure`: running statistics for each measure and
+ * size, differences from the first source with equal seeds (--paired), and slopes. A trial is one set, whose first
+ * points are measured for --prefixes, or one set of each size for --sizes. What an interruption leaves is printed,
+ * too.
+ */
 #include "measuring.h"
 
 #include <math.h>
@@ -11,12 +17,12 @@
 bool measuring_open(measuring *j)
 {
     j->tallies = calloc(2 * MAX_PREFIXES * (j->n_measures + 1), sizeof *j->tallies);
-    const size_t room = MAX_PREFIXES * (j->n_measures + 1);
-    j->n_exact = calloc(2 * room, sizeof *j->n_exact);
+    const size_t count = MAX_PREFIXES * (j->n_measures + 1);
+    j->n_exact = calloc(2 * count, sizeof *j->n_exact);
     j->n_cut = calloc(2 * (j->n_measures + 1), sizeof *j->n_cut);
     j->joints = calloc(j->n_measures + 1, sizeof *j->joints);
-    j->differences = j->tallies ? j->tallies + room : NULL;
-    j->n_exact_pairs = j->n_exact ? j->n_exact + room : NULL;
+    j->differences = j->tallies ? j->tallies + count : NULL;
+    j->n_exact_pairs = j->n_exact ? j->n_exact + count : NULL;
     j->n_whole = j->n_cut ? j->n_cut + j->n_measures + 1 : NULL;
     return j->tallies && j->n_exact && j->n_cut && j->joints;
 }
@@ -119,7 +125,7 @@ bool measuring_check_prefixes(const measuring *j)
     return true;
 }
 
-/* Of estimates none is exact, and none is a bound. */
+/* Measures that sample give estimates, which are neither exact nor bounds: NaN. */
 static double n_exact_of(const measuring *j, size_t measure, size_t count)
 {
     return j->measures[measure].measure->answer == KOKSMA_ANSWER_SAMPLED ? (double)NAN : (double)count;
@@ -199,7 +205,7 @@ static int choose_prefixes(measuring *j, size_t n)
     return CLI_YES;
 }
 
-/* Room for the first source's values, once it is known how many there are; the exit code after an error. */
+/* Allocates the arrays for the first source's values when their number is known; returns the exit code. */
 static int open_firsts(measuring *j, const char *source)
 {
     const size_t count = j->n_prefixes * j->n_measures;

@@ -1,4 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Options that render, rank and scene check share: pairing, scope, lights, depth, integrator, filter and the
+ * patterns of uses, read into koksma_render_options; and the warnings about a scene or about patterns that have no
+ * effect in it.
+ */
 #include "render_options.h"
 
 #include <stdio.h>

@@ -16,7 +16,7 @@ typedef struct cell {
 struct cli_rows {
     bool json, started, failed;
     cell *cells; /* of all rows; a row ends at a cell with a NULL key */
-    size_t n, room;
+    size_t n, capacity;
 };
 
 static cli_rows no_rows = {.failed = true}; /* takes rows and keeps none */
@@ -35,15 +35,15 @@ static void push(cli_rows *rows, const char *key, const char *text, bool is_numb
     if (rows->failed) {
         return;
     }
-    if (rows->n == rows->room) {
-        const size_t room = rows->room ? 2 * rows->room : 64;
-        cell *cells = realloc(rows->cells, room * sizeof *cells);
+    if (rows->n == rows->capacity) {
+        const size_t capacity = rows->capacity ? 2 * rows->capacity : 64;
+        cell *cells = realloc(rows->cells, capacity * sizeof *cells);
         if (!cells) {
             rows->failed = true;
             return;
         }
         rows->cells = cells;
-        rows->room = room;
+        rows->capacity = capacity;
     }
     cell *c = &rows->cells[rows->n++];
     *c = (cell){key ? strdup(key) : NULL, text ? strdup(text) : NULL, is_number};

@@ -130,6 +130,23 @@ static void put_head(const char *name, const char *title, const char *cite, int 
     put(",\"cite\":\"%s\",\"min_dim\":%d,\"max_dim\":%d,", cite, min_dim, max_dim);
 }
 
+/* Names and meanings. */
+static void put_claims(unsigned claims)
+{
+    bool any = false;
+    put("\"claims\":[");
+#define KOKSMA_CLAIM(id, bit, name, meaning)                                                                         \
+    if (claims & KOKSMA_CLAIM_##id) {                                                                                \
+        put("%s[\"%s\",", any ? "," : "", name);                                                                     \
+        put_text(meaning);                                                                                           \
+        put("]");                                                                                                    \
+        any = true;                                                                                                  \
+    }
+#include <koksma/claims.def>
+#undef KOKSMA_CLAIM
+    put("],");
+}
+
 const char *explorer_tables(void)
 {
     put("{\"version\":\"%s\",\"max_spec\":%d,\"patterns\":[", koksma_version(), KOKSMA_MAX_SPEC);
@@ -137,7 +154,8 @@ const char *explorer_tables(void)
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         put(i ? "," : "");
         put_head(p->name, p->title, p->cite, p->min_dim, p->max_dim);
-        put("\"claims\":%u,\"takes_path\":%s,\"alias_of\":\"%s\",", p->claims, p->takes_path ? "true" : "false",
+        put_claims(p->claims);
+        put("\"takes_path\":%s,\"alias_of\":\"%s\",", p->takes_path ? "true" : "false",
             p->alias_of ? p->alias_of : "");
         put_params(p->params);
         put("}");

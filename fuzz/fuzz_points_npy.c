@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Fuzzes the reader of points in NPY files: any bytes give points or an error. */
 #include "points.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

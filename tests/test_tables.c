@@ -18,6 +18,7 @@
 #include "render/materials/materials.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/sampler.h"
+#include "render/shapes/shapes.h"
 #include "warps/warps.h"
 
 /* ---- Tables that are lists ---------------------------------------------------------------------------------- */
@@ -38,7 +39,7 @@ static void expect_name(const char *file, const char *name, const void *member, 
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    size_t n[8] = {0};
+    size_t n[9] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
                 koksma_pattern_find(koksma__pattern_##line.name));                                                   \
@@ -66,6 +67,14 @@ static void names_are_those_of_files(void **state)
     expect_name(#line, koksma__light_##line.kind.name, &koksma__light_##line, koksma__light_types[n[7]]);            \
     n[7]++;
 #include "render/lights/lights.def"
+#define SHAPE(line)                                                                                                  \
+    expect_name(#line, KOKSMA__SHAPE(line).kind.name, &KOKSMA__SHAPE(line), koksma__shape_types[n[8]]);              \
+    n[8]++;
+#define COMPOUND(line)                                                                                               \
+    expect_name(#line, koksma__shape_##line.kind.name, &koksma__shape_##line, koksma__shape_types[n[8]]);            \
+    n[8]++;
+#define COMPOUND_OF(line, file) COMPOUND(line)
+#include "render/shapes/shapes.def"
 #define ADAPTIVE(line)                                                                                               \
     expect_name(#line, koksma__adaptive_##line.name, &koksma__adaptive_##line,                                       \
                 koksma_adaptive_find(koksma__adaptive_##line.name));                                                 \
@@ -81,9 +90,10 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma_filter_at(n[3]));
     assert_null(koksma__bsdfs[n[4]]);
     assert_null(koksma__light_types[n[7]]);
+    assert_null(koksma__shape_types[n[8]]);
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 9; i++) {
         assert_true(n[i] > 1);
     }
 }

@@ -153,7 +153,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
         const double rate = source.is_pattern ? koksma_rate(&source.spec, measure->measure, dim) : (double)NAN;
         const bool known = isfinite(rate);
         push_slopes(s, &line, known ? rate : koksma_best_rate(measure->measure, dim),
-                    known ? "theory, without logarithms" : "no points are faster, logarithms aside");
+                    known ? "theory, without logarithms" : "fastest possible, without logarithms");
     }
     return CLI_YES;
 }

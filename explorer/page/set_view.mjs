@@ -2,7 +2,7 @@
 // One set on the page: its controls, its picture, what is known about its pattern, and what can be taken away.
 import { element } from "./dom.mjs";
 import { Plane } from "./plane.mjs";
-import { claimsOf, paramControls, parseSpec } from "./specs.mjs";
+import { paramControls, parseSpec } from "./specs.mjs";
 import { limits, parseSeed } from "./state.mjs";
 
 const field = (label, id, input, ...more) => element("div", { class: "field" }, element("label", { for: id }, label), input, ...more);
@@ -148,7 +148,7 @@ export class SetView {
     this.about.append(
       element("p", {}, `${member.title[0].toUpperCase()}${member.title.slice(1)}. Dimensions ${member.min_dim} to ${member.max_dim}.`),
       element("ul", { class: "claims", "aria-label": "What the pattern claims" },
-        ...claimsOf(member).map(([word, text]) => element("li", {}, element("b", {}, word), " ", text))),
+        ...member.claims.map(([word, text]) => element("li", {}, element("b", {}, word), " ", text))),
       ...(member.params.length ? [element("ul", { "aria-label": "Parameters" },
         ...member.params.map(p => element("li", {}, element("b", {}, p.name), " ", p.help)))] : []),
       ...(cites.length ? [element("ul", { class: "cites", "aria-label": "Sources" },

@@ -24,8 +24,8 @@ extern "C" {
 typedef struct koksma_adaptive {
     const char *name, *title, *cite; /* cite: keys of docs/references.bib */
     const koksma_param *params;      /* up to one whose name is NULL; NULL: none */
-    bool own_samples;  /* it subdivides the squares of all samples itself: patterns and pairing have no effect */
-    const void *rules; /* for the renderer */
+    bool own_samples;      /* it subdivides the squares of all samples itself: patterns and pairing have no effect */
+    const void *functions; /* for the renderer */
 } koksma_adaptive;
 
 /* Returns method i of the table, or the method with this name; NULL if there is none. */

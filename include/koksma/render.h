@@ -32,6 +32,21 @@ typedef struct koksma_scene koksma_scene;
 /* Returns the name of scene i of those in the library; NULL past the end. */
 KOKSMA_API const char *koksma_scene_name_at(size_t i);
 
+/* One line of a table whose members have no functions of their own here.
+     cite    keys of docs/references.bib, or "-"; NULL: the table has none
+     fields  of a kind of a scene file: their names with blanks between; else "" */
+typedef struct koksma_entry {
+    const char *name, *title, *cite;
+    char fields[256];
+} koksma_entry;
+
+/* Sets *out to kind i of the members "materials", "lights" or "shapes" of a scene file; returns false past the end. */
+KOKSMA_API bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry *out);
+
+/* Sets *out to pipeline i of the renderer; returns false past the end. The renderer chooses the fastest pipeline that
+   can render a scene with its options. */
+KOKSMA_API bool koksma_pipeline_at(size_t i, koksma_entry *out);
+
 /* Opens a scene.
      name_or_path  the name of a scene in the library; or a file: JSON if the text has a '/' or ends in ".json", a
                    mesh if it ends in .obj, .ply, .off, .gltf or .glb
@@ -120,7 +135,7 @@ enum { KOKSMA_MAX_USE_GROUPS = KOKSMA_N_USES / 2, KOKSMA_MAX_PATTERNS_TEXT = KOK
 typedef struct koksma_integrator {
     const char *name, *title, *cite;
     int depth;         /* the most bounces, unless the options set another number */
-    const void *rules; /* for the renderer */
+    const void *flags; /* for the renderer */
 } koksma_integrator;
 
 /* Returns integrator i of the table, or the one with this name; NULL if there is none. */

@@ -29,6 +29,11 @@ typedef struct koksma_study koksma_study;
 /* Returns the name of plan i of those in the library; NULL past the end. */
 KOKSMA_API const char *koksma_plan_name_at(size_t i);
 
+/* Sets *out to kind i of the questions that a plan may ask, or to section i of the report; returns false past the
+   end. The title is the heading in the report. */
+KOKSMA_API bool koksma_question_at(size_t i, koksma_entry *out);
+KOKSMA_API bool koksma_report_section_at(size_t i, koksma_entry *out);
+
 /* Returns the path of the module that links MPI; NULL: this build has none. */
 KOKSMA_API const char *koksma_study_mpi(void);
 
@@ -148,7 +153,7 @@ enum { KOKSMA_IMAGES_GROUP = 256 };
 
 /* A group of images whose paths differ only in {trial}. */
 typedef struct koksma_images_row {
-    char group[KOKSMA_IMAGES_GROUP]; /* texts at the other names, "pattern=halton scene=ball"; may be empty */
+    char group[KOKSMA_IMAGES_GROUP]; /* the other names in {} with their texts: "pattern=halton scene=ball" */
     long long spp;                   /* number at {spp}; 0 without it */
     size_t trials;
     double mean, low,

@@ -9,18 +9,18 @@
 
 /* The items with room for one more than n: for `first`, then for twice as many each time. NULL when memory runs out,
    which is the error's text then; the items are as they were. */
-static inline void *koksma__room_for_one(void *items, size_t n, size_t *room, size_t first, size_t item_size)
+static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity, size_t first, size_t item_size)
 {
-    if (n < *room) {
+    if (n < *capacity) {
         return items;
     }
-    const size_t more = *room ? 2 * *room : first;
+    const size_t more = *capacity ? 2 * *capacity : first;
     void *grown = realloc(items, more * item_size);
     if (!grown) {
         koksma__fail_memory(more * item_size);
         return NULL;
     }
-    *room = more;
+    *capacity = more;
     return grown;
 }
 

@@ -15,9 +15,10 @@ koksma_status koksma__points_fit(size_t n, int dim);
    function that takes points and has no other rule asks first. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
 
-/* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. Writers take
-   any numbers, and stop when run says so (INTERRUPTED) or when the stream has failed, which its closing tells;
-   koksma__numbers_write is koksma_points_write without its check. */
+/* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. Writers
+   accept any numbers. They stop when run's progress function asks for it (INTERRUPTED), or when writing fails, which
+   closing the stream reports. koksma__numbers_write is koksma_points_write without the check for points outside
+   [0,1]. */
 koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points);
 koksma_status koksma__points_read_npy(FILE *stream, const char *name, koksma_points *points);
 koksma_status koksma__numbers_write(const char *path, const koksma_points *rows, const char *comment,

@@ -123,7 +123,7 @@ static double decode(const unsigned char *bytes, const layout *l)
     return x;
 }
 
-/* Number `item` of the file into its place. */
+/* Stores number `item` of the file in the points, or fails if it is no coordinate. */
 static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
 {
     if (!(x >= 0 && x <= 1)) {

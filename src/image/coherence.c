@@ -252,7 +252,8 @@ static void count_frequencies(const koksma_coherence *c, rings *out)
     out->n = n < 1 ? 1 : n < MAX_RINGS ? n : MAX_RINGS;
 }
 
-/* The mean power of each ring, where powers above `most` times that of a round before count as that. */
+/* The mean power of each ring, in several rounds: powers above `most` times the mean of the round before count as
+   `most` times that mean. */
 static void find_rings(const koksma_coherence *c, double most, rings *out)
 {
     const size_t columns = koksma__fourier_columns(c->width);

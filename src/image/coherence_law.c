@@ -17,13 +17,14 @@
  *     P(a X + b G > x) = Q(T - 1, x / b) + exp(-x / a) (1 - b / a)^(1 - T) P(T - 1, (x / b) (1 - b / a))
  *
  * with the regularised incomplete gamma functions P and Q = 1 - P. r = 0: a gamma distribution of shape T. r = 1:
- * what one image has. The few frequencies without a mirror image have a gamma distribution of half the shape that has
- * the variance of a wave, 1 / (a^2 + (T - 1) b^2).
+ * what one image has. The few frequencies without a mirror image have a gamma distribution of half the shape that
+ * has the variance of a wave, 1 / (a^2 + (T - 1) b^2).
  *
- * The largest of all: independent for Gaussian noise. Errors that are independent but not Gaussian, or larger in some
- * pixels than in others, have the same law at each frequency (in the limit) and dependent ones at neighbours, which
- * makes large peaks no more likely than the sum of the tails over the frequencies: 2.6 % above what is computed here
- * at 5 %, and less further out.
+ * The distribution of the largest power assumes that powers at different frequencies are independent, which holds
+ * for Gaussian noise. Errors that are independent but not Gaussian, or larger in some pixels than in others, have
+ * the same distribution at each frequency (in the limit), but depend on those at neighbouring frequencies. Their
+ * tail is at most the sum of the tails over the frequencies, which exceeds what is computed here by 2.6 % at a tail
+ * of 5 %, and by less further out.
  */
 #include "image/coherence_law.h"
 

@@ -15,7 +15,7 @@ typedef struct koksma__coherence_law {
 /* The probability that the largest power over the mean power is above x. */
 double koksma__coherence_tail(const koksma__coherence_law *law, double x);
 
-/* x with that probability, 0 < tail < 1. */
+/* The x that the ratio exceeds with probability `tail`, 0 < tail < 1: the inverse of koksma__coherence_tail. */
 double koksma__coherence_quantile(const koksma__coherence_law *law, double tail);
 
 #endif

@@ -16,7 +16,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 
-enum { SHORT_NAME = 31 }; /* letters of a channel's name that every reader takes */
+enum { SHORT_NAME = 31 }; /* the longest channel name, in bytes, that every EXR reader accepts */
 
 typedef struct source {
     const unsigned char *bytes;

@@ -146,7 +146,7 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
     const char *folder = getenv("TMPDIR");
     char path[4096];
     if (!header_fits(bytes, size)) {
-        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: an attribute of its header has another size than it says");
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: an attribute of its header states a wrong size");
     }
     if ((size_t)snprintf(path, sizeof path, "%s/koksma-XXXXXX", folder && *folder ? folder : "/tmp") >= sizeof path) {
         return koksma__fail(KOKSMA_SYSTEM, "TMPDIR is too long");

@@ -9,7 +9,7 @@
 /* Bytes that grow. */
 typedef struct koksma__bytes {
     unsigned char *data;
-    size_t size, room;
+    size_t size, capacity;
 } koksma__bytes;
 
 /* Writes at an offset, filling a gap with zeros; false when memory runs out. */

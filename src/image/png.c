@@ -95,7 +95,7 @@ typedef struct head {
     double power; /* of the curve; 0: sRGB's */
 } head;
 
-/* The curve that the file asks for. */
+/* The exponent of the transfer function that the file states. */
 static double power_of(png_const_structp png, png_const_infop info)
 {
     png_fixed_point gamma = 0;

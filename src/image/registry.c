@@ -26,14 +26,14 @@ const koksma__image_format *koksma__image_format_at(size_t i)
 
 bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, size_t size)
 {
-    if (offset + size > bytes->room) {
-        const size_t room = 2 * (offset + size) + 4096;
-        unsigned char *more = realloc(bytes->data, room);
+    if (offset + size > bytes->capacity) {
+        const size_t capacity = 2 * (offset + size) + 4096;
+        unsigned char *more = realloc(bytes->data, capacity);
         if (!more) {
             return false;
         }
         bytes->data = more;
-        bytes->room = room;
+        bytes->capacity = capacity;
     }
     if (offset > bytes->size) {
         memset(bytes->data + bytes->size, 0, offset - bytes->size);

@@ -402,7 +402,8 @@ koksma_status koksma__json_numbers(const koksma__json_node *node, double min, do
 
 /* ---- Members --------------------------------------------------------------------------------------------- */
 
-/* Whether there is something to read: an absent member that is not needed is fine. */
+/* Whether the member is absent or an error: then there is nothing to read, and *status is OK only if it is optional.
+   */
 static bool absent(const koksma__json_node *node, const char *key, bool needed, koksma__json_node *member,
                    koksma_status *status)
 {

@@ -7,7 +7,7 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *xs,
                                 double *const *v);
 
 enum { CHAINS = 2, LANES = CHAINS * LANES64 };
@@ -47,12 +47,12 @@ static inline __attribute__((always_inline)) void look_at(uint32_t base, double 
         const lanes64_d rest = x - upper * width;
         upper += lanes64_masked((lanes64_i)(rest >= width), one) - lanes64_masked((lanes64_i)(rest < 0), one);
         s->prefix[c] = lanes64_floor((upper + 0.5) * part) * base;
-        const lanes64_u own = to_words(upper - s->prefix[c]);
-        if (base == 3) { /* own, own + 1, own + 2 modulo 3 */
-            const lanes64_u two = chosen((lanes64_i)(own == 1), lanes64_splat(0x021), lanes64_splat(0x102));
-            s->order[c] = chosen((lanes64_i)(own == 0), lanes64_splat(0x210), two);
+        const lanes64_u digit = to_words(upper - s->prefix[c]);
+        if (base == 3) { /* digit, digit + 1, digit + 2 modulo 3 */
+            const lanes64_u two = chosen((lanes64_i)(digit == 1), lanes64_splat(0x021), lanes64_splat(0x102));
+            s->order[c] = chosen((lanes64_i)(digit == 0), lanes64_splat(0x210), two);
         } else {
-            s->order[c] = ((EVERY_DIGIT & ~(lanes64_splat(15) << 4 * own)) & ~lanes64_splat(15)) | own;
+            s->order[c] = ((EVERY_DIGIT & ~(lanes64_splat(15) << 4 * digit)) & ~lanes64_splat(15)) | digit;
         }
     }
 }
@@ -78,11 +78,11 @@ static inline __attribute__((always_inline)) void place(uint32_t base, uint32_t 
 }
 
 static inline __attribute__((always_inline)) void place_all(uint32_t base, uint32_t relatives, size_t count,
-                                                            double width, const double *own, double *const *v)
+                                                            double width, const double *xs, double *const *v)
 {
     for (size_t r = 0; r + LANES <= count; r += LANES) {
         strata s;
-        look_at(base, width, own + r, &s);
+        look_at(base, width, xs + r, &s);
         for (uint32_t d = 1; d <= relatives; d++) {
             place(base, d, width, &s, v[d - 1] + r);
         }
@@ -94,9 +94,9 @@ static double whole_part(double x)
     return (double)(int64_t)x;
 }
 
-static void place_one(uint32_t base, uint32_t relatives, size_t r, double width, double own, double *const *v)
+static void place_one(uint32_t base, uint32_t relatives, size_t r, double width, double x, double *const *v)
 {
-    const double upper = whole_part(own / width), prefix = whole_part(upper / base) * base;
+    const double upper = whole_part(x / width), prefix = whole_part(upper / base) * base;
     const uint32_t digit0 = (uint32_t)(upper - prefix);
     uint64_t order = (EVERY_DIGIT & ~((uint64_t)15 << 4 * digit0) & ~(uint64_t)15) | digit0;
     if (base == 3) {
@@ -112,17 +112,17 @@ static void place_one(uint32_t base, uint32_t relatives, size_t r, double width,
     }
 }
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *xs,
                                 double *const *v)
 {
     if (base == 3 && relatives == 1) {
-        place_all(3, 1, count, width, own, v);
+        place_all(3, 1, count, width, xs, v);
     } else if (base == 3) {
-        place_all(3, 2, count, width, own, v);
+        place_all(3, 2, count, width, xs, v);
     } else {
-        place_all(base, relatives, count, width, own, v);
+        place_all(base, relatives, count, width, xs, v);
     }
     for (size_t r = count / LANES * LANES; r < count; r++) {
-        place_one(base, relatives, r, width, own[r], v);
+        place_one(base, relatives, r, width, xs[r], v);
     }
 }

@@ -131,11 +131,11 @@ void KERNEL_NAME(grow)(uint32_t *v, int level, size_t first, size_t count, uint3
     }
 }
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *own,
+void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *xs,
                                 double *const *v)
 {
     for (size_t r = 0; r < count; r++) {
-        const double upper = floor(own[r] / width), prefix = floor(upper / base) * base;
+        const double upper = floor(xs[r] / width), prefix = floor(upper / base) * base;
         uint32_t order[13];
         for (uint32_t d = 0; d < base; d++) {
             order[d] = base == 3 ? ((uint32_t)(upper - prefix) + d) % 3 : d;

@@ -114,8 +114,9 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
     return status;
 }
 
-/* A point of the rim is off it by up to KOKSMA__DISK_RIM. The radius is moved to where comparing in doubles, as
-   koksma.h says how, counts right: out to points that belong to a closed disk, in to those that don't to an open one.
+/* A point of the rim is off it by up to KOKSMA__DISK_RIM. Adjusts the radius so that a comparison in doubles (as
+   koksma.h defines it) counts the same points: increases it until a closed disk contains its points, decreases it
+   until an open disk excludes the others.
  */
 static void settle_radius(const koksma_points *points, koksma_witness *w)
 {

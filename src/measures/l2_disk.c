@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * l2-disk: the root mean square, over disks on the torus with a random centre, of the difference between the share of
- * points in the disk and its area. The radius is fixed, or random with a uniform radius or a uniform area up to that
- * of r. The second paper's section 4.
+ * l2-disk: the root mean square, over disks on the torus with a random centre, of the difference between the share
+ * of points in the disk and its area. The radius is fixed, or random with a uniform radius or a uniform area up to
+ * that of r. The second paper's section 4.
  *
  * Formula: square = n^-2 sum_ij sum_k W(|x_i - x_j + k|) - c, k over the shifts of the torus; W(d) is the area that
  * two disks d apart share, or its mean over the radius; with h = d/2 < r, s = sqrt((r - h) (r + h)):
@@ -20,7 +20,8 @@
  * (pi/12 - pi^2/80)/n for radius and (pi/8 - pi^2/48)/n for area. One point: pi r^2 (1 - pi r^2). Balls
  * likewise: with v the volume of the largest v (1 - v)/n, (v/4 - v^2/7)/n and (v/2 - v^2/3)/n.
  * Limits: the two terms are near c and cancel; sums are compensated over rows and good to about 1e-15 of c, so that
- * the value keeps 9 digits at 10^5 well-spread points. Cells leave out far pairs up to r = 1/8.
+ * the value keeps 9 digits at 10^5 well-spread points. Up to r = 1/8 a grid of cells skips pairs that are too far
+ * apart to overlap.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -51,8 +52,8 @@ static double span(const pairs *p, size_t i, size_t first, size_t last)
     return koksma__kernels()->disk_overlaps(p->law, p->r, xs[i], ys[i], last - first, xs + first, ys + first);
 }
 
-/* The overlaps of ball i with those before it and their copies. Along an axis the two nearest copies are within 1,
-   and no third. */
+/* The overlaps of ball i with balls 0 .. i - 1 and their periodic copies. Along each axis only the two nearest
+   copies can lie within distance 1. */
 static double balls_before(const pairs *p, size_t i)
 {
     koksma__sum sum = {0};

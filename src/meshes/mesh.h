@@ -39,7 +39,7 @@ void koksma__mesh_fini(koksma__mesh *mesh);
    triangle of some area; sets the box and n_degenerate, mends normals of no length. Errors: MALFORMED. */
 koksma_status koksma__mesh_check(koksma__mesh *mesh);
 
-/* Normals from the triangles around each vertex, weighed by their areas, where the file has none. Errors: MEMORY. */
+/* Normals from the triangles around each vertex, weighted by their areas, where the file has none. Errors: MEMORY. */
 koksma_status koksma__mesh_smooth(koksma__mesh *mesh);
 
 /* 64 bits of its content. */
@@ -59,7 +59,7 @@ void koksma__normal_matrix(const double matrix[12], double out[9]);
 /* Whether it swaps left and right: then it turns counterclockwise triangles into clockwise ones. */
 bool koksma__matrix_mirrors(const double matrix[12]);
 
-/* Whether it leaves no volume of anything. */
+/* Whether it maps every body to volume 0 (its determinant vanishes). */
 bool koksma__matrix_flattens(const double matrix[12]);
 
 /* Triangle t as it stands, rounded as the renderer has it; its area. */

@@ -21,7 +21,7 @@
 
 enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, NAME = 64 };
 
-/* What a property is for. Those before CORNERS are numbers of a vertex, the others lists of a face. */
+/* What a property of the file means: before N_NUMBERS a number of each vertex, after it a list of each face. */
 typedef enum slot { X, Y, Z, NX, NY, NZ, U, V, RED, GREEN, BLUE, N_NUMBERS, CORNERS, WEDGES, UNUSED } slot;
 
 typedef struct type {
@@ -327,7 +327,7 @@ static void put_vertex(ply *p, size_t i, slot to, const type *of, double value)
     }
 }
 
-/* Of a list of a face: one more corner, or a coordinate of one. */
+/* Stores item j of a face's list: the index of a corner, or a texture coordinate of one. */
 static koksma_status put_listed(ply *p, const element *e, size_t i, const property *of, long long n, long long j)
 {
     const bool wedge = of->slot == WEDGES;

@@ -7,9 +7,9 @@
  *
  * Source: Mitchell 1992 ("dart-throwing Poisson disk"; he does not state the distance: f = 0.75 fits his tables).
  * Dart throwing jams at f = 0.777 on average (random sequential packing covers 0.547 of the plane). A jammed set is
- * thrown away and begun anew, at most 200 times. The law is that of uniform darts; shared/dart_cover.h tells how. For
- * a small f, where most darts fit, the darts are thrown one by one at a grid of n cells: the cover's, which are
- * smaller than d, would be many for each point.
+ * thrown away and begun anew, at most 200 times. The distribution is that of uniform darts (shared/dart_cover.h).
+ * For a small f most darts fit; then they are thrown one by one and looked up in a grid of n cells, because the
+ * cover's cells, which are smaller than d, would be many for each point.
  */
 #include <math.h>
 #include <string.h>

@@ -44,10 +44,10 @@ typedef struct descent {
     size_t n, copies;        /* points; of all tiles, those of the first before the others */
     double s, step, momentum, tiles, cut;
     double *squares; /* of the force on each point; NULL where no one asks */
-    double least;    /* sum of the squares so far, but for improvements of a tenth; steps since then */
+    double least;    /* smallest sum of the squares so far, lowered only by improvements of 10 %; steps since then */
     int wait;
     double *xs, *moves;
-    double *places; /* of the copies; xs with one tile */
+    double *places; /* positions of all points in all tiles; equal to xs if there is one tile */
 } descent;
 
 static double wrap(double x)

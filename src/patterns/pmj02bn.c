@@ -45,7 +45,7 @@ enum { MOST_LEVELS = 10, SWEEPS = 2 };
 /* The 4^d points in their cells, in units of a cell, twice: by rows, and by columns with the axes exchanged. A line
    has a spare cell at each end, for the torus. */
 typedef struct square {
-    long side, width; /* cells a side; and with the spare ones */
+    long side, width; /* cells a side; the same with the spare cells */
     float *across[2]; /* the coordinate that a flip of the line changes: y of rows, x of columns */
     float *along[2];
 } square;

@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The canvas of plots and charts, by cairo: an SVG, a PDF or a PNG in memory. The twin at the end is for builds
+ * without cairo, whose functions return UNSUPPORTED.
+ */
 #ifdef KOKSMA_CAIRO
 #include <math.h>
 #include <stdio.h>

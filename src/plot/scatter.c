@@ -65,7 +65,8 @@ static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double
     }
 }
 
-/* The borders between cells. Through a map the square's own border is one, too: where a disk is cut open. */
+/* The borders between cells. With a warp also the border of the square, which in a disk is the line where it is cut
+   open. */
 static void draw_guides(const plot *p, const koksma_scatter_options *o)
 {
     const size_t counts[2] = {o->columns, o->rows};

@@ -14,7 +14,7 @@ static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1,
 
 enum { MARGIN = 6, CAPTION = 18 };
 
-/* The darkest value where black is a mark. */
+/* The darkest grey of a sample's value, so that black marks stay visible on it. */
 #define MARKED_GREY 0.45
 
 typedef struct square {

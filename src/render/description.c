@@ -20,7 +20,7 @@ int koksma__find_material(const koksma_scene *scene, const char *name)
     return -1;
 }
 
-koksma_status koksma__scene_add_shape(koksma_scene *scene, koksma__shape **out)
+koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *from, koksma__shape **out)
 {
     if (scene->n_shapes == KOKSMA__MAX_SHAPES) {
         return koksma__fail(KOKSMA_MALFORMED, "more than %d shapes", KOKSMA__MAX_SHAPES);
@@ -32,8 +32,7 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, koksma__shape **out)
     }
     scene->shapes = shapes;
     *out = &scene->shapes[scene->n_shapes++];
-    memset(*out, 0, sizeof **out);
-    (*out)->light = -1;
+    **out = *from;
     return KOKSMA_OK;
 }
 

@@ -15,16 +15,9 @@
 
 enum { KOKSMA__MAX_SHAPES = 4096, KOKSMA__MAX_MATERIALS = 1024, KOKSMA__MAX_LIGHTS = 256 };
 
-typedef enum koksma__shape_kind {
-    KOKSMA__SHAPE_PLANE,     /* endless */
-    KOKSMA__SHAPE_RECTANGLE, /* |u| <= half[0], |v| <= half[1] */
-    KOKSMA__SHAPE_DISK,      /* u^2 + v^2 <= half[0]^2 */
-    KOKSMA__SHAPE_SPHERE
-} koksma__shape_kind;
-
-/* A place on a flat shape is centre + u axis_u + v axis_v; the axes and the normal are an orthonormal frame. */
+/* A position on a flat shape is centre + u axis_u + v axis_v; the axes and the normal are an orthonormal frame. */
 typedef struct koksma__shape {
-    koksma__shape_kind kind;
+    const struct koksma__shape_type *type;
     double centre[3], axis_u[3], axis_v[3], normal[3];
     double half[2];   /* half sides; of a disk and a sphere half[0] is the radius; of a plane infinite */
     double motion[3]; /* of a sphere: at time t its centre is at centre + t motion */
@@ -45,10 +38,10 @@ typedef struct koksma__material {
     double period, phase[2], angle_rad;
     double values[KOKSMA__MAX_VALUES]; /* of the kind's parameters, where its file puts them */
     koksma_image *image;               /* the albedo over a surface's coordinates, in place of albedo; or NULL */
-    /* of a model file's material; "": it isn't so */
+    /* warnings about a model file's material; "": none */
     char lost[256];   /* why its texture is left out */
-    char dark[256];   /* why it doesn't glow */
-    char evened[256]; /* the texture over which its glow varies, and of which the mean is taken */
+    char dark[256];   /* why its emission is left out */
+    char evened[256]; /* the emissive texture whose mean the light has */
 } koksma__material;
 
 /* A flat light shines from the side that its normal points to. What a surface of albedo a reflects of a rectangle
@@ -110,9 +103,8 @@ struct koksma_scene {
 /* The number of a material; -1 if there is none of that name. */
 int koksma__find_material(const koksma_scene *scene, const char *name);
 
-/* One more shape, zeroed but for light = -1; it moves when the next one is added. Errors: MALFORMED (too many),
-   MEMORY. */
-koksma_status koksma__scene_add_shape(koksma_scene *scene, koksma__shape **out);
+/* One more shape, a copy of *from; it moves when the next one is added. Errors: MALFORMED (too many), MEMORY. */
+koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *from, koksma__shape **out);
 
 /* One more light, zeroed. Errors: MALFORMED (too many). */
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out);

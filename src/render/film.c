@@ -14,14 +14,14 @@
  * Cov(w, y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. Deterministic
  * patterns of few samples may have none in a lobe and leave it out. Where all w are 1 all v are.
  *
- * Splatted samples reach the pixels around: their sums are kept by task and added in the order of tasks, so that
- * threads change nothing; those of a task that is done wait only for the tasks before it. A pixel of an image-wide
- * pattern, or of splatted samples, that got none takes its value from the pixels around it (film_gaps.c); its count
- * says 0.
+ * A splatted sample adds to several pixels. Each task keeps sums of its own, which are added in the order of the
+ * tasks, so that the image does not depend on threads; a finished task waits only for those before it. A pixel of an
+ * image-wide pattern, or of splatted samples, that got none takes its value from the pixels around it (film_gaps.c);
+ * its count says 0.
  *
  * The layer `variance` is that of a pixel's luminance m, from its samples y_i of weight w_i as if independent. Drawn
- * from a filter of one sign, m is a mean of n samples, so it is their variance over n. Splatted, m = sum w y / W with
- * W = sum w is a ratio, whose variance is, to first order (Cochran 1977, chapter 6),
+ * from a filter of one sign, m is a mean of n samples, so it is their variance over n. Splatted, m = sum w y / W
+ * with W = sum w is a ratio, whose variance is, to first order (Cochran 1977, chapter 6),
  *
  *     sum w^2 (y - m)^2 / W^2   times   S2 / (S2 - 2 S3 / W + S2^2 / W^2),   Sk = sum w^k
  *
@@ -198,7 +198,7 @@ static double splat_variance(const double *moments, double weight, double mean)
     return off > 0 && left > 1e-12 * w2 ? off / (weight * weight) * (w2 / left) : 0;
 }
 
-/* That of the luminance of samples first .. end - 1, drawn from a filter with negative lobes. */
+/* The variance of the mean luminance of samples first .. end - 1, drawn from a filter with negative lobes. */
 static double signed_variance(const float *rgb, const float *weights, size_t channels, size_t first, size_t end)
 {
     double moments[N_MOMENTS] = {0}, mean = 0;

@@ -39,9 +39,9 @@ koksma_status koksma__film_init(const koksma__frame *frame, bool all_layers, siz
                                 koksma__film *out);
 void koksma__film_fini(koksma__film *film);
 
-/* Moves samples from the pixel to places that the filter chooses, and weighs them: film places of a group that was
-   drawn on the unit square of each pixel. all: the group has all samples of its pixels, and weights become those in
-   the pixels' means (film.c); else they are those of the draws (filters.h). */
+/* Moves samples from the pixel to positions that the filter chooses, and weighs them: film positions of a group that
+   was drawn on the unit square of each pixel. all: the group has all samples of its pixels, and weights become those
+   in the pixels' means (film.c); else they are those of the draws (filters.h). */
 void koksma__film_place(const koksma__frame *frame, const koksma__group *group, bool all, koksma__values *values);
 
 /* The room for splats of a task. */

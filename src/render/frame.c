@@ -67,7 +67,7 @@ static int depth_of(const koksma_render_options *options)
 
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
 {
-    const koksma__integrator_flags *rules = options->integrator->rules;
+    const koksma__integrator_flags *flags = options->integrator->flags;
     unsigned lobes = 0;
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
@@ -76,9 +76,9 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
     const int lights = one ? 1 : (int)scene->n_lights;
     return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
                               .time = scene->moves,
-                              .lights = rules->areas ? lights : 0,
+                              .lights = flags->areas ? lights : 0,
                               .light_choice = one,
-                              .vertices = lobes & rules->followed ? depth_of(options) + 1 : 1};
+                              .vertices = lobes & flags->followed ? depth_of(options) + 1 : 1};
 }
 
 bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)
@@ -188,7 +188,7 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     if (status) {
         return status;
     }
-    out->flags = options->integrator->rules;
+    out->flags = options->integrator->flags;
     out->depth = depth_of(options);
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();

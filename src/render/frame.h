@@ -44,7 +44,7 @@ typedef struct koksma__group {
 
 /* What the samples of a group come to. capacity floats a channel; layers are NULL when no one wants them. */
 typedef struct koksma__values {
-    float *film;    /* places on the film, in pixels: 2 a sample. In pixel 2^k they are multiples of 2^(k - 23) of a
+    float *film; /* positions on the film, in pixels: 2 a sample. In pixel 2^k they are multiples of 2^(k - 23) of a
                        pixel (at 65,536 of 1/256), no coarser than the directions that are made of them */
     float *weights; /* of the filter; NULL: all 1 */
     float *rgb;     /* channels a sample */
@@ -53,7 +53,7 @@ typedef struct koksma__values {
 } koksma__values;
 
 typedef struct koksma__pipeline {
-    const char *name;
+    const char *name, *title;
     int preference; /* among those that take a picture */
     /* Whether it can render this picture. */
     bool (*takes)(const koksma__frame *frame);
@@ -82,7 +82,7 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
 /* As many pixels from `first` on as fill a block, one at least, none from `end` on. */
 void koksma__group_fill(const koksma__frame *frame, size_t first, size_t end, koksma__group *group);
 
-/* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own place is
+/* The pairs of a use of all samples of a group, one pixel after the other; with on_film each pixel's own position is
    added. The pairs are padded with copies to whole lanes. */
 koksma_status koksma__group_draw(const koksma__frame *frame, const koksma__group *group, uint32_t use, bool on_film,
                                  koksma__sample_scratch *scratch, float *pairs);

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Which shapes a part of the film can see. A ray from the eye o through film place (x, y) goes along
+ * Which shapes a part of the film can see. A ray from the eye o through film position (x, y) goes along
  * d = base + x step_x + y step_y, so
  *
  *   flat shape:  with e = o - c, s = -sign(n.e), N = s n.d: it is met in front of the eye where N > 0, at
  *                u = (e.u + |n.e| d.u / N); u > h there if and only if (e.u - h) N + |n.e| d.u > 0, and likewise for
  *                -u and v. N and these are linear in (x, y): a rectangle of the film sees nothing where N <= 0 in all
  *                of it, or one of the four is > 0 in all of it.
- *   sphere:      the line through the eye misses it if and only if |e x d|^2 - r^2 d.d > 0, a quadratic form in (x,
- * y), bounded from below by its value, slopes and curvatures at the middle.
+ *   others:      the line through the eye misses the sphere around the shape if and only if
+ *                |e x d|^2 - r^2 d.d > 0, a quadratic form in (x, y), bounded from below by its value, slopes and
+ *                curvatures at the middle.
  *
  * Bounds are in double precision, but batch_shapes.c finds hits in floats. Shapes are widened by more than its
- * rounding: a place at distance R from the eye is off by some 10 units in the last place of R across the ray, and on
- * a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d amounts
- * to.
+ * rounding: a position at distance R from the eye is off by some 10 units in the last place of R across the ray, and
+ * on a flat shape by that over the sine |n.e| / R along it; the film's rectangle is widened by what rounding d
+ * amounts to.
  */
 #include "render/frustum_cull.h"
 
@@ -81,11 +82,10 @@ static bound bound_flat(const koksma__batch_camera *camera, const koksma__batch_
     b.sees_all = !(size > SPARE * UNIT * magnitude);
     b.out[0] = combine(-1, towards, 0, towards);
     b.out[0].a -= SPARE * UNIT * longest;
-    if (s->kind == KOKSMA__SHAPE_PLANE) {
+    const double half_u = (double)s->half_u, half_v = (double)s->half_v;
+    if (!(half_u < (double)INFINITY)) {
         return b;
     }
-    const double half_u = s->kind == KOKSMA__SHAPE_DISK ? sqrt((double)s->radius2) : (double)s->half_u;
-    const double half_v = s->kind == KOKSMA__SHAPE_DISK ? half_u : (double)s->half_v;
     const double reach = magnitude + half_u + half_v, spare = SPARE * UNIT * (reach + reach * (reach / size));
     const double e_u = e[0] * u[0] + e[1] * u[1] + e[2] * u[2], e_v = e[0] * v[0] + e[1] * v[1] + e[2] * v[2];
     const linear d_u = along(camera, u), d_v = along(camera, v);
@@ -149,7 +149,7 @@ koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, cons
     cull->widen = 0x1p-10 + SPARE * UNIT * longest / (x < y ? x : y);
     for (size_t i = 0; i < shapes->n; i++) {
         const koksma__batch_shape *s = &shapes->shapes[i];
-        cull->bounds[i] = s->kind == KOKSMA__SHAPE_SPHERE ? bound_sphere(camera, s) : bound_flat(camera, s, longest);
+        cull->bounds[i] = s->is_flat ? bound_flat(camera, s, longest) : bound_sphere(camera, s);
     }
     return KOKSMA_OK;
 }

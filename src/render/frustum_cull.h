@@ -12,8 +12,8 @@ koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, cons
                                         int width, int height, koksma__frustum_cull **out);
 void koksma__frustum_cull_close(koksma__frustum_cull *cull);
 
-/* The shapes that a ray through film places in [x[0], x[1]] x [y[0], y[1]] may meet, as batch->closest may find it:
-   their numbers in ascending order, in seen, which has room for all. Their number. */
+/* The shapes that a ray through film positions in [x[0], x[1]] x [y[0], y[1]] may meet, as batch->closest may find
+   it: their numbers in ascending order, in seen, which has room for all. Their number. */
 size_t koksma__frustum_cull_shapes(const koksma__frustum_cull *cull, const double x[2], const double y[2],
                                    size_t *seen);
 

@@ -148,8 +148,8 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
 bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i, char *text,
                            size_t size)
 {
-    const koksma__integrator_flags *rules = options->integrator->rules;
-    return koksma__scene_warning(scene, (rules->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
+    const koksma__integrator_flags *flags = options->integrator->flags;
+    return koksma__scene_warning(scene, (flags->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
 }
 
 static koksma_status render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
@@ -196,8 +196,8 @@ koksma_status koksma_render(const koksma_scene *scene, const koksma_render_optio
 
 bool koksma__rows_stand_alone(const koksma_render_options *options)
 {
-    const koksma__integrator_flags *rules = options->integrator->rules;
-    return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat && !rules->open;
+    const koksma__integrator_flags *flags = options->integrator->flags;
+    return options->scope == KOKSMA_SCOPE_PIXEL && !options->splat && !flags->open;
 }
 
 koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render_options *options, int first_row,

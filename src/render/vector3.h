@@ -46,7 +46,7 @@ static inline void koksma__frame3(const float n[3], float u[3], float v[3])
     v[2] = -n[1];
 }
 
-/* The mirror image of the way w (towards the eye) at the unit normal n. */
+/* The mirror image of the direction w (towards the eye) at the unit normal n. */
 static inline void koksma__mirror3(const float w[3], const float n[3], float out[3])
 {
     const float twice = 2 * koksma__dot3(w, n);
@@ -55,7 +55,8 @@ static inline void koksma__mirror3(const float w[3], const float n[3], float out
     }
 }
 
-/* A way about n with density cosine / pi: the concentric map of the square to the disk, lifted (Malley's method). */
+/* A direction about n with density cosine / pi: the concentric map of the square to the disk, lifted (Malley's
+   method). */
 static inline void koksma__cosine_direction(const float n[3], const float u[2], float w[3])
 {
     const double square[2] = {(double)u[0], (double)u[1]};

@@ -34,9 +34,9 @@ bool koksma__camera_aim(const double eye[3], const double forward[3], const doub
 /* From the front, a little from above and the right, so far that a ball around everything fills the height. */
 static void frame_all(koksma_scene *scene)
 {
-    static const double way[3] = {-0.5, -0.4, -1}, up[3] = {0, 1, 0};
+    static const double direction[3] = {-0.5, -0.4, -1}, up[3] = {0, 1, 0};
     const double fov = 40 * M_PI / 180;
-    double low[3], high[3], eye[3], square = 0, forward[3] = {way[0], way[1], way[2]};
+    double low[3], high[3], eye[3], square = 0, forward[3] = {direction[0], direction[1], direction[2]};
     for (int k = 0; k < 3; k++) {
         low[k] = scene->placements[0].low[k];
         high[k] = scene->placements[0].high[k];

@@ -15,6 +15,7 @@
 #include "meshes/mesh_read.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
+#include "render/placements.h"
 #include "scene/model.h"
 #include "scene/parse.h"
 
@@ -33,8 +34,8 @@ static double clamp01(float x)
     return x > 0 ? fmin((double)x, 1) : 0;
 }
 
-/* An image of the file's own (glb), or a file beside it. Errors: MALFORMED (it isn't there, or we can't make it out),
-   MISSING (it is there and can't be read), MEMORY. */
+/* Reads an image that is embedded in the model file (glb) or stands beside it. Errors: MALFORMED (there is no such
+   file, or it is no image that we read), MISSING (the file exists and can't be opened), MEMORY. */
 static koksma_status read_texture(const builder *build, const koksma__file_texture *from, koksma_image *image)
 {
     char full[KOKSMA__MAX_PATH];
@@ -305,7 +306,7 @@ static koksma_status build_light(builder *build, size_t i)
     }
     dim(build, to->radiance);
     if (!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal))) {
-        return koksma__fail(KOKSMA_MALFORMED, "light %zu is beyond 1e6 or leads nowhere", i);
+        return koksma__fail(KOKSMA_MALFORMED, "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
     }
     return KOKSMA_OK;
 }

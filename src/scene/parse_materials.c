@@ -79,18 +79,6 @@ static koksma_status parse_diffuse(const char *scene_name, const field *f, koksm
     return parse_albedo(f, m);
 }
 
-/* The fields that a kind with these forms of the diffuse part has beside its parameters. */
-static const char *const *common_keys(unsigned forms)
-{
-    static const char *const keys[4][8] = {
-        {"name", "kind"},
-        {"name", "kind", "albedo"},
-        {"name", "kind", "albedos", "period", "phase", "angle_deg"},
-        {"name", "kind", "albedo", "albedos", "period", "phase", "angle_deg"},
-    };
-    return keys[(forms & (KOKSMA__ALBEDO | KOKSMA__IMAGE) ? 1 : 0) + (forms & KOKSMA__CHECKER ? 2 : 0)];
-}
-
 koksma_status koksma__parse_material(const char *scene_name, const field *f, koksma_scene *scene)
 {
     const char *name = "", *problem;
@@ -110,7 +98,7 @@ koksma_status koksma__parse_material(const char *scene_name, const field *f, kok
     strcpy(m->name, name);
     m->bsdf = koksma__bsdfs[kind];
     scene->n_materials++;
-    status = koksma__parse_fields(f, &m->bsdf->kind, common_keys(m->bsdf->diffuse), m);
+    status = koksma__parse_fields(f, &m->bsdf->kind, koksma__material_keys(m->bsdf), m);
     status = status ? status : parse_diffuse(scene_name, f, m);
     if (!status && m->bsdf->check && (problem = m->bsdf->check(m))) {
         return koksma__json_fail(f, "%s", problem);

@@ -66,7 +66,8 @@ static double redrawn(const koksma__means *m, size_t s, size_t i)
     return m->mean[i] + m->error[i] * sqrt(-2 * log1p(-u[0])) * cos(2 * M_PI * u[1]);
 }
 
-/* Resample s into a and b: a pattern that is drawn twice has the same means twice, and so is no pair in an order. */
+/* Writes resample s to a and b. A pattern that is drawn twice has equal means both times: such a tie counts as no
+   ordered pair. */
 static void resample(const koksma__means *x, const koksma__means *y, size_t n, uint64_t seed, size_t s, double *a,
                      double *b)
 {

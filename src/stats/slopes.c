@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* How errors fall with n. A slope is that of the line of least squares through (log n, log mean). Its interval comes
    from the standard errors of the means, to first order in the logs, or from the residuals where these are unknown;
-   a weighted line and its lack of fit say whether the means lie on a line at all. How many samples reach an error is
-   read off between the two sizes about it, taking the error for c n^slope between them. */
+   a weighted line and its lack of fit say whether the means lie on a line at all. The number of samples that reaches
+   a given error is interpolated between the two nearest sizes, where the error is taken to follow c n^slope. */
 #include "stats/slopes.h"
 
 #include <math.h>
@@ -124,8 +124,8 @@ koksma__trend koksma__trend_of(const double *n, const koksma__summary *mean, siz
     return trend;
 }
 
-/* Between sizes a and b the error is taken for c n^slope. The interval comes from the standard errors of the three
-   means by first-order propagation in the logs. */
+/* Between two measured sizes the error is interpolated as c n^slope. The interval comes from the standard errors of
+   the three means by first-order propagation in the logs. */
 koksma__estimate koksma__samples_for(const koksma__convergence *p, double target, double target_error, bool *outside)
 {
     koksma__estimate none = {NAN, NAN, NAN};

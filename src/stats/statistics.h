@@ -25,7 +25,7 @@ int koksma__compare(double a, double b);
    rounding noise, up to 1e-12 of the largest value, is 0. */
 koksma__summary koksma__summarize(const double *values, size_t n, size_t stride);
 
-/* Of the one value of something that doesn't vary. */
+/* The summary of a value that has no variance, such as the result of a deterministic pattern. */
 koksma__summary koksma__exactly(double value);
 
 /* The differences a[i] - b[i] of n pairs, 0 where they compare equal; values stride apart. */

@@ -4,7 +4,6 @@
 import fs from "node:fs";
 import { execFileSync } from "node:child_process";
 import { openKoksma } from "../../explorer/page/module.mjs";
-import { claimsOf } from "../../explorer/page/specs.mjs";
 
 const [program, wasm] = process.argv.slice(2);
 const koksma = await openKoksma(new WebAssembly.Module(fs.readFileSync(wasm)));
@@ -29,7 +28,7 @@ const listed = kind => jsonLines(run("list", kind, "--json").out);
 check(tables.patterns.map(p => p.name).join() === listed("patterns").map(p => p.pattern).join(), "patterns");
 check(tables.measures.map(m => m.name).join() === listed("measures").map(m => m.measure).join(), "measures");
 listed("patterns").forEach((row, i) => {
-  const words = claimsOf(tables.patterns[i]).map(([word]) => word).join(",") || "-";
+  const words = tables.patterns[i].claims.map(([word]) => word).join(",") || "-";
   check(words === row.claims, `${row.pattern} claims ${row.claims}, not ${words}`);
 });
 

@@ -10,7 +10,7 @@
  *   - a specular direction leads back where it came from, and both directions of glass share at most 1
  *
  * Lobes whose density is above SHARPEST are left out of the comparison with the density: floats of directions don't
- * resolve them (tests/unit/test_materials.c has those of ggx).
+ * resolve them (tests/render/test_materials.c has those of ggx).
  */
 #include "kinds.h"
 #include "render/materials/materials.h"

@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "render/frustum_cull.h"
+#include "render/shapes/shapes.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -58,23 +59,27 @@ static void frame(float n[3], float u[3], float v[3])
     cross(n, u, v);
 }
 
+/* Shapes of every kind of the table in turn, but the second is a rectangle. */
 static void make_shapes(double offset, koksma__batch_shape list[SHAPES])
 {
-    memset(list, 0, SHAPES * sizeof *list);
+    size_t kind = 0;
     for (int i = 0; i < SHAPES; i++) {
-        koksma__batch_shape *s = &list[i];
-        const double radius = uniform(0.1, 1.5);
-        s->kind = i % 4;
-        s->id = s->material = i;
-        for (int k = 0; k < 3; k++) {
-            s->centre[k] = (float)(offset + uniform(-4, 4));
+        float n[3], u[3], v[3];
+        koksma__shape s = {.half = {uniform(0.1, 1.5), uniform(0.1, 1.5)}, .material = i};
+        while (!koksma__shape_types[kind] || !koksma__shape_types[kind]->hit) {
+            kind = koksma__shape_types[kind] ? kind + 1 : 0;
         }
-        frame(s->normal, s->axis_u, s->axis_v);
-        s->half_u = (float)radius;
-        s->half_v = (float)uniform(0.1, 1.5);
-        s->radius2 =
-            s->kind == KOKSMA__SHAPE_DISK || s->kind == KOKSMA__SHAPE_SPHERE ? (float)(radius * radius) : INFINITY;
-        s->inverse_radius = (float)(1 / radius);
+        s.type = i == 1 ? &KOKSMA__SHAPE(rectangle) : koksma__shape_types[kind++];
+        frame(n, u, v);
+        for (int k = 0; k < 3; k++) {
+            s.centre[k] = offset + uniform(-4, 4);
+            s.normal[k] = (double)n[k];
+            s.axis_u[k] = (double)u[k];
+            s.axis_v[k] = (double)v[k];
+        }
+        s.half[0] = s.type == &KOKSMA__SHAPE(plane) ? (double)INFINITY : s.half[0];
+        s.half[1] = s.type == &KOKSMA__SHAPE(rectangle) ? s.half[1] : s.half[0];
+        list[i] = koksma__batch_shape_of(&s, i);
     }
 }
 

@@ -30,7 +30,7 @@ static void convex_bodies_reflect_the_sky(void **state)
         "\"shapes\": [{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1, \"material\": \"m\"}]," SKY "}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
-        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
         const double mean = picture(text, koksma_integrator_at(i), -1, 16, &error);
         const double expected = 0.5 * ((flags->areas ? 1 : 0) + (flags->ambient ? 0.25 : 0));
@@ -53,7 +53,7 @@ static void closed_furnaces_are_white(void **state)
         "\"m\"}]," SKY "}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
-        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
         const double mean = picture(text, koksma_integrator_at(i), 40, 64, &error);
         const bool all = flags->followed & KOKSMA__LOBE_DIFFUSE && !flags->is_biased;
@@ -75,7 +75,7 @@ static void closed_balls_add_up_all_bounces(void **state)
         "\"intensity\": 1}]}";
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
-        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         double error;
         const double mean = picture(text, koksma_integrator_at(i), 64, 64, &error), direct = 0.8 / M_PI;
         const double expected = flags->followed & KOKSMA__LOBE_DIFFUSE || flags->indirect ? 5 * direct : direct;
@@ -93,7 +93,7 @@ static void specular_bodies_show_the_sky(void **state)
                                             "\"kind\": \"dielectric\", \"ior\": 1.5"};
     (void)state;
     for (size_t i = 0; koksma_integrator_at(i); i++) {
-        const koksma__integrator_flags *flags = koksma_integrator_at(i)->rules;
+        const koksma__integrator_flags *flags = koksma_integrator_at(i)->flags;
         for (size_t m = 0; m < 2; m++) {
             char text[1024];
             double error;
@@ -140,7 +140,7 @@ static size_t compare(const koksma_scene *scene, const koksma_integrator *in, co
     const koksma__pipeline *best = NULL;
     size_t compared = 0;
     koksma_render_options options = options_of(scene, "jittered", in->name, 4, 16);
-    if (((const koksma__integrator_flags *)in->rules)->open) {
+    if (((const koksma__integrator_flags *)in->flags)->open) {
         options.depth = 0; /* no records, which take long */
     }
     assert_ok(koksma__frame_open(scene, &options, NULL, &frame));

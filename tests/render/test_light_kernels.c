@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/pipelines/batch.h"
+#include "render/shapes/shapes.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -114,8 +114,9 @@ static void rays_from_moving_spheres(void **state)
 {
     (void)state;
     for (int round = 0; round < 200; round++) {
-        koksma__batch_shape list[2] = {{.kind = KOKSMA__SHAPE_SPHERE, .id = 0},
-                                       {.kind = KOKSMA__SHAPE_PLANE, .id = 1}};
+        const koksma__shape plane = {.type = &KOKSMA__SHAPE(plane), .half = {INFINITY, INFINITY}};
+        const koksma__shape ball = {.type = &KOKSMA__SHAPE(sphere), .half = {1, 1}};
+        koksma__batch_shape list[2] = {koksma__batch_shape_of(&ball, 0), koksma__batch_shape_of(&plane, 1)};
         koksma__rays rays;
         koksma__hits hits[4];
         KOKSMA__LANES(int32_t, from);
@@ -125,7 +126,6 @@ static void rays_from_moving_spheres(void **state)
         list[0].inverse_radius = 1 / radius;
         list[1].normal[1] = list[1].axis_u[0] = list[1].axis_v[2] = 1;
         list[1].centre[1] = -5;
-        list[1].half_u = list[1].half_v = list[1].radius2 = INFINITY;
         for (int k = 0; k < 3; k++) {
             list[0].centre[k] = uniform(-1, 1);
             list[0].motion[k] = uniform(-2, 2);
@@ -174,7 +174,8 @@ static void small_spheres_far_away_shade(void **state)
 {
     (void)state;
     for (int round = 0; round < 300; round++) {
-        koksma__batch_shape sphere = {.kind = KOKSMA__SHAPE_SPHERE, .id = 7, .material = -1};
+        const koksma__shape unit = {.type = &KOKSMA__SHAPE(sphere), .half = {1, 1}, .material = -1};
+        koksma__batch_shape sphere = koksma__batch_shape_of(&unit, 7);
         koksma__hits hits = {0};
         koksma__shadows shadows[4];
         KOKSMA__LANES(int32_t, aimed);

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "core/random.h"
-#include "render/pipelines/batch.h"
+#include "core/vector.h"
+#include "render/shapes/shapes.h"
 #include "scene/scene.h"
 #include "test.h"
 
@@ -37,35 +38,25 @@ static void unit_vector(float v[3])
     }
 }
 
-static koksma__batch_shape random_shape(int kind, int material)
+static koksma__batch_shape random_shape(int index)
 {
-    koksma__batch_shape s = {.kind = kind, .id = material, .material = material};
-    for (int k = 0; k < 3; k++) {
-        s.centre[k] = (float)uniform(-2, 2);
-    }
-    unit_vector(s.normal);
-    float other[3];
+    static const koksma__shape_type *const types[] = {&KOKSMA__SHAPE(plane), &KOKSMA__SHAPE(rectangle),
+                                                      &KOKSMA__SHAPE(disk), &KOKSMA__SHAPE(sphere)};
+    koksma__shape s = {.type = types[index % 4], .material = index};
+    float normal[3], other[3];
+    unit_vector(normal);
     unit_vector(other);
-    double u[3] = {(double)(s.normal[1] * other[2] - s.normal[2] * other[1]),
-                   (double)(s.normal[2] * other[0] - s.normal[0] * other[2]),
-                   (double)(s.normal[0] * other[1] - s.normal[1] * other[0])};
-    const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
     for (int k = 0; k < 3; k++) {
-        s.axis_u[k] = (float)(u[k] / length);
+        s.centre[k] = uniform(-2, 2);
+        s.normal[k] = (double)normal[k];
+        s.axis_v[k] = (double)other[k];
     }
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        s.axis_v[k] = s.normal[a] * s.axis_u[b] - s.normal[b] * s.axis_u[a];
-    }
-    const double radius = uniform(0.3, 1.2);
-    s.half_u = kind == KOKSMA__SHAPE_PLANE ? INFINITY : (float)radius;
-    s.half_v = kind == KOKSMA__SHAPE_PLANE ? INFINITY : (float)uniform(0.3, 1.2);
-    if (kind == KOKSMA__SHAPE_DISK || kind == KOKSMA__SHAPE_SPHERE) {
-        s.half_v = s.half_u;
-    }
-    s.radius2 = kind == KOKSMA__SHAPE_DISK || kind == KOKSMA__SHAPE_SPHERE ? s.half_u * s.half_u : INFINITY;
-    s.inverse_radius = 1 / s.half_u;
-    return s;
+    koksma__cross(s.axis_v, s.normal, s.axis_u);
+    koksma__normalise(s.axis_u);
+    koksma__cross(s.normal, s.axis_u, s.axis_v);
+    s.half[0] = index % 4 ? uniform(0.3, 1.2) : (double)INFINITY;
+    s.half[1] = index % 4 == 1 ? uniform(0.3, 1.2) : s.half[0];
+    return koksma__batch_shape_of(&s, index);
 }
 
 static void random_rays(koksma__rays *r)
@@ -96,12 +87,13 @@ static double meet(const koksma__batch_shape *s, double grown, const double o[3]
                    double low, double high)
 {
     const double e[3] = {o[0] - (double)s->centre[0], o[1] - (double)s->centre[1], o[2] - (double)s->centre[2]};
-    if (s->kind != KOKSMA__SHAPE_SPHERE) {
+    if (s->is_flat) {
         const double t = -dot(e, s->normal) / dot(d, s->normal);
         const double q[3] = {e[0] + t * d[0], e[1] + t * d[1], e[2] + t * d[2]};
         const double u = dot(q, s->axis_u), v = dot(q, s->axis_v);
         const bool inside = fabs(u) <= grown * (double)s->half_u && fabs(v) <= grown * (double)s->half_v &&
-                            u * u + v * v <= grown * grown * (double)s->radius2;
+                            (koksma__shape_types[s->kind] != &KOKSMA__SHAPE(disk) ||
+                             u * u + v * v <= grown * grown * (double)s->radius2);
         return !on && inside && t > low && t < high ? t : (double)INFINITY;
     }
     const double a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], b = e[0] * d[0] + e[1] * d[1] + e[2] * d[2];
@@ -159,7 +151,7 @@ static void make_world(world *w, uint64_t round)
     memset(w, 0, sizeof *w);
     counter = round << 20;
     for (int k = 0; k < 5; k++) {
-        w->list[k] = random_shape(k % 4, k);
+        w->list[k] = random_shape(k);
     }
     w->shapes = (koksma__batch_shapes){5, w->list};
     random_rays(&w->rays);

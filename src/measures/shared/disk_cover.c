@@ -52,7 +52,7 @@ typedef struct neighbour {
     size_t index;
 } neighbour;
 
-/* What a block works with: the neighbours, with room to sort them. */
+/* The scratch memory of a block: the neighbours, and space to sort them. */
 typedef struct desk {
     neighbour *found, *sorted;
     size_t *starts, n_pairs; /* n_pairs: tried so far */

@@ -127,7 +127,7 @@ static bool promising(const pencil *p)
     return false;
 }
 
-/* By place; at one place those that make the deviation larger first. */
+/* By position t; at equal positions the events that increase the deviation come first. */
 static int compare_closed(const void *a, const void *b)
 {
     const event *p = a, *q = b;

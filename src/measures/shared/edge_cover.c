@@ -116,7 +116,8 @@ static size_t halve(const cover *v, size_t count, double lower, cut *to)
     return kept;
 }
 
-/* Rounds of cutting, until the deadline or until nothing is left that is wide. */
+/* Halves, in rounds, the intervals of directions that may hold a larger value, until none is left, the deadline has
+   passed, or they are too many or too narrow. */
 static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *best, double *upper)
 {
     size_t count = FIRST_CUTS;

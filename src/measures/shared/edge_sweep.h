@@ -15,8 +15,8 @@ typedef struct koksma__chord {
 typedef struct koksma__domain {
     /* the mass where a x + b y <= a p[0] + b p[1] */
     double (*area_below_through)(double a, double b, const double p[2]);
-    /* the chords that p bisects: there the mass on a side is stationary when a line turns about p; at least one,
-       and in a corner the sides there */
+    /* the chords whose midpoint is p: when a line turns about p, the mass on one side of it is stationary there; at
+       least one; at a corner its two sides */
     void (*chords)(const double p[2], koksma__chord chords[KOKSMA__MAX_CHORDS]);
     double radius; /* of a circle about the domain */
 } koksma__domain;

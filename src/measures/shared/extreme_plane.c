@@ -181,7 +181,7 @@ static double budget_of(const plane *p, size_t a)
                                                 : SWEEP_COST * left * points * log2((double)p->n + 2);
 }
 
-/* What is too hard to bound. */
+/* Finds the exact maximum of a block of strips by a sweep, where bounds would take longer. */
 static koksma_status sweep_block(const plane *p, size_t a, searcher *s)
 {
     koksma__sweep_best best = {s->best.value, s->best.strip.a, s->best.strip.b, s->best.closed};

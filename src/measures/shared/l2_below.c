@@ -16,7 +16,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 
-#ifdef __SIZEOF_INT128__ /* what else l2_sort.c does without */
+#ifdef __SIZEOF_INT128__ /* without 128-bit integers l2_sort.c sums over all pairs */
 
 enum { MAX_BITS = 8, PARTS = 1 << MAX_BITS, LOW_BITS = 26, CHUNK = 1 << 15 };
 
@@ -37,7 +37,7 @@ typedef struct total {
 
 typedef struct job {
     size_t n, n_chunks;
-    int bits, rest; /* of the first digit, and below it */
+    int bits, rest; /* bits of the first digit, and of those below it */
     point *points, *spare;
     node (*starts)[PARTS]; /* by chunk: what has gone to each part; then what had gone before */
     total *totals;         /* by chunk, then by part */

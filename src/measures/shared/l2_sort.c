@@ -45,7 +45,7 @@ typedef struct factor {
     int64_t high, low;
 } factor;
 
-/* A sum of products with factors: (high 2^LOW_BITS + low) times the unit of the products. */
+/* An exact sum of products: (high 2^LOW_BITS + low) in units of the last bit of a product. */
 typedef struct products {
     wide high, low;
 } products;

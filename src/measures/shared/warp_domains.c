@@ -106,7 +106,7 @@ static double below_in_triangle(double a, double b, const double p[2])
     for (int c = 0; c < m; c++) {
         area += polygon[c][0] * polygon[(c + 1) % m][1] - polygon[c][1] * polygon[(c + 1) % m][0];
     }
-    return area; /* half of it, over 1/2 */
+    return area; /* the polygon's area over that of the triangle, 1/2 */
 }
 
 /* With barycentric shares b and c at the far corners of two edges from a corner, p is the middle of the points at 2b

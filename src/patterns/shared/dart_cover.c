@@ -128,7 +128,8 @@ void koksma__disks_fini(koksma__disks *s)
     *s = (koksma__disks){0};
 }
 
-/* Where a cell is on one axis: the tiles of the row, and its number in them, which is outside in borders. */
+/* The tiles that hold a cell along one axis, and its index in each of them; in a tile's border the index lies
+   outside the tile. */
 typedef struct axis {
     int count, at[2 * BORDER + 1];
     uint32_t tile[2 * BORDER + 1];

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Dart throwing on the 2D torus that knows where there is still room. The law is that of throwing uniform darts and
- * keeping those no closer than d to the kept ones: darts are thrown at a shrinking cover of the room, made of squares
- * of equal size, so a dart that lands in the room is uniform there. The cover is the flat quadtree of Ebeida,
- * Mitchell, Patney, Davidson & Owens (2012): after each round of darts its squares are cut in four, and those without
- * room left out.
+ * Dart throwing on the 2D torus without wasted darts. The distribution is that of throwing uniform darts and keeping
+ * those at least d from all kept ones. Darts are thrown at a cover of the free area only, made of squares of equal
+ * size, so that a dart that lands in the free area is uniform there. The cover is the flat quadtree of Ebeida,
+ * Mitchell, Patney, Davidson & Owens (2012): after each round of darts each square is cut into four, and squares
+ * without free area are dropped.
  *
- * A grid that fits into a cache is thrown at as a whole. A larger one is cut into tiles that do, and the darts of a
- * round come to each tile as a Poisson process in time, which together are one over the cover. What becomes of a dart
- * depends on the earlier ones near it only, so a tile decides, in order of time, those that are far from its border;
- * those that another tile has a say in, and the later ones near to such, wait for the end of the round and are
- * decided in order of time then. So the law is the same, and most darts find what they need in the cache.
+ * A grid that fits into the cache is one tile. A larger grid is cut into tiles that fit. In each tile the darts of a
+ * round arrive as a Poisson process in time; together these are one Poisson process over the cover. Whether a dart
+ * is kept depends only on earlier darts near it. So a tile decides its darts in order of time, except those near its
+ * border, which may depend on another tile, and later ones near such a dart: these wait for the end of the round and
+ * are then decided in order of time. The distribution is therefore the same, and most darts need only memory that is
+ * in the cache.
  *
  * Places are also kept in 2^-12 of a cell (kernels/dart_cells.h): enough to decide all but the closest cases, which
- * are decided by the doubles. Darts are drawn by hundreds, and at first those that are near points of before are left
- * out, all at once: they would be left out in their turn. What remains is decided one by one. A cover may hold
- * squares without room, since darts that land there are near points; so large squares are asked about the nearest
- * cells only.
+ * are decided by the doubles. Darts are drawn in batches of some hundreds. Those too near to points of earlier
+ * batches are dropped together; the rest is decided one by one. The cover may hold squares without free area, since
+ * a dart there is too near to a point and is dropped; so for large squares only the nearest cells are examined.
  */
 #ifndef KOKSMA_PATTERNS_SHARED_DART_COVER_H
 #define KOKSMA_PATTERNS_SHARED_DART_COVER_H

@@ -38,9 +38,9 @@ koksma_status koksma__lattice_value(koksma__lattice_search *search, double *wind
 
 void koksma__lattice_units(koksma__lattice_search *search);
 
-/* Candidates go up to n/2, as n - z is z mirrored; and, for even n, to the least unit above: the mirror of one below,
-   whose sum has other last bits. It decides for n = 12 and a few others below 30, whose points stay so what they
-   were. */
+/* Candidates z end at n/2, because n - z is the mirror image of z. For even n the smallest unit above n/2 is a
+   candidate too: it mirrors one below, but rounding gives its sum other last bits, which decide for n = 12 and a few
+   others below 30. Leaving it out would change their points. */
 uint64_t koksma__lattice_last(size_t n);
 
 /* The z that adds least: among those that the values leave open, by their sums in order of i, and the smallest if

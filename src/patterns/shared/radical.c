@@ -48,7 +48,7 @@ static void measure(koksma__radical *r, uint32_t base, size_t n, bool mapped)
 /* table[a] = the mirrored low digits of a, as a whole number, times high_scale. */
 static void fill_table(koksma__radical *r)
 {
-    double top = r->high_scale; /* the place of digit 0 */
+    double top = r->high_scale; /* the value of digit 0's position */
     for (int j = 1; j < r->low_digits; j++) {
         top *= r->base;
     }

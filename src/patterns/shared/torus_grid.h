@@ -10,7 +10,7 @@
 typedef struct koksma__torus_grid {
     uint32_t cells;   /* a side */
     uint32_t *head;   /* of each cell: the point put in last, or KOKSMA__NO_POINT */
-    uint32_t *next;   /* of each point: the one put into its cell before */
+    uint32_t *next;   /* of each point: the next older point in its cell, or KOKSMA__NO_POINT */
     const double *xs; /* pairs; borrowed */
 } koksma__torus_grid;
 

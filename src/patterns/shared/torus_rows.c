@@ -70,7 +70,7 @@ void koksma__torus_rows_sort(koksma__torus_rows *r, size_t n, const double *poin
     r->start[cells] = (uint32_t)n;
 }
 
-/* Rows on either side of that of a place which the radius can reach. */
+/* How many rows above and below a point's own row the radius can reach. */
 static long reach_of(const koksma__torus_rows *r, double radius)
 {
     return (long)ceil(radius * r->cells);

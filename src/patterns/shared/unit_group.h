@@ -15,9 +15,10 @@ typedef struct koksma__unit_axis {
     bool turns; /* half-way around it is -1 */
 } koksma__unit_axis;
 
-/* Every unit modulo m, itself or as its negative, is once the product of powers g_k^(x_k), 0 <= x_k < length_k. The
-   first axis is the longest. *cut: it goes half-way around, and g_0^length_0 is the product, but for the sign, of the
-   other axes' half-way points, where they turn. Returns the number of axes. 2 < m < 2^32. */
+/* Finds generators g_k such that each unit u modulo m, or its negative -u, has one representation as a product of
+   powers g_k^(x_k), 0 <= x_k < length_k. The first axis is the longest. *cut: the first axis has half its order as
+   length, because its power g_0^length_0 equals, up to the sign, the product of the other axes' elements of half
+   their orders. Returns the number of axes. 2 < m < 2^32. */
 int koksma__unit_axes(uint64_t m, koksma__unit_axis axes[KOKSMA__MAX_PRIMES], bool *cut);
 
 /* The primes that divide n, upward; returns how many. 0 < n < 2^32. */

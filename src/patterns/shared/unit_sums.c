@@ -5,18 +5,19 @@
  *
  * The i with gcd(i, n) = n/m are r n/m, r a unit modulo m: they make a block for each divisor m > 1 of n. In it the
  * sum depends on z modulo m only, and is a correlation over the group of units modulo m, u and -u being one as
- * B_2(x) = B_2(1 - x). Along all of the group's axes but the first go Fourier transforms; along the first, each line
- * is a correlation with a kernel that is known beforehand: one as long as a power of two is cyclic already, others
- * get zeros behind, and where the axis is cut (unit_group.h) the kernel goes on with the sign that a character has
- * half-way around the other axes. Small blocks are multiplied by their matrix.
+ * B_2(x) = B_2(1 - x). Fourier transforms run along all of the group's axes but the first. Along the first axis each
+ * line is then a correlation with a kernel that is computed beforehand. A line whose length is a power of two is
+ * correlated cyclically; others are padded with zeros. Where the axis is cut (unit_group.h) the kernel continues
+ * with the sign that the character has at the other axes' elements of half their orders. Small blocks are multiplied
+ * by their matrix.
  *
- * Blocks then add up: the sum over the divisors of n, prime by prime, is value[i] += value[p i mod n], as p i has the
- * place of z in the block of m/p.
+ * Blocks then add up: the sum over the divisors of n, prime by prime, is value[i] += value[p i mod n], as p i has
+ * the place of z in the block of m/p.
  *
  * Each block's weights go in less their mean, which adds the same to all z, and takes most of the rounding away.
  * Rounding is taken to be below 256 (1 + log2 m) u |weights| |kernel| / sqrt(count) in 2-norms, u = 2^-53, and 64 u
- * times the norms with the mean / sqrt(count) for its subtraction: 20 to 1,200 times what is found (65 <= n <= 2^21).
- * The root of count is there as errors of a transform spread evenly over its numbers; what Brent, Percival &
+ * times the norms with the mean / sqrt(count) for its subtraction: 20 to 1,200 times what is found (65 <= n <=
+ * 2^21). The root of count is there as errors of a transform spread evenly over its numbers; what Brent, Percival &
  * Zimmermann 2007 prove without it is 10,000 times what is found at 2^20, and would leave thousands of z open at
  * 2^24. What is found is meant to leave a few z, among which sums in a fixed order decide, so that no bit of a
  * lattice hangs on a transform.

@@ -126,7 +126,7 @@ static void change(mask *m, size_t at, bool on)
     }
 }
 
-/* Keeps the pyramid of one kind from now on, and that of the other kind no more. */
+/* From now on updates the pyramid of one kind only. */
 static void maintain_only(mask *m, int kind)
 {
     const int all[2] = {0, m->size - 1};

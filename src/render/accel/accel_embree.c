@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Triangle meshes by Embree 3 or 4 (Wald et al. 2014), together with the analytic shapes: the closest of both, the
- * shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's place and normal are
+ * shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's position and normal are
  * made from its triangle, not from the ray, so that they are as exact as the vertices.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
@@ -49,7 +49,7 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
 
 /* ---- Triangles of placed meshes ----------------------------------------------------------------------------- */
 
-/* What is known of a placement. Vertices are placed, or (of an instance) in the mesh's coordinates. */
+/* A placement, ready for tracing. Its vertices are in world coordinates, but those of an instance in the mesh's. */
 typedef struct part {
     const koksma__mesh *mesh;
     float *placed; /* owned by Embree; NULL: the mesh's own */

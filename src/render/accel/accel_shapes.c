@@ -11,6 +11,7 @@
 #include "core/vector.h"
 #include "render/accel/intersect.h"
 #include "render/lights/lights.h"
+#include "render/shapes/shapes.h"
 
 typedef struct shapes {
     const koksma_scene *scene;
@@ -70,13 +71,13 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
 {
     static const double none[3] = {0, 0, 0};
     const double tiny = 1e-9;
-    bool all = flat->kind != KOKSMA__SHAPE_SPHERE && !scene->moves;
+    bool all = flat->type->is_flat && !scene->moves;
     for (size_t i = 0; all && i < scene->n_shapes; i++) {
         const koksma__shape *s = &scene->shapes[i];
-        all = s == flat ||
-              (s->kind == KOKSMA__SHAPE_SPHERE && depth(flat, sign, s->centre, none, none, s->half[0]) < tiny) ||
-              ((s->kind == KOKSMA__SHAPE_RECTANGLE || s->kind == KOKSMA__SHAPE_DISK) &&
-               depth_of_rectangle(flat, sign, s->centre, s->axis_u, s->axis_v, s->half) < tiny);
+        const double radius = s->type->radius ? s->type->radius(s) : s->half[0];
+        all =
+            s == flat || (s->type->is_flat ? depth_of_rectangle(flat, sign, s->centre, s->axis_u, s->axis_v, s->half)
+                                           : depth(flat, sign, s->centre, none, none, radius)) < tiny;
     }
     for (size_t i = 0; all && i < scene->n_placements; i++) {
         const koksma__placement *p = &scene->placements[i];
@@ -96,25 +97,6 @@ static bool all_on_one_side(const koksma_scene *scene, const koksma__shape *flat
     return all;
 }
 
-static koksma__batch_shape in_floats(const koksma__shape *from, size_t id)
-{
-    koksma__batch_shape s = {.kind = (int)from->kind, .id = (int32_t)id, .material = from->material};
-    for (int k = 0; k < 3; k++) {
-        s.centre[k] = (float)from->centre[k];
-        s.motion[k] = (float)from->motion[k];
-        s.moves |= from->motion[k] != 0;
-        s.normal[k] = (float)from->normal[k];
-        s.axis_u[k] = (float)from->axis_u[k];
-        s.axis_v[k] = (float)from->axis_v[k];
-    }
-    const bool is_round = from->kind == KOKSMA__SHAPE_DISK || from->kind == KOKSMA__SHAPE_SPHERE;
-    s.half_u = (float)from->half[0];
-    s.half_v = (float)from->half[1];
-    s.radius2 = is_round ? (float)(from->half[0] * from->half[0]) : INFINITY;
-    s.inverse_radius = (float)(1 / from->half[0]);
-    return s;
-}
-
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(shapes) + 2 * scene->n_shapes * sizeof(koksma__batch_shape);
@@ -127,7 +109,7 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
     s->occluders = (koksma__batch_shapes){0, s->list + scene->n_shapes};
     for (size_t i = 0; i < scene->n_shapes; i++) {
         const koksma__shape *shape = &scene->shapes[i];
-        s->list[i] = in_floats(shape, i);
+        s->list[i] = koksma__batch_shape_of(shape, (int32_t)i);
         if (!all_on_one_side(scene, shape, 1) && !all_on_one_side(scene, shape, -1)) {
             s->list[scene->n_shapes + s->occluders.n++] = s->list[i];
         }

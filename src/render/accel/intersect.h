@@ -12,7 +12,7 @@
 
 typedef struct koksma__geometry {
     void *made;
-    const koksma__batch_shapes *shapes; /* all that there is; NULL: there is more than shapes */
+    const koksma__batch_shapes *shapes; /* the analytic shapes, if the scene has no meshes; else NULL */
     /* The closest hits of n rays; the number of lanes with one. from: the primitive that each ray starts on (-1:
        none), or NULL for rays that start nowhere. */
     int (*closest)(const struct koksma__geometry *geometry, const koksma__rays *rays, const int32_t *from, int n,

@@ -28,7 +28,7 @@ struct koksma__filter_table {
     double scale;               /* 1 / integral of f */
     double cdf[CELLS + 1];      /* of |f| */
     double positive[CELLS + 1]; /* the same of max(f, 0) */
-    float weights[CELLS];       /* of a place in each cell, drawn from |f| */
+    float weights[CELLS];       /* of a position in each cell, drawn from |f| */
 };
 
 /* Sums before each cell to shares of the last one. */
@@ -85,7 +85,7 @@ bool koksma__filter_is_signed(const koksma__filter_table *t)
     return t->is_signed;
 }
 
-/* The place that has u of the density below it, and its cell. */
+/* The position that has u of the density below it, and its cell. */
 static float invert(const koksma__filter_table *t, const double *cdf, float u, int *cell)
 {
     int low = 0, high = CELLS;

@@ -15,7 +15,7 @@ void koksma__filter_close(koksma__filter_table *table);
 /* Whether f is negative anywhere. */
 bool koksma__filter_is_signed(const koksma__filter_table *table);
 
-/* u in [0,1) to a place x in [-radius, radius] with density in proportion to the cell's mean of |f|; the weight is
+/* u in [0,1) to a position x in [-radius, radius] with density in proportion to the cell's mean of |f|; the weight is
    the cell's mean of f over that of |f|, scaled so that it is 1 everywhere where f has one sign and that its mean is
    1. What is filtered with is f in 1024 steps, each the mean over a cell. */
 float koksma__filter_sample(const koksma__filter_table *table, float u, float *weight);
@@ -27,7 +27,7 @@ float koksma__filter_sample_positive(const koksma__filter_table *table, float u)
    1 + (w[i] - mean) n / (n - 1), of mean 1. Weights that are all 1 stay so. */
 void koksma__filter_balance(float *w, size_t n);
 
-/* f(x), scaled to integrate to 1, for -radius <= x < radius: a place on the edge between two pixels is in one of
+/* f(x), scaled to integrate to 1, for -radius <= x < radius: a position on the edge between two pixels is in one of
  * them. */
 float koksma__filter_value(const koksma__filter_table *table, float x);
 

@@ -17,7 +17,7 @@
  *
  * An environment has no centre: rays see it, and no surface has light from it; that is what ambient light stands for.
  *
- * Source: Phong 1975; Shirley 1991. Nothing in it is random but the place in the pixel, on the lens and in time.
+ * Source: Phong 1975; Shirley 1991. Nothing in it is random but the position in the pixel, on the lens and in time.
  */
 static const koksma__integrator_flags utah = {.ambient = true};
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * irradiance-cache: distribution ray tracing in which the light between diffuse surfaces is not the scene's ambient
- * but interpolated from places where it was computed (Ward, Rubinstein & Clear 1988). A record is the irradiance E at
- * a place, from RAYS paths over the hemisphere, and R, the harmonic mean of the distances that they go. It may be
- * used at p with normal n when 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i)  <  ACCURACY, and E(p) is the mean of such
- * records by w. R is kept between what LEAST and MOST pixels show at the place.
+ * but interpolated from positions where it was computed (Ward, Rubinstein & Clear 1988). A record is the irradiance
+ * E at a position, from RAYS paths over the hemisphere, and R, the harmonic mean of the distances that they go. It
+ * may be used at p with normal n when 1/w = |p - p_i| / R_i + sqrt(1 - n.n_i)  <  ACCURACY, and E(p) is the mean of
+ * such records by w. R is kept between what LEAST and MOST pixels show at the position.
  *
- * Records are made before the picture, on ever finer grids of pixels: those places of a grid that no record covers
- * are computed by all threads, and entered one after the other, so that threads change nothing. A place of the
- * picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
+ * Records are made before the picture, on ever finer grids of pixels: those positions of a grid that no record
+ * covers are computed by all threads, and entered one after the other, so that threads change nothing. A position of
+ * the picture that no record covers (in a mirror, say) is computed for itself. Biased by the interpolation, in open
  * scenes by as much as a third of the indirect light (at 192 x 144 pixels). Light that mirrors or glass throw from a
- * light on a diffuse surface is left out: the few rays of a record that find it would make one place far too
+ * light on a diffuse surface is left out: the few rays of a record that find it would make one position far too
  * bright and others dark. A depth of 0 has no records, for there is no light between surfaces.
  */
 #include "render/integrators/irradiance_cache.h"
@@ -82,7 +82,7 @@ static float distance(const record *r, const float p[3], const float n[3])
 {
     const float d[3] = {p[0] - r->p[0], p[1] - r->p[1], p[2] - r->p[2]};
     const float cosine = koksma__dot3(n, r->n);
-    /* A record in front of the place sees other things (Ward's test). */
+    /* A record in front of the position sees other things (Ward's test). */
     const float mean[3] = {n[0] + r->n[0], n[1] + r->n[1], n[2] + r->n[2]};
     if (koksma__dot3(d, mean) < -0.1f * r->reach) {
         return INFINITY;
@@ -110,8 +110,8 @@ static void look_in(const cache *c, int level, const int64_t cell[3], const floa
     }
 }
 
-/* False when no record covers the place. A cell is twice as wide as its records reach, so that those which do lie in
-   the place's own cell or in the nearer neighbour along each axis. */
+/* False when no record covers the position. A cell is twice as wide as its records reach, so that those which do lie
+   in the position's own cell or in the nearer neighbour along each axis. */
 static bool look_up(const cache *c, const float p[3], const float n[3], float out[3])
 {
     float sum[4] = {0, 0, 0, 0};
@@ -196,7 +196,7 @@ static koksma_status open_scratch(const cache *c, record_scratch *d)
     return status;
 }
 
-/* E / pi at (p, n) on a primitive, and R. key: of the place's random numbers. */
+/* E / pi at (p, n) on a primitive, and R. key: of the position's random numbers. */
 static koksma_status compute(const cache *c, record_scratch *d, uint64_t key, const koksma__surface *s, float time,
                              record *out)
 {
@@ -269,7 +269,7 @@ typedef struct grid {
     float time;
 } grid;
 
-/* The diffuse place behind a pixel's middle, through a pinhole; false for none. */
+/* The diffuse position behind a pixel's middle, through a pinhole; false for none. */
 static bool look(const cache *c, int x, int y, float time, koksma__surface *s, float *far)
 {
     const koksma__frame *f = &c->paths;

@@ -8,7 +8,7 @@
 static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
 {
     (void)name;
-    return koksma__flat_light_parse(f, scene, light, M_PI * light->half[0] * light->half[0], KOKSMA__SHAPE_DISK);
+    return koksma__flat_light_parse(f, scene, light, M_PI * light->half[0] * light->half[0], &KOKSMA__SHAPE(disk));
 }
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)

@@ -267,7 +267,7 @@ static void radiance(const koksma__shading_light *light, const float w[3], float
 static const koksma__parameter parameters[] = {
     {"visible", KOKSMA__FLAG, .optional = true, .fallback = 1, .at = offsetof(koksma__light, visible)}, {0}};
 
-/* It has no centre; ambient light stands for it where only centres count. */
+/* It has no centre(): the integrators whitted and utah, which take lights as points, use ambient light instead. */
 const koksma__light_kind koksma__light_environment = {
     .kind = {.name = "environment",
              .title = "light from all directions that hit nothing, the same or an image",

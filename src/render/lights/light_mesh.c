@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * mesh: a Lambert emitter that is a placed mesh, made by "emission" of a shape. A triangle is chosen in proportion to
- * its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that positions are uniform
- * over the whole area. A shadow ray ends a little before the triangle, 2^-20 of its largest coordinate, by which
- * batch_triangles.c also starts: rounding would else let it meet the light that it goes to.
+ * mesh: a Lambert emitter that is a placed mesh, made by "emission" of a shape. A triangle is chosen in proportion
+ * to its area (a binary search in the sums, O(log n)), then a position on it (Turk 1990), so that positions are
+ * uniform over the whole area. A shadow ray ends before the triangle by 2^-20 of its largest coordinate (rays that
+ * leave a triangle start as far off it, batch_triangles.c); otherwise rounding could make the ray hit the light that
+ * it is aimed at.
  */
 #include <stdlib.h>
 

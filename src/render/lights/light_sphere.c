@@ -9,7 +9,7 @@
 static koksma_status parse(const char *name, const field *f, koksma_scene *scene, koksma__light *light)
 {
     (void)name;
-    return light->visible ? koksma__light_add_surface(f, scene, light, KOKSMA__SHAPE_SPHERE) : KOKSMA_OK;
+    return light->visible ? koksma__light_add_surface(f, scene, light, &KOKSMA__SHAPE(sphere)) : KOKSMA_OK;
 }
 
 static koksma_status open_light(const koksma_scene *scene, const koksma__light *from, koksma__shading_light *light)

@@ -5,7 +5,7 @@
  * and its density. Densities are over solid angle as seen from the point; a light without extent (point, directional)
  * has density 0 and counts in full.
  *
- * tests/unit/test_light_kinds.c checks every line of the table: samples match the density, the power is that of the
+ * tests/render/test_light_kinds.c checks every line of the table: samples match the density, the power is that of the
  * emitted light, and all ways of choosing among lights give the same pictures.
  */
 #ifndef KOKSMA_RENDER_LIGHTS_LIGHTS_H

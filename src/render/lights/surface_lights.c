@@ -57,26 +57,20 @@ static koksma_status parse_aim(const field *f, bool has_target, double towards[3
 }
 
 koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, const koksma__light *light,
-                                        koksma__shape_kind kind)
+                                        const koksma__shape_type *type)
 {
-    koksma__shape *shape = NULL;
-    const koksma_status status = koksma__scene_add_shape(scene, &shape);
-    if (status) {
-        return koksma__json_fail_in(f, status);
-    }
-    shape->kind = kind;
-    memcpy(shape->centre, light->centre, sizeof shape->centre);
-    memcpy(shape->normal, light->normal, sizeof shape->normal);
-    memcpy(shape->axis_u, light->axis_u, sizeof shape->axis_u);
-    memcpy(shape->axis_v, light->axis_v, sizeof shape->axis_v);
-    memcpy(shape->half, light->half, sizeof shape->half);
-    shape->material = -1;
-    shape->light = (int)(light - scene->lights);
-    return KOKSMA_OK;
+    koksma__shape shape = {.type = type, .material = -1, .light = (int)(light - scene->lights)}, *added;
+    memcpy(shape.centre, light->centre, sizeof shape.centre);
+    memcpy(shape.normal, light->normal, sizeof shape.normal);
+    memcpy(shape.axis_u, light->axis_u, sizeof shape.axis_u);
+    memcpy(shape.axis_v, light->axis_v, sizeof shape.axis_v);
+    memcpy(shape.half, light->half, sizeof shape.half);
+    const koksma_status status = koksma__scene_add_shape(scene, &shape, &added);
+    return status ? koksma__json_fail_in(f, status) : KOKSMA_OK;
 }
 
 koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
-                                       koksma__shape_kind shape)
+                                       const koksma__shape_type *shape)
 {
     const bool has_target = koksma__json_has(f, "facing");
     double towards[3] = {0};

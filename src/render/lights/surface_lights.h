@@ -4,6 +4,7 @@
 #define KOKSMA_RENDER_LIGHTS_SURFACE_LIGHTS_H
 
 #include "render/lights/lights.h"
+#include "render/shapes/shapes.h"
 #include "render/vector3.h"
 
 /* Further than anything in a scene. */
@@ -13,13 +14,13 @@
 #define KOKSMA__FLAT_KEYS ((const char *const[]){"normal", "facing", "up", "radiance", "strength", NULL})
 #define KOKSMA__FLAT_EXAMPLE "\"facing\": [0.1, -0.2, 0.3], \"radiance\": [3, 2, 1]"
 
-/* Reads those, and adds the surface of a visible light. */
+/* Reads the fields KOKSMA__FLAT_KEYS, and adds the surface of a visible light to the scene. */
 koksma_status koksma__flat_light_parse(const field *f, koksma_scene *scene, koksma__light *light, double area,
-                                       koksma__shape_kind shape);
+                                       const koksma__shape_type *shape);
 
 /* The surface of a light that rays see: a shape of this kind with the light's frame. */
 koksma_status koksma__light_add_surface(const field *f, koksma_scene *scene, const koksma__light *light,
-                                        koksma__shape_kind shape);
+                                        const koksma__shape_type *type);
 
 /* Sets area and the power of a Lambert emitter of that area. */
 void koksma__emitter_open(koksma__shading_light *light, double area, float reach);

@@ -20,6 +20,18 @@ const koksma__kind *const koksma__material_kinds[] = {
 #undef MATERIAL
     NULL};
 
+const char *const *koksma__material_keys(const koksma__bsdf *bsdf)
+{
+    static const char *const keys[4][8] = {
+        {"name", "kind"},
+        {"name", "kind", "albedo"},
+        {"name", "kind", "albedos", "period", "phase", "angle_deg"},
+        {"name", "kind", "albedo", "albedos", "period", "phase", "angle_deg"},
+    };
+    return keys[(bsdf->diffuse & (KOKSMA__ALBEDO | KOKSMA__IMAGE) ? 1 : 0) +
+                (bsdf->diffuse & KOKSMA__CHECKER ? 2 : 0)];
+}
+
 double *koksma__material_value(koksma__material *material, const char *name)
 {
     const koksma__parameter *p = material->bsdf->kind.parameters;

@@ -5,7 +5,7 @@
  * are of length 1 and lead away from the surface; n.out > 0. A material's lobes are told apart, because integrators
  * follow some and not others.
  *
- * tests/unit/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
+ * tests/render/test_bsdfs.c checks every line of the table with parameters drawn from the declared ranges: densities
  * integrate to what sampling returns, no energy is gained, reciprocity holds where it is claimed.
  */
 #ifndef KOKSMA_RENDER_MATERIALS_MATERIALS_H
@@ -71,6 +71,10 @@ typedef struct koksma__bsdf {
 /* All kinds in the order of materials.def, then NULL. */
 extern const koksma__bsdf *const koksma__bsdfs[];
 extern const koksma__kind *const koksma__material_kinds[];
+
+/* The fields of scene files that a kind has beside its parameters: those of all materials, and of the diffuse part.
+   Ends at NULL. */
+const char *const *koksma__material_keys(const koksma__bsdf *bsdf);
 
 /* The values of the parameter of this name, which the material's kind has. */
 double *koksma__material_value(koksma__material *material, const char *name);

@@ -29,9 +29,9 @@ typedef struct koksma__rays {
     KOKSMA__LANES(float, time);
 } koksma__rays;
 
-/* The closest hits: place, unit normal towards the ray's origin, whether that is the back (the inside of a sphere,
-   the side that a flat shape's normal leads away from), the surface's own coordinates (flat shapes), and which
-   primitive of the maker's it is, by its number; primitive is -1 where nothing was hit, material there and on
+/* The closest hits: position, unit normal towards the ray's origin, whether that is the back (the inside of a
+   sphere, the side that a flat shape's normal leads away from), the surface's own coordinates (flat shapes), and
+   which primitive of the maker's it is, by its number; primitive is -1 where nothing was hit, material there and on
    lights. time is for shadow rays, where something moves. */
 typedef struct koksma__hits {
     KOKSMA__LANES(float, t);
@@ -59,15 +59,15 @@ typedef struct koksma__shadows {
     const int32_t *aimed;
 } koksma__shadows;
 
-/* Direction of film place (x, y): base + x step_x + y step_y. */
+/* Direction of film position (x, y): base + x step_x + y step_y. */
 typedef struct koksma__batch_camera {
     float eye[3], base[3], step_x[3], step_y[3];
 } koksma__batch_camera;
 
-/* n . p = offset on the plane; half as in koksma__shape, squared radius for a disk. */
+/* half as in koksma__shape; radius2: of a sphere about the centre that holds a shape that isn't flat. */
 typedef struct koksma__batch_shape {
-    int kind; /* koksma__shape_kind */
-    bool moves;
+    int kind; /* index in koksma__shape_types */
+    bool is_flat, moves;
     int32_t id, material;
     float centre[3], motion[3], normal[3], axis_u[3], axis_v[3];
     float half_u, half_v, radius2, inverse_radius;
@@ -97,7 +97,7 @@ typedef struct koksma__batch_material {
     float albedo[2], su, sv, s0, tu, tv, t0;
 } koksma__batch_material;
 
-/* A place on the light: corner + x edge_x + y edge_y, (x, y) in the unit square. */
+/* A position on the light: corner + x edge_x + y edge_y, (x, y) in the unit square. */
 typedef struct koksma__batch_light {
     float corner[3], edge_x[3], edge_y[3], normal[3];
     float power;
@@ -107,7 +107,8 @@ enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
 
 /* Lights for choosing one, in lanes: the estimate is
      fixed + power max(least, n.d / r) max(least, cosine at the light) / r^2,  0 when all of it is out of sight,
-   with d from p to the centre and r = max(|d|, reach). Those far away have their way in (nx, ny, nz) and power 0. */
+   with d from p to the centre and r = max(|d|, reach). Those far away have their direction in (nx, ny, nz) and power
+   0. */
 typedef struct koksma__batch_lights {
     int n, whole; /* of them; up to whole lanes, the rest being dark */
     KOKSMA__LIGHT_LANES(cx);
@@ -117,7 +118,7 @@ typedef struct koksma__batch_lights {
     KOKSMA__LIGHT_LANES(ny);
     KOKSMA__LIGHT_LANES(nz);
     KOKSMA__LIGHT_LANES(flat);  /* 1: it shines along its normal, 0: all around */
-    KOKSMA__LIGHT_LANES(power); /* of those that have a place */
+    KOKSMA__LIGHT_LANES(power); /* of those that have a position */
     KOKSMA__LIGHT_LANES(reach);
     KOKSMA__LIGHT_LANES(far);   /* irradiance of a directional one on a surface that faces it */
     KOKSMA__LIGHT_LANES(fixed); /* of an environment */
@@ -135,7 +136,7 @@ const koksma__batch_table *koksma__batch(void);
 /* By the name of the instruction set; NULL if this build or machine has none. */
 const koksma__batch_table *koksma__batch_find(const char *isa);
 
-/* KERNEL_NAME for the functions of this table. */
+/* The name of function `name` of this table in the instruction set that is being compiled, as KERNEL_NAME. */
 #define BATCH_NAME(name) KOKSMA__JOIN(koksma__batch_, name, KOKSMA_ISA)
 
 #endif

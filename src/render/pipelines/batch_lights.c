@@ -7,7 +7,7 @@
 
 #include "render/pipelines/batch_kernel.h"
 
-#define LEAST 0.05f /* of a cosine where any place of a light is above the horizon */
+#define LEAST 0.05f /* of a cosine where any position of a light is above the horizon */
 
 float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], const float normal[3], float *out)
 {

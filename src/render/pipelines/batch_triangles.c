@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rays that end or start on triangles. A place is made from the corners, (1 - u - v) a + u b + v c, not from the ray,
- * so that it is as exact as they are.
+ * Rays that end or start on triangles. A position is made from the corners, (1 - u - v) a + u b + v c, not from the
+ * ray, so that it is as exact as they are.
  *
  * A ray that starts on a triangle starts a little off it, on the side where it goes: 2^-20 of the largest coordinate
- * of the triangle, which is 16 units in its last place and more than the error of a place on it. So it meets neither
- * its own triangle nor those that share its edges (the idea is of Waechter & Binder 2019, the measure is not).
+ * of the triangle, which is 16 units in its last place and more than the error of a position on it. So it meets
+ * neither its own triangle nor those that share its edges (the idea is of Waechter & Binder 2019, the measure is
+ * not).
  */
 #include <math.h>
 
@@ -73,10 +74,10 @@ void BATCH_NAME(step_off)(const koksma__landings *restrict l, const float *restr
         for (int k = 0; k < 9; k++) {
             largest = larger(largest, fabsf(l->corners[k][i]) + fabsf(l->shift[k % 3][i]));
         }
-        const float way = nx * dx[i] + ny * dy[i] + nz * dz[i] < 0 ? -OFF * largest : OFF * largest;
+        const float offset = nx * dx[i] + ny * dy[i] + nz * dz[i] < 0 ? -OFF * largest : OFF * largest;
         const int on = l->primitive[i] >= 0;
-        ox[i] = on ? ox[i] + way * nx : ox[i];
-        oy[i] = on ? oy[i] + way * ny : oy[i];
-        oz[i] = on ? oz[i] + way * nz : oz[i];
+        ox[i] = on ? ox[i] + offset * nx : ox[i];
+        oy[i] = on ? oy[i] + offset * ny : oy[i];
+        oz[i] = on ? oz[i] + offset * nz : oz[i];
     }
 }

@@ -13,7 +13,7 @@
 
 typedef struct scratch {
     koksma__sample_scratch draw;
-    float *places; /* one array a light */
+    float *positions; /* one array a light */
     size_t capacity;
     /* The shapes that a group may see, and their numbers; of which group. */
     koksma__batch_shapes shapes;
@@ -40,7 +40,7 @@ static void close_scratch(void *opened)
     scratch *r = opened;
     if (r) {
         koksma__sample_scratch_fini(&r->draw);
-        free(r->places);
+        free(r->positions);
         free(r->list);
         free(r->seen);
         free(r);
@@ -55,10 +55,10 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
         return koksma__fail_memory(sizeof *r);
     }
     r->capacity = capacity;
-    r->places = malloc(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
+    r->positions = malloc(2 * capacity * (frame->lights.n + 1) * sizeof *r->positions);
     koksma_status status = koksma__sample_scratch_init(&r->draw, &frame->sampler);
-    if (!status && !r->places) {
-        status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->places);
+    if (!status && !r->positions) {
+        status = koksma__fail_memory(2 * capacity * (frame->lights.n + 1) * sizeof *r->positions);
     }
     if (!status && frame->frustum_cull) {
         const size_t n = frame->geometry.shapes->n + 1;
@@ -135,7 +135,7 @@ static koksma_status draw_lights(const koksma__frame *f, const koksma__group *gr
     koksma_status status = KOKSMA_OK;
     for (size_t l = 0; !status && l < f->lights.n; l++) {
         status = koksma__group_draw(f, group, KOKSMA__USE_LIGHT + (uint32_t)l, false, &r->draw,
-                                    r->places + 2 * l * r->capacity);
+                                    r->positions + 2 * l * r->capacity);
     }
     return status;
 }
@@ -169,8 +169,8 @@ static void shade_block(const koksma__frame *f, const koksma__rays *rays, const 
     shadows.aimed = NULL; /* no one sees the lights */
     f->batch->albedo(f->materials, hits, n, albedo);
     for (size_t l = 0; l < f->lights.n; l++) {
-        const float *places = r->places + 2 * (l * r->capacity + start);
-        const int lit = f->batch->aim(&f->lights.rectangles[l], hits, places, n, &shadows);
+        const float *positions = r->positions + 2 * (l * r->capacity + start);
+        const int lit = f->batch->aim(&f->lights.rectangles[l], hits, positions, n, &shadows);
         if (lit) {
             values->rays += (uint64_t)(lit - (shadows.light[n - 1] != 0 ? copies : 0));
             f->geometry.occlude(&f->geometry, hits, n, &shadows);
@@ -219,11 +219,13 @@ static koksma_status trace(const koksma__frame *f, void *opened, const koksma__g
     return status;
 }
 
-const koksma__pipeline koksma__pipeline_lambert_lanes = {.name = "lambert-lanes",
-                                                         .preference = 1,
-                                                         .takes = takes,
-                                                         .culls = true,
-                                                         .open = open_scratch,
-                                                         .close = close_scratch,
-                                                         .is_empty = is_empty,
-                                                         .trace = trace};
+const koksma__pipeline koksma__pipeline_lambert_lanes = {
+    .name = "lambert-lanes",
+    .title = "grey Lambert surfaces under rectangles that no ray sees, in lanes",
+    .preference = 1,
+    .takes = takes,
+    .culls = true,
+    .open = open_scratch,
+    .close = close_scratch,
+    .is_empty = is_empty,
+    .trace = trace};

@@ -24,3 +24,13 @@ koksma_status koksma__pipeline_for(koksma__frame *frame, const koksma__pipeline 
                                            frame->options->height, &frame->frustum_cull)
                : KOKSMA_OK;
 }
+
+bool koksma_pipeline_at(size_t i, koksma_entry *out)
+{
+    const koksma__pipeline *p = koksma__pipelines[0];
+    for (size_t k = 0; p && k < i; k++) {
+        p = koksma__pipelines[k + 1];
+    }
+    *out = p ? (koksma_entry){.name = p->name, .title = p->title} : (koksma_entry){0};
+    return p;
+}

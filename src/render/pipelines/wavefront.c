@@ -384,8 +384,10 @@ static bool takes(const koksma__frame *frame)
     return true;
 }
 
-const koksma__pipeline koksma__pipeline_wavefront = {.name = "wavefront",
-                                                     .takes = takes,
-                                                     .open = koksma__wavefront_open,
-                                                     .close = koksma__wavefront_close,
-                                                     .trace = trace_group};
+const koksma__pipeline koksma__pipeline_wavefront = {
+    .name = "wavefront",
+    .title = "every scene and option: blocks of paths, one vertex at a time",
+    .takes = takes,
+    .open = koksma__wavefront_open,
+    .close = koksma__wavefront_close,
+    .trace = trace_group};

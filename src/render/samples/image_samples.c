@@ -88,8 +88,8 @@ static void keep(const double *xs, int dim, int first, bool two, size_t n, const
     }
 }
 
-/* A random order of the set with this key, or *out = NULL where the pattern's own order is kept: that of the places
-   on the film, which say in which pixel a sample is. */
+/* A random order of the set with this key, or *out = NULL where the pattern's own order is kept: that of the
+   positions on the film, which say in which pixel a sample is. */
 static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32_t **out)
 {
     *out = NULL;

@@ -41,9 +41,9 @@ typedef struct koksma__sampler {
     void *made;
     const koksma_run *run; /* asked while a set is made, which may take seconds, by any thread; NULL: never */
     size_t most;           /* samples that a pixel can have */
-    int kept_dim;      /* coordinates of a sample that a room keeps, those of all groups, or of a native pattern */
-    size_t kept_sets;  /* groups; a native pattern is one */
-    size_t kept_slots; /* pixels: a pixel's sets are in slot pixel modulo kept_slots */
+    int kept_dim;          /* coordinates of a sample that the scratch keeps: of all groups, or of a native pattern */
+    size_t kept_sets;      /* groups; a native pattern is one */
+    size_t kept_slots;     /* pixels: a pixel's sets are in slot pixel modulo kept_slots */
     size_t (*count)(const struct koksma__sampler *sampler, uint64_t pixel);
     /* The pairs of a use of a pixel, plus offset; the second number of a one-dimensional use is unused. */
     koksma_status (*draw)(const struct koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],

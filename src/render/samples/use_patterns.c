@@ -174,7 +174,7 @@ static bool is_of_names(char c)
     return (c >= 'a' && c <= 'z') || c == '-' || c == '+';
 }
 
-/* The length of the uses that a part begins with, up to '='; 0: it has none. */
+/* The length of the text before '=', which names uses; 0: the part names none. */
 static size_t length_of_uses(const char *part)
 {
     size_t n = 0;

@@ -8,7 +8,7 @@
 #include "core/status.h"
 #include "render/samples/sampler.h"
 
-/* The position of a number in the list of uses; of all from LIGHT on the last. */
+/* The index of a use's number in the list; the numbers of all lights share the last. */
 #define POSITION(number) ((number) < KOKSMA__USE_LIGHT ? (number) : KOKSMA_N_USES - 1)
 
 static const koksma_use uses_table[] = {

@@ -138,7 +138,7 @@ typedef struct koksma__plan_part {
     char *title;
     char *about, *order;     /* order: the overall order of the patterns, as printed; both may be NULL */
     bool asks;               /* it has tables or questions */
-    size_t discrepancies[2]; /* its blocks: the first, and behind the last */
+    size_t discrepancies[2]; /* indices of its blocks: the first, and one past the last */
     size_t images[2];
     size_t figures[2];
 } koksma__plan_part;

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <koksma/study.h>
+
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
@@ -146,4 +148,14 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
         }
     }
     return KOKSMA_OK;
+}
+
+bool koksma_question_at(size_t i, koksma_entry *out)
+{
+    const koksma__question_kind *k = koksma__question_kinds;
+    while (k->name && i-- > 0) {
+        k++;
+    }
+    *out = (koksma_entry){.name = k->name, .title = k->heading};
+    return k->name;
 }

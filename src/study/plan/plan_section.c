@@ -98,9 +98,9 @@ static koksma_status read_texts(const koksma__json_node *node, const char *key, 
 {
     koksma__json_node list;
     size_t length;
-    void *room = NULL;
-    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
-    out->at = room;
+    void *items = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &items);
+    out->at = items;
     for (; !status && out->n < length; out->n++) {
         const koksma__json_node item = koksma__json_item(&list, out->n);
         const char *text;
@@ -134,9 +134,9 @@ koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key
 {
     koksma__json_node list;
     size_t length;
-    void *room = NULL;
-    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &room);
-    out->at = room;
+    void *items = NULL;
+    koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &items);
+    out->at = items;
     for (; !status && out->n < length; out->n++) {
         const koksma__json_node item = koksma__json_item(&list, out->n);
         status = koksma__json_whole(&item, min, max, &out->at[out->n]);

@@ -274,7 +274,7 @@ static int next_round(const koksma__contest *c, koksma__rank_goal goal, size_t *
     return round;
 }
 
-/* Whether one leads all that were not put off, and some were. */
+/* Whether some patterns were put off, and one of the others is decided to be the best of those that were not. */
 static bool others_are_led(const koksma__contest *c)
 {
     bool led = false, any = false;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What a ranking may conclude. A pair of patterns is judged after each round by the interval of the quotient of their
- * mean errors. The pair is the same when the interval lies within 1/1.02 .. 1.02 (two one-sided tests, Schuirmann
- * 1987), different when it excludes 1, and open else. With half-widths below 1 % every pair is one or the other.
+ * What a ranking may conclude. A pair of patterns is judged after each round by the interval of the quotient of
+ * their mean errors. The pair is the same when the interval lies within 1/1.02 .. 1.02 (two one-sided tests,
+ * Schuirmann 1987), different when it excludes 1, and undecided otherwise. With half-widths below 1 % every pair is
+ * one or the other.
  *
  * All conclusions of a ranking, of all pairs and rounds, hold together with probability 1 - alpha (Bonferroni): with
  * n (n + 1) / 2 pairs and single patterns and 14 rounds, each bound errs with probability
@@ -23,8 +24,8 @@
  * pattern is exact, it is proportional to 1/sqrt k, and half of it is removed: |bias| covers the other half. A
  * reference that is too noisy therefore leaves pairs open.
  *
- * The bounds of the quotient are the zeros of the contrasts A - q B (Fieller 1954): by bisection, and consistent with
- * the decisions. Student's t needs nearly normal means: an image's error is itself a mean over its pixels.
+ * The bounds of the quotient are the zeros of the contrasts A - q B (Fieller 1954): by bisection, and consistent
+ * with the decisions. Student's t needs nearly normal means: an image's error is itself a mean over its pixels.
  */
 #include "study/ranking/ranking_decisions.h"
 
@@ -306,7 +307,7 @@ void koksma__rank_decide(koksma__rank_table *table)
     }
 }
 
-/* Whether nobody that counts for the goal is decided to leave less. */
+/* Whether pattern i may still be the best: no other that counts for the goal is decided to have a smaller error. */
 static bool may_lead(const koksma__rank_table *table, size_t i, koksma__rank_goal goal)
 {
     bool may = true;

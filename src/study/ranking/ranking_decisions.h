@@ -101,7 +101,8 @@ void koksma__rank_decide(koksma__rank_table *table);
    which the pair was decided. Both have made one. */
 koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j);
 
-/* Whether the pair's next round is needed for that; whether nothing is, as it is decided. */
+/* koksma__rank_matters: whether the goal needs another round of the pair. koksma__rank_reached: whether the goal is
+   decided, so that no round is needed. */
 bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal);
 bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The cases in which a question sets measures of points against errors of images: a measure in a number of
- * dimensions, and a scene with its options and samples. Blocks that share an id may share a case: it is one, with
- * the patterns of all of them.
+ * The cases in which a question correlates a measure of points with the error of images. A case is a measure in a
+ * number of dimensions, and a scene with its options and number of samples. Blocks with the same id may contain the
+ * same case; it then has the patterns of all of them.
  */
 #ifndef KOKSMA_STUDY_REPORT_CASES_H
 #define KOKSMA_STUDY_REPORT_CASES_H

@@ -156,7 +156,7 @@ static void say_chosen(koksma__document *d, const koksma__cases *cases, const fi
 static void say_findings(koksma__document *d, const koksma__cases *cases, const findings *f)
 {
     enum { STRIDE = sizeof *f->held_out / sizeof(double) };
-    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "values a whole number of doubles apart");
+    _Static_assert(sizeof *f->held_out % sizeof(double) == 0, "the stride is a whole number of doubles");
     const size_t n = f->n_scenes;
     const koksma__held_out *of = f->held_out;
     const koksma__summary single = koksma__summarize(&of->rho_single, n, STRIDE);

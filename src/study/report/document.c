@@ -171,7 +171,7 @@ static void say(koksma__document *d, const char *format, va_list *arguments)
         char plain[128];
         const size_t run = strcspn(at, "%`*_^");
         size_t n = run < sizeof plain ? run : sizeof plain - 1;
-        while (n < run && (at[n] & 0xc0) == 0x80) { /* no character is cut */
+        while (n < run && (at[n] & 0xc0) == 0x80) { /* do not cut inside a UTF-8 character */
             n--;
         }
         memcpy(plain, at, n);

@@ -28,8 +28,8 @@ bool koksma__doc_is_empty(const koksma__document *d);
 
 /* ---- Words ------------------------------------------------------------------------------------------------- */
 
-/* Appends words to the open heading, paragraph, item or caption. In `format` (not in its arguments) `code`, *strong*,
-   _emphasised_ and ^superscript^ words stand between their marks. It takes %s, %d, %lld, %zu, and %f and %g with a
+/* Appends words to the open heading, paragraph, item or caption. In `format` (not in its arguments) `code`,
+   *strong*, _emphasised_ and ^superscript^ words stand between their marks. It takes %s, %d, %lld, %zu, and %f and %g with a
    precision and '+'; each number comes out as a value beside its text. */
 void koksma__doc_say(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
@@ -78,7 +78,7 @@ typedef struct koksma__column {
 /* A cell with more than a value: what applies is set, the rest NAN, 0 or NULL as koksma__cell_of leaves it. */
 typedef struct koksma__cell_data {
     double value, low, high, sd;
-    size_t sets;         /* behind the value, where rows differ in it */
+    size_t sets;         /* printed after the value where the rows of a table have different numbers */
     const char *text;    /* shown instead of the value: a number as printed */
     size_t note;         /* number of a note below the table, from 1 */
     const char *verdict; /* koksma_study_verdict_name */

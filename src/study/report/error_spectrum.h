@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * How the error of an image is spread over frequencies: the eye forgives what is fine-grained and even, and sees what
- * is coarse. With e = luminance - reference luminance on W x H pixels,
+ * The power spectrum of an image's error. The eye overlooks error of high frequencies and notices that of low ones.
+ * With e = luminance - reference luminance on W x H pixels,
  *
  *     P(u, v) = |sum_xy e(x, y) exp(-2 pi i (u x / W + v y / H))|^2 / (W H),
  *

@@ -19,7 +19,8 @@ void koksma__published_row(koksma__document *d, const koksma__table *table, cons
 /* A number as printed, with its note; a dash where nothing is printed. */
 void koksma__published_cell(koksma__document *d, const koksma__printed *printed, size_t note);
 
-/* A mean of the store, from so many sets (0: not said), with the verdict on the printed one (NULL: none). */
+/* Writes a cell with our mean, the number of sets that it comes from (0: not shown), and the verdict on the
+   published mean (NULL: none). */
 void koksma__published_mean(koksma__document *d, const koksma__summary *mean, size_t sets,
                             const koksma__verdict *verdict);
 

@@ -118,3 +118,13 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     koksma__json_writer_fini(&d.json);
     return status;
 }
+
+bool koksma_report_section_at(size_t i, koksma_entry *out)
+{
+    const bool found = i < sizeof sections / sizeof *sections;
+    *out = (koksma_entry){0};
+    if (found) {
+        *out = (koksma_entry){.name = sections[i].name, .title = sections[i].section->heading};
+    }
+    return found;
+}

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Rankings of measures. The mean over the chosen cases is a sum of cells, in each resample too; two means differ
- * surely where their difference's p from the resamples, by Holm over all pairs of measures, is up to 0.05: all pairs,
- * not only those with the best, as the best is found in the same data. A statement about all scenes is one only where
- * it holds again without each of them: the jackknife's subsets (Efron 1982), used as a check, not for a variance.
+ * Rankings of measures. A measure's mean over the chosen cases is a sum of cells, also in each resample. Two means
+ * differ significantly where the p-value of their difference, from the resamples and adjusted by Holm's method, is
+ * at most 0.05. Holm's method counts all pairs of measures, not only those with the best, because the best is found
+ * in the same data. A statement about all scenes is made only if it holds also without each single scene: these are
+ * the jackknife's subsets (Efron 1982), used as a check, not for a variance.
  */
 #include "study/report/rho_ranking.h"
 #include "stats/bootstrap.h"

@@ -21,8 +21,8 @@ typedef struct koksma__rho_standing {
 } koksma__rho_standing;
 
 typedef struct koksma__rho_ranking {
-    size_t n;                 /* measures that have such cases */
-    size_t n_pairs;           /* of measures that were compared: those with equally many cases and intervals */
+    size_t n;       /* measures that have such cases */
+    size_t n_pairs; /* compared pairs of measures: those whose numbers of cases and of intervals are equal */
     koksma__rho_standing *at; /* by mean, the largest first */
     double *p;                /* n x n: that two means are equal, by Holm over the pairs; NaN: not compared */
 } koksma__rho_ranking;

@@ -158,18 +158,18 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     (void)ask;
 }
 
-static const koksma__adaptive_rules rules = {.open = open,
-                                             .close = koksma__sets_close,
-                                             .draw = koksma__sets_draw,
-                                             .take = koksma__sets_take,
-                                             .decide = decide,
-                                             .plan = plan,
-                                             .result = koksma__sets_result};
+static const koksma__adaptive_method method = {.open = open,
+                                               .close = koksma__sets_close,
+                                               .draw = koksma__sets_draw,
+                                               .take = koksma__sets_take,
+                                               .decide = decide,
+                                               .plan = plan,
+                                               .result = koksma__sets_result};
 
 const koksma_adaptive koksma__adaptive_blocks = {
     .name = "blocks",
     .title = "blocks of the image stop when two halves of their samples agree",
     .cite = "dammertz2010",
     .params = params,
-    .rules = &rules,
+    .functions = &method,
 };

@@ -70,17 +70,17 @@ static koksma_status open(koksma__adaptive *run)
     return status;
 }
 
-static const koksma__adaptive_rules rules = {.open = open,
-                                             .close = koksma__sets_close,
-                                             .draw = koksma__sets_draw,
-                                             .take = koksma__sets_take,
-                                             .decide = decide,
-                                             .result = koksma__sets_result};
+static const koksma__adaptive_method method = {.open = open,
+                                               .close = koksma__sets_close,
+                                               .draw = koksma__sets_draw,
+                                               .take = koksma__sets_take,
+                                               .decide = decide,
+                                               .result = koksma__sets_result};
 
 const koksma_adaptive koksma__adaptive_confidence = {
     .name = "confidence",
     .title = "more until a confidence interval is narrow",
     .cite = "lee1985 purgathofer1987",
     .params = params,
-    .rules = &rules,
+    .functions = &method,
 };

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * contrast: the eye's response to light is a matter of ratios, and so a pixel gets more samples while the contrast of
- * those that it has,
+ * contrast: the eye's response to light is a matter of ratios, and so a pixel gets more samples while the contrast
+ * of those that it has,
  *
  *     C = (max - min) / (max + min),
  *
  * is above 0.4 in red, 0.3 in green or 0.6 in blue (Mitchell 1987); a grey pixel is judged as green. `threshold`
- * scales the three: 1 is Mitchell's. Extremes only grow with more samples, so a pixel that wants more goes on to its
- * limit: two densities in the end, as in the paper, unless the budget is spent first.
+ * scales the three: 1 is Mitchell's. More samples only widen the range, so a pixel that once exceeds the threshold
+ * gets the largest number of samples. Pixels end with one of two sample counts, as in the paper, unless the budget
+ * runs out first.
  */
 #include <math.h>
 
@@ -36,17 +37,17 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     }
 }
 
-static const koksma__adaptive_rules rules = {.open = koksma__sets_open,
-                                             .close = koksma__sets_close,
-                                             .draw = koksma__sets_draw,
-                                             .take = koksma__sets_take,
-                                             .decide = decide,
-                                             .result = koksma__sets_result};
+static const koksma__adaptive_method method = {.open = koksma__sets_open,
+                                               .close = koksma__sets_close,
+                                               .draw = koksma__sets_draw,
+                                               .take = koksma__sets_take,
+                                               .decide = decide,
+                                               .result = koksma__sets_result};
 
 const koksma_adaptive koksma__adaptive_contrast = {
     .name = "contrast",
     .title = "more where the contrast of the samples is high",
     .cite = "mitchell1987",
     .params = params,
-    .rules = &rules,
+    .functions = &method,
 };

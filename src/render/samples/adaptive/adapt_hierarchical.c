@@ -32,16 +32,16 @@ static koksma_status open(koksma__adaptive *run)
     return status;
 }
 
-static const koksma__adaptive_rules rules = {.open = open,
-                                             .close = koksma__strata_close,
-                                             .serve = koksma__strata_serve,
-                                             .draw = koksma__strata_draw,
-                                             .take = koksma__strata_take,
-                                             .decide = koksma__strata_decide,
-                                             .last = koksma__strata_last,
-                                             .probes = koksma__strata_probes,
-                                             .result = koksma__strata_result,
-                                             .show = koksma__strata_show};
+static const koksma__adaptive_method method = {.open = open,
+                                               .close = koksma__strata_close,
+                                               .serve = koksma__strata_serve,
+                                               .draw = koksma__strata_draw,
+                                               .take = koksma__strata_take,
+                                               .decide = koksma__strata_decide,
+                                               .last = koksma__strata_last,
+                                               .probes = koksma__strata_probes,
+                                               .result = koksma__strata_result,
+                                               .show = koksma__strata_show};
 
 const koksma_adaptive koksma__adaptive_hierarchical = {
     .name = "hierarchical",
@@ -49,5 +49,5 @@ const koksma_adaptive koksma__adaptive_hierarchical = {
     .cite = "kajiya1986 shirley1991",
     .params = params,
     .own_samples = true,
-    .rules = &rules,
+    .functions = &method,
 };

@@ -30,18 +30,18 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     }
 }
 
-static const koksma__adaptive_rules rules = {.fresh = true,
-                                             .open = koksma__sets_open,
-                                             .close = koksma__sets_close,
-                                             .draw = koksma__sets_draw,
-                                             .take = koksma__sets_take,
-                                             .decide = decide,
-                                             .result = koksma__sets_result};
+static const koksma__adaptive_method method = {.fresh = true,
+                                               .open = koksma__sets_open,
+                                               .close = koksma__sets_close,
+                                               .draw = koksma__sets_draw,
+                                               .take = koksma__sets_take,
+                                               .decide = decide,
+                                               .result = koksma__sets_result};
 
 const koksma_adaptive koksma__adaptive_relative_error = {
     .name = "relative-error",
     .title = "more until the sets' means agree, relative to the pixel's brightness",
     .cite = "-",
     .params = params,
-    .rules = &rules,
+    .functions = &method,
 };

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * selective: strata are split only in the use that carries the variance of the pixel: what Shirley 1991, section 5.6,
- * leaves open. The uses are paired by random permutations, so each has its own neighbours; and in the use that
- * carries the variance, and only there, neighbours have like values. Geary's contiguity ratio (1954) sees it in the m
- * x m first values v without a further sample: over the P pairs of neighbouring cells (columns and rows) of a use
+ * selective: splits strata only in the use that causes most of the pixel's variance, which Shirley 1991, section
+ * 5.6, proposes and leaves open how to find. The uses are paired by random permutations, so neighbouring strata of
+ * one use are not neighbours in another, and only in the use that causes the variance do neighbours have similar
+ * values. Geary's contiguity ratio (1954) measures this from the first m x m values v, without further samples: over
+ * the P pairs of neighbouring cells (columns and rows) of a use
  *
  *     c = (sum over pairs (v_i - v_j)^2 / P)  /  (2 s^2),     s^2 the variance of all values
  *
  * has mean 1 when the values lie on the cells in a random order, and goes to 0 when the use explains them. The
- * pixel's base use is that with the smallest c, if c is below `below`; else nothing is split. Then as hierarchical,
- * with neighbours and quarters in the base use; in the others a part of a stratum has the cell of the whole, so the
- * parts cover the stratum, which the four parts of aligned subdivision in several uses don't. Candidates: pixel,
- * lens, time, and of the first two vertices the first lights and the lobe.
+ * pixel's base use is that with the smallest c, if c is below `below`; else nothing is split. Then it works as
+ * `hierarchical` does, but compares neighbours and quarters cells in the base use only. In the other uses each part
+ * keeps the whole cell, so that the parts cover the stratum; four parts that quarter several uses at once would
+ * not. Candidates: pixel, lens, time, and of the first two vertices the first lights and the lobe.
  */
 #include "render/samples/adaptive/adaptive_strata.h"
 #include "render/vector3.h"
@@ -112,16 +113,16 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     }
 }
 
-static const koksma__adaptive_rules rules = {.open = open,
-                                             .close = koksma__strata_close,
-                                             .serve = koksma__strata_serve,
-                                             .draw = koksma__strata_draw,
-                                             .take = koksma__strata_take,
-                                             .decide = decide,
-                                             .last = koksma__strata_last,
-                                             .probes = koksma__strata_probes,
-                                             .result = koksma__strata_result,
-                                             .show = koksma__strata_show};
+static const koksma__adaptive_method method = {.open = open,
+                                               .close = koksma__strata_close,
+                                               .serve = koksma__strata_serve,
+                                               .draw = koksma__strata_draw,
+                                               .take = koksma__strata_take,
+                                               .decide = decide,
+                                               .last = koksma__strata_last,
+                                               .probes = koksma__strata_probes,
+                                               .result = koksma__strata_result,
+                                               .show = koksma__strata_show};
 
 const koksma_adaptive koksma__adaptive_selective = {
     .name = "selective",
@@ -129,5 +130,5 @@ const koksma_adaptive koksma__adaptive_selective = {
     .cite = "shirley1991 geary1954",
     .params = params,
     .own_samples = true,
-    .rules = &rules,
+    .functions = &method,
 };

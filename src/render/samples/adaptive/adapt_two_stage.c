@@ -130,20 +130,20 @@ static void last(koksma__adaptive *run)
     }
 }
 
-static const koksma__adaptive_rules rules = {.fresh = true,
-                                             .pilot = true,
-                                             .open = open,
-                                             .close = koksma__sets_close,
-                                             .draw = koksma__sets_draw,
-                                             .take = take,
-                                             .decide = decide,
-                                             .last = last,
-                                             .result = koksma__sets_result};
+static const koksma__adaptive_method method = {.fresh = true,
+                                               .pilot = true,
+                                               .open = open,
+                                               .close = koksma__sets_close,
+                                               .draw = koksma__sets_draw,
+                                               .take = take,
+                                               .decide = decide,
+                                               .last = last,
+                                               .result = koksma__sets_result};
 
 const koksma_adaptive koksma__adaptive_two_stage = {
     .name = "two-stage",
     .title = "first sets decide, fresh ones are counted: no bias",
     .cite = "kirk1991 neyman1934",
     .params = params,
-    .rules = &rules,
+    .functions = &method,
 };

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * One picture in rounds. In a round some pixels are served: their samples are drawn, traced and taken. After it each
- * served pixel asks for more or is done, from its own values; adaptive_choose.c serves all who ask, or,
- * under a budget, those with the highest scores. All of it is a function of pixel and round, never of threads.
+ * served pixel asks for more samples or is done, by its own values. adaptive_choose.c then selects the pixels that
+ * are served next: all that ask, or, under a budget, those with the highest scores. All of it is a function of pixel
+ * and round, never of threads.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
@@ -22,7 +23,7 @@ typedef struct koksma__ask {
 typedef struct koksma__adaptive koksma__adaptive;
 
 /* A method. Functions of a pixel are called by any thread, one at a time for each pixel. */
-typedef struct koksma__adaptive_rules {
+typedef struct koksma__adaptive_method {
     bool fresh; /* sets that are independent of each other, also of patterns that could be continued */
     bool pilot; /* the first sets only decide */
     koksma_status (*open)(koksma__adaptive *run); /* also the asks of the first round, which are all served */
@@ -44,12 +45,12 @@ typedef struct koksma__adaptive_rules {
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]); /* returns the variance */
     /* NULL, or a pixel's strata for a picture. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
-} koksma__adaptive_rules;
+} koksma__adaptive_method;
 
 struct koksma__adaptive {
     const koksma__frame *frame;
     const koksma_adaptive_options *options;
-    const koksma__adaptive_rules *rules;
+    const koksma__adaptive_method *method;
     size_t pixels, scratch;
     uint64_t budget, spent; /* samples; budget UINT64_MAX: none */
     koksma__sampler base;   /* draws sets of the pattern */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Who is served in the next round: all who ask, or under a budget the best of them. */
+/* Selects the pixels that get samples in the next round: all that demand some, or under a budget those where samples
+   reduce the error most. */
 #include <stdlib.h>
 
 #include "core/status.h"

@@ -36,14 +36,14 @@ static size_t count(const koksma__sampler *sampler, uint64_t pixel)
     if (!run->asks[pixel].served) {
         return 0;
     }
-    return run->probing ? run->rules->probes(run, pixel) : run->asks[pixel].now;
+    return run->probing ? run->method->probes(run, pixel) : run->asks[pixel].now;
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room_for, float *pairs)
 {
     const koksma__adaptive *run = sampler->made;
-    return count(sampler, pixel) ? run->rules->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
+    return count(sampler, pixel) ? run->method->draw(run, pixel, use, offset, room_for, pairs) : KOKSMA_OK;
 }
 
 /* ---- One task of a round ---------------------------------------------------------------------------------- */
@@ -75,7 +75,7 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     const size_t channels = (size_t)j->frame.channels;
     koksma__ask ask = {0};
     const float *weights = j->frame.filter ? r->pixels.values.weights + first : NULL;
-    run->rules->take(run, pixel, r->pixels.values.rgb + channels * first, weights);
+    run->method->take(run, pixel, r->pixels.values.rgb + channels * first, weights);
     if (run->probing) {
         return;
     }
@@ -83,7 +83,7 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
         keep_layers(j, &r->pixels.values, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
-    run->rules->decide(run, pixel, r->scratch, &ask);
+    run->method->decide(run, pixel, r->scratch, &ask);
     run->asks[pixel] = ask;
 }
 
@@ -117,8 +117,8 @@ static koksma_status render_task(void *context, size_t task)
     size_t served = 0;
     for (size_t pixel = first; !status && pixel < end; pixel++) {
         served += run->asks[pixel].served;
-        if (run->asks[pixel].served && !run->probing && run->rules->serve) {
-            status = run->rules->serve(run, pixel);
+        if (run->asks[pixel].served && !run->probing && run->method->serve) {
+            status = run->method->serve(run, pixel);
         }
     }
     if (status || !served) {
@@ -166,18 +166,18 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
     koksma_status status = render_round(j, how);
     j->first = false;
     for (; !status; run->report.rounds++) {
-        if (run->rules->plan && !last) {
-            run->rules->plan(run);
+        if (run->method->plan && !last) {
+            run->method->plan(run);
         }
         status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &served);
-        if (status || (!served && (last || !run->rules->last))) {
+        if (status || (!served && (last || !run->method->last))) {
             return status;
         }
         if (!served) {
             last = true;
-            run->rules->last(run);
+            run->method->last(run);
         }
-        if (run->rules->probes && run->options->probes && !last) {
+        if (run->method->probes && run->options->probes && !last) {
             run->probing = true;
             status = render_round(j, how);
             run->probing = false;
@@ -198,7 +198,7 @@ static void write_results(const job *j)
     for (size_t p = 0; p < run->pixels; p++) {
         double rgb[3] = {0, 0, 0}, variance = 0;
         if (run->taken[p]) {
-            variance = run->rules->result(run, p, rgb);
+            variance = run->method->result(run, p, rgb);
         }
         for (size_t k = 0; k < channels; k++) {
             j->layers->image.pixels[channels * p + k] = (float)rgb[k];
@@ -247,13 +247,13 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
     if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
         return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     }
-    const koksma__adaptive_rules *rules = adaptive->method->rules;
-    if (adaptive->probes && !rules->probes) {
+    const koksma__adaptive_method *method = adaptive->method->functions;
+    if (adaptive->probes && !method->probes) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s splits no strata, so that probes have no effect; leave them out",
                             name);
     }
     const koksma_strata *strata = adaptive->strata;
-    if (strata && !rules->show) {
+    if (strata && !method->show) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
     }
     if (strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height)) {
@@ -271,7 +271,7 @@ static koksma_status open_run(koksma__adaptive *run)
     if (!run->asks || !run->taken) {
         return koksma__fail_memory(run->pixels * sizeof *run->asks);
     }
-    const koksma_status status = run->rules->open(run);
+    const koksma_status status = run->method->open(run);
     for (size_t p = 0; !status && p < run->pixels; p++) {
         run->asks[p].served = true;
         run->spent += (uint64_t)run->asks[p].now + run->asks[p].later;
@@ -310,7 +310,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
     if (status) {
         return status;
     }
-    koksma__adaptive run = {.options = adaptive, .rules = adaptive->method->rules, .budget = UINT64_MAX};
+    koksma__adaptive run = {.options = adaptive, .method = adaptive->method->functions, .budget = UINT64_MAX};
     job j = {.run = &run, .layers = out};
     status = koksma__frame_open(scene, options, how, &j.frame);
     if (!status) {
@@ -333,10 +333,10 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         }
         if (!status && adaptive->strata) {
             const koksma_strata *strata = adaptive->strata;
-            status = run.rules->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
-                                     adaptive->strata);
+            status = run.method->show(&run, (size_t)strata->y * (size_t)options->width + (size_t)strata->x,
+                                      adaptive->strata);
         }
-        run.rules->close(&run);
+        run.method->close(&run);
         j.frame.sampler = run.base;
     }
     koksma__frame_close(&j.frame);

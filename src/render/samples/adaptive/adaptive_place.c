@@ -19,7 +19,7 @@
 #include "core/random.h"
 #include "render/samples/adaptive/adaptive_strata.h"
 
-/* A place on the way down: a cell, and the sample's offset in it. */
+/* A position on the way down: a cell, and the sample's offset in it. */
 typedef struct spot {
     uint32_t cell[2];
     double x[2];

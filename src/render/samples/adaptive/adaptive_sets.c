@@ -22,7 +22,7 @@ static bool continues(const koksma__adaptive *run, int u)
 {
     const koksma_render_options *options = run->frame->options;
     const koksma_spec *spec = options->patterns[u].pattern ? &options->patterns[u] : &options->pattern;
-    return !run->rules->fresh && koksma__place_of_use_at(options, u).group < 0 &&
+    return !run->method->fresh && koksma__place_of_use_at(options, u).group < 0 &&
            spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE && spec->pattern->max_dim >= 2 &&
            options->pairing != KOKSMA_PAIRING_NATIVE;
 }
@@ -57,7 +57,7 @@ static koksma_status check_patterns(const koksma__adaptive *run)
         const int dim = place.group >= 0 ? place.dim : 2;
         bool same = false;
         if ((seen && !own) || !koksma__use_is_there(&run->frame->uses, u) || continues(run, u)) {
-            continue; /* the sets of a sequence are different */
+            continue; /* successive sets of a sequence differ anyway */
         }
         seen |= !own;
         if (p->min_dim <= dim && p->max_dim >= dim) {
@@ -96,7 +96,7 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     }
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
-        run->asks[p] = (koksma__ask){.now = n, .later = run->rules->pilot ? (uint32_t)run->frame->options->spp : 0};
+        run->asks[p] = (koksma__ask){.now = n, .later = run->method->pilot ? (uint32_t)run->frame->options->spp : 0};
     }
     return KOKSMA_OK;
 }

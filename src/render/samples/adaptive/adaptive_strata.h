@@ -87,7 +87,7 @@ void koksma__stratum_cell_in(const koksma__strata *s, const koksma__use_cells *b
 /* In which quarter of its base cell the sample of a stratum lies. */
 int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *base, const koksma__stratum *stratum);
 
-/* The place in [0,1)^2 of a stratum's sample in a use. */
+/* The position in [0,1)^2 of a stratum's sample in a use. */
 void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                            const koksma__stratum *stratum, uint32_t stage, float place[2]);
 

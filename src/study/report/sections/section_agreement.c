@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How many of the published means agree with ours: the verdicts of all tables of the study (koksma__table_judge),
-   counted. A table over several numbers of points has a mean a column, others have one a row. */
+/* Counts how many published means agree with ours, by the verdicts of all tables of the study (koksma__table_judge).
+   A table over several numbers of points has one mean in each column, other tables have one in each row. */
 #include <string.h>
 
 #include "study/report/published_tables.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Pictures: of every scene of the image blocks the first trial of each pattern beside the reference, from which the
- * page makes maps of the error and a comparer of any two; then the spectrum of the error and its coherence, averaged
- * over some trials. A picture is the one whose error is in the store: it is rendered again from its key. Nothing is
- * rendered that the study has not come to, since nobody knows how long that would take.
+ * Pictures: for every scene of the image blocks, the reference and the first trial of each pattern, from which the
+ * page makes maps of the error and comparisons of any two; then the spectrum of the error and its coherence,
+ * averaged over some trials. Pictures are not stored: each is rendered again from the key of its row. Only trials
+ * that have a row are rendered, since the time that others would take is unknown.
  */
 #include <math.h>
 #include <stdio.h>

@@ -32,7 +32,8 @@ static bool is_shown(const koksma__report_scope *scope)
 
 /* ---- Tables of one number of points ------------------------------------------------------------------------ */
 
-/* Mean, SD and largest of 100; beside: of the second measure, whose mean alone is on the page. */
+/* Adds the columns mean, SD and largest value of a measure; beside: the mean alone, for a second measure beside the
+   first. */
 static void add_cell_columns(koksma__document *d, const char *measure, const char *group, size_t sets, bool beside)
 {
     char name[KOKSMA_MAX_SPEC + 64], largest[64];

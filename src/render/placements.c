@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Meshes and where they stand (placements) are appended to a scene here, by scene files (shapes/shape_mesh.c) and by
+ * bare model files (src/scene/model_build.c). The lists double when they are full.
+ */
+#include "render/placements.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/lights/lights.h"
+
+enum { MAX_PLACEMENTS = 1 << 16 };
+
+/* One more item of size bytes at the end of a list that grows; NULL when memory runs out. */
+static void *grow(void *list, size_t n, size_t size)
+{
+    const bool full = !(n & (n - 1)); /* at powers of two, and at 0 */
+    return full ? realloc(list, (n ? 2 * n : 1) * size) : list;
+}
+
+koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
+{
+    koksma__mesh *meshes = grow(scene->meshes, scene->n_meshes, sizeof *meshes);
+    if (!meshes) {
+        return koksma__fail_memory(2 * scene->n_meshes * sizeof *meshes);
+    }
+    scene->meshes = meshes;
+    *out = &meshes[scene->n_meshes++];
+    memset(*out, 0, sizeof **out);
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out)
+{
+    if (scene->n_placements == MAX_PLACEMENTS) {
+        return koksma__fail(KOKSMA_MALFORMED, "more than %d meshes and instances", MAX_PLACEMENTS);
+    }
+    koksma__placement *placements = grow(scene->placements, scene->n_placements, sizeof *placements);
+    if (!placements) {
+        return koksma__fail_memory(2 * scene->n_placements * sizeof *placements);
+    }
+    scene->placements = placements;
+    *out = &placements[scene->n_placements++];
+    memset(*out, 0, sizeof **out);
+    (*out)->light = (*out)->material = -1;
+    return KOKSMA_OK;
+}
+
+static bool has_area(const koksma__mesh *mesh, const koksma__placement *p)
+{
+    double area = 0;
+    for (size_t t = 0; t < mesh->n_triangles; t++) {
+        float corners[9];
+        area += koksma__placed_triangle(mesh, p->matrix, t, corners);
+    }
+    return (float)area > 0;
+}
+
+koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, const double radiance[3])
+{
+    koksma__light *light = NULL;
+    if (!has_area(&scene->meshes[p->mesh], p)) {
+        return koksma__fail(KOKSMA_MALFORMED, "a luminous mesh has no area where it stands");
+    }
+    const koksma_status status = koksma__scene_add_light(scene, &light);
+    if (!status) {
+        light->kind = &koksma__light_mesh;
+        light->placement = (int)(p - scene->placements);
+        light->visible = true;
+        memcpy(light->radiance, radiance, sizeof light->radiance);
+        p->light = (int)(light - scene->lights);
+        p->material = -1;
+    }
+    return status;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Appends meshes and their placements to a scene. */
+#ifndef KOKSMA_RENDER_PLACEMENTS_H
+#define KOKSMA_RENDER_PLACEMENTS_H
+
+#include "render/description.h"
+
+/* One more mesh, zeroed; one more placement, zeroed but for material = light = -1. They may move the others.
+   Errors: MALFORMED (too many), MEMORY. */
+koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out);
+koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out);
+
+/* Makes the placement a light. Errors: MALFORMED (too many, or it has no area where it stands). */
+koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *placement, const double radiance[3]);
+
+#endif

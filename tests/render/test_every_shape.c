@@ -1,0 +1,491 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Every line of shapes.def that rays meet, with parameters drawn from the ranges that it declares, against the kind's
+ * equation F(p) in double precision: a shape is where F = 0 and p is not beyond its edge.
+ *
+ *   hits      F = 0 there; and no change of F's sign on the surface lies before them, found by walking along the ray
+ *             in small steps and halving; rays that meet nothing cross nothing
+ *   normals   the gradient of F by central differences, turned towards the ray's origin
+ *   bounds    hits lie within half of flat shapes and within the radius of the others
+ *   shadows   are where F changes its sign between the two ends
+ *   starts    a ray that starts on the shape goes on to the next crossing
+ *   motion    a shape that has moved by t motion is met as one that stands there
+ *
+ * All instruction sets give the same bits, lanes behave alike wherever they stand in a block, and the geometry with
+ * Embree gives what that without it gives. Rays that pass an edge or touch a surface within 1e-3 are left out where the
+ * answer depends on rounding; a test fails if those are many.
+ */
+#include "core/vector.h"
+#include "kinds.h"
+#include "render/accel/intersect.h"
+#include "render/shapes/shapes.h"
+
+enum { TRIALS = 24, STEPS = 2000 };
+
+static const double reach = 8; /* rays start within 3 of the origin, shapes are as small; planes are met later, too */
+
+static koksma_scene *scene_with(const koksma__shape_type *type, uint64_t stream, const char *more)
+{
+    char fields[1024], text[4096];
+    kind_fields(&type->kind, stream, fields, sizeof fields);
+    snprintf(text, sizeof text,
+             "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": [{\"name\": "
+             "\"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"%s\", \"material\": "
+             "\"m\"%s}%s], \"lights\": [{\"kind\": \"point\", \"centre\": [0, 9, 0], \"intensity\": 1}]}",
+             type->kind.name, fields, more);
+    return scene_of(text);
+}
+
+static void make_rays(const koksma__shape *s, uint64_t stream, koksma__rays *r)
+{
+    for (uint64_t i = 0; i < KOKSMA__BLOCK; i++) {
+        float o[3], to[3];
+        draw_unit(stream, 3 * i, o);
+        draw_unit(stream, 3 * i + 1, to);
+        const double far = 3 * draw(stream, 1000 + i), off = draw(stream, 2000 + i);
+        const float length = (float)(0.5 + 2 * draw(stream, 3000 + i));
+        float *const origin[3] = {&r->ox[i], &r->oy[i], &r->oz[i]}, *const d[3] = {&r->dx[i], &r->dy[i], &r->dz[i]};
+        r->time[i] = (float)draw(stream, 4000 + i);
+        float square = 0;
+        for (int k = 0; k < 3; k++) { /* towards a position near the shape */
+            *origin[k] = (float)far * o[k];
+            *d[k] = (float)(s->centre[k] + off * (double)to[k]) - *origin[k];
+            square += *d[k] * *d[k];
+        }
+        for (int k = 0; k < 3; k++) {
+            *d[k] *= length / sqrtf(square);
+        }
+    }
+}
+
+typedef struct line {
+    const koksma__shape *shape; /* at the ray's time, without motion */
+    double o[3], d[3];
+} line;
+
+static line line_of(const koksma__shape *at, const koksma__rays *r, int i)
+{
+    return (line){at,
+                  {(double)r->ox[i], (double)r->oy[i], (double)r->oz[i]},
+                  {(double)r->dx[i], (double)r->dy[i], (double)r->dz[i]}};
+}
+
+static double value(const line *l, double t, double *beyond)
+{
+    const double p[3] = {l->o[0] + t * l->d[0], l->o[1] + t * l->d[1], l->o[2] + t * l->d[2]};
+    return l->shape->type->equation(l->shape, p, beyond);
+}
+
+/* The first t in (low, high) where F changes its sign on the shape, or high; *edge: it is near the shape's edge. */
+static double first_crossing(const line *l, double low, double high, bool *edge)
+{
+    double beyond, before = value(l, low, &beyond);
+    *edge = false;
+    for (int k = 1; k <= STEPS; k++) {
+        double a = low + (high - low) * (k - 1) / STEPS, b = low + (high - low) * k / STEPS;
+        const double after = value(l, b, &beyond);
+        const bool crosses = before * after < 0;
+        for (int halved = 0; crosses && halved < 60; halved++) {
+            const double middle = (a + b) / 2, at = value(l, middle, &beyond);
+            *(before * at > 0 ? &a : &b) = middle;
+        }
+        if (crosses && beyond <= 1e-3) {
+            *edge = beyond > -1e-3;
+            return a;
+        }
+        before = after;
+    }
+    return high;
+}
+
+/* Length 1; false where the gradient is 0. */
+static bool gradient(const koksma__shape *s, const double p[3], double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double up[3] = {p[0], p[1], p[2]}, down[3] = {p[0], p[1], p[2]}, beyond;
+        up[k] += 1e-5;
+        down[k] -= 1e-5;
+        out[k] = (s->type->equation(s, up, &beyond) - s->type->equation(s, down, &beyond)) / 2e-5;
+    }
+    return koksma__normalise(out);
+}
+
+static koksma__shape at_time(const koksma__shape *shape, double time)
+{
+    koksma__shape s = *shape;
+    for (int k = 0; k < 3; k++) {
+        s.centre[k] += time * s.motion[k];
+        s.motion[k] = 0;
+    }
+    return s;
+}
+
+#define NAME(s) (s)->type->kind.name
+
+/* One lane that hits. */
+static void check_hit(const koksma__shape *s, const line *l, const koksma__hits *h, int i)
+{
+    const double p[3] = {(double)h->px[i], (double)h->py[i], (double)h->pz[i]},
+                 length = sqrt(koksma__dot(l->d, l->d));
+    const double n[3] = {(double)h->nx[i], (double)h->ny[i], (double)h->nz[i]}, t = (double)h->t[i];
+    double g[3], q[3], beyond, before;
+    if (t * length > 50) { /* a plane's far parts, where floats are coarse */
+        return;
+    }
+    assert_true(gradient(s, p, g));
+    const double front = koksma__dot(g, l->d) < 0 ? 1 : -1, across = fabs(koksma__dot(g, l->d)) / length;
+    for (int k = 0; k < 3; k++) {
+        q[k] = p[k] + 1e-4 * g[k];
+        if (!(fabs(p[k] - l->o[k] - t * l->d[k]) < 1e-5 * (1 + t * length))) {
+            fail_msg("%s: position %g of the hit isn't on the ray", NAME(s), p[k]);
+        }
+        if (across > 0.01 && !(fabs(n[k] - front * g[k]) < 2e-4 / across)) {
+            fail_msg("%s: normal (%g, %g, %g), the gradient is (%g, %g, %g)", NAME(s), n[0], n[1], n[2], front * g[0],
+                     front * g[1], front * g[2]);
+        }
+    }
+    /* the distance from the surface: F over the length of its gradient */
+    const double off = 1e-4 * s->type->equation(s, p, &beyond) / fabs(s->type->equation(s, q, &before));
+    if (!(fabs(off) < 2e-5 * (1 + t * length)) || beyond > 1e-4) {
+        fail_msg("%s: a hit at (%g, %g, %g) is %g off the surface, %g beyond the edge", NAME(s), p[0], p[1], p[2],
+                 off, beyond);
+    }
+    if (across > 0.01 && (h->back[i] != 0) != (front < 0)) {
+        fail_msg("%s: a hit of the front says back = %d", NAME(s), h->back[i]);
+    }
+    double e[3];
+    koksma__subtract(p, s->centre, e);
+    const double u = koksma__dot(e, s->axis_u), v = koksma__dot(e, s->axis_v);
+    const double radius = s->type->radius ? s->type->radius(s) : s->half[0];
+    if (s->type->is_flat ? fabs(u) > s->half[0] + 1e-4 || fabs(v) > s->half[1] + 1e-4
+                         : sqrt(koksma__dot(e, e)) > radius * (1 + 1e-4)) {
+        fail_msg("%s: a hit at (%g, %g, %g) is out of its bounds", NAME(s), p[0], p[1], p[2]);
+    }
+    const double coordinates[2] = {s->type->takes_checker ? u : 0, s->type->takes_checker ? v : 0};
+    if (!(fabs(coordinates[0] - (double)h->u[i]) < 1e-4 && fabs(coordinates[1] - (double)h->v[i]) < 1e-4)) {
+        fail_msg("%s: coordinates (%g, %g), which are (%g, %g)", NAME(s), (double)h->u[i], (double)h->v[i],
+                 coordinates[0], coordinates[1]);
+    }
+}
+
+typedef struct tally {
+    int rays, hits, unclear;
+} tally;
+
+/* from: NULL, or 0 in lanes that start on the shape. */
+static void check_closest(const koksma__shape *shape, const koksma__rays *r, const int32_t *from,
+                          const koksma__hits *h, tally *sum)
+{
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        const koksma__shape s = at_time(shape, (double)r->time[i]);
+        const line l = line_of(&s, r, i);
+        const double length = sqrt(koksma__dot(l.d, l.d)), high = reach / length;
+        const bool hit = h->primitive[i] == 0, on = from && from[i] == 0;
+        const double low = on ? 1e-3 : 0;
+        bool edge;
+        const double t = first_crossing(&l, low, high, &edge), got = hit ? (double)h->t[i] : (double)INFINITY;
+        sum->rays++;
+        sum->hits += hit;
+        if (hit && !(on && got < 2 * low)) {
+            check_hit(&s, &l, h, i);
+        }
+        /* near an edge, or where two crossings are within a step */
+        if (edge || (hit && got < t - 1e-3) || (t >= high) != !(got < high)) {
+            sum->unclear++;
+        }
+        if (!edge && t < high && got > t + 1e-3) {
+            fail_msg("%s: is crossed at t = %g, the hit is at %g", NAME(shape), t, got);
+        }
+    }
+}
+
+static void hits_are_those_of_the_equation(void **state)
+{
+    (void)state;
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        tally sum = {0};
+        for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
+            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
+            const koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
+            /* alone, and twice in a list: the first of two equal ones is met */
+            const koksma__batch_shape list[2] = {shape, koksma__batch_shape_of(scene->shapes, 1)};
+            koksma__rays rays;
+            koksma__hits one, two;
+            memset(&one, 0xff, sizeof one); /* numbers that are none, where a loop forgets to write */
+            memset(&two, 0xff, sizeof two);
+            make_rays(scene->shapes, 7000 + 100 * kind + trial, &rays);
+            koksma__batch()->closest(&(koksma__batch_shapes){1, &shape}, &rays, NULL, KOKSMA__BLOCK, &one);
+            koksma__batch()->closest(&(koksma__batch_shapes){2, list}, &rays, NULL, KOKSMA__BLOCK, &two);
+            check_closest(scene->shapes, &rays, NULL, &one, &sum);
+            assert_memory_equal(one.primitive, two.primitive, sizeof one.primitive);
+            check_closest(scene->shapes, &rays, NULL, &two, &sum);
+            koksma_scene_close(scene);
+        }
+        if (sum.hits < sum.rays / 10 || sum.unclear > sum.rays / 50) {
+            fail_msg("%s: %d of %d rays hit, %d are unclear", koksma__shape_kinds[kind]->name, sum.hits, sum.rays,
+                     sum.unclear);
+        }
+    }
+}
+
+/* Rays that start where others hit, in any direction. */
+static void starts_are_not_met_again(void **state)
+{
+    (void)state;
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        tally sum = {0};
+        for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
+            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
+            const koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
+            const koksma__batch_shapes list = {1, &shape};
+            koksma__rays rays;
+            koksma__hits first, next;
+            KOKSMA__LANES(int32_t, from);
+            make_rays(scene->shapes, 8000 + 100 * kind + trial, &rays);
+            koksma__batch()->closest(&list, &rays, NULL, KOKSMA__BLOCK, &first);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                float d[3];
+                draw_unit(9000 + kind, 64 * trial + (uint64_t)i, d);
+                const bool hit = first.primitive[i] == 0 && first.t[i] < 20;
+                rays.ox[i] = hit ? first.px[i] : rays.ox[i];
+                rays.oy[i] = hit ? first.py[i] : rays.oy[i];
+                rays.oz[i] = hit ? first.pz[i] : rays.oz[i];
+                rays.dx[i] = d[0];
+                rays.dy[i] = d[1];
+                rays.dz[i] = d[2];
+                from[i] = hit ? 0 : -1;
+            }
+            koksma__batch()->closest(&list, &rays, from, KOKSMA__BLOCK, &next);
+            check_closest(scene->shapes, &rays, from, &next, &sum);
+            koksma_scene_close(scene);
+        }
+        if (sum.unclear > sum.rays / 25) {
+            fail_msg("%s: %d of %d rays are unclear", koksma__shape_kinds[kind]->name, sum.unclear, sum.rays);
+        }
+    }
+}
+
+/* Between a position in space and one beyond the shape; half of them from and to the shape's surface are left out. */
+static void shadows_are_those_of_the_equation(void **state)
+{
+    (void)state;
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        int dark = 0, rays_in_all = 0, unclear = 0;
+        for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
+            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
+            koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
+            KOKSMA__LANES(int32_t, aimed);
+            koksma__rays r;
+            koksma__hits from = {0};
+            koksma__shadows shadows[2] = {{.aimed = NULL}, {.aimed = aimed}};
+            make_rays(scene->shapes, 6000 + 100 * kind + trial, &r);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                const float far = 1 + 2 * (float)draw(6500 + kind, 64 * trial + (uint64_t)i);
+                from.px[i] = r.ox[i];
+                from.py[i] = r.oy[i];
+                from.pz[i] = r.oz[i];
+                from.time[i] = r.time[i];
+                from.primitive[i] = -1;
+                aimed[i] = i % 2 ? 0 : 1; /* this shape as the light's own surface; another */
+                for (int k = 0; k < 2; k++) {
+                    shadows[k].dx[i] = r.dx[i] *= k ? 1 : far;
+                    shadows[k].dy[i] = r.dy[i] *= k ? 1 : far;
+                    shadows[k].dz[i] = r.dz[i] *= k ? 1 : far;
+                    shadows[k].light[i] = 1;
+                }
+            }
+            const koksma__batch_shapes list = {1, &shape};
+            koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[0]);
+            shape.material = -1;
+            koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[1]);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                const koksma__shape s = at_time(scene->shapes, (double)r.time[i]);
+                const line l = line_of(&s, &r, i);
+                bool edge;
+                const double t = first_crossing(&l, 0, 1.01, &edge);
+                rays_in_all++;
+                dark += t < 1;
+                if (edge || t < 1e-3 || (t > 0.99 && t < 1.005) || (t >= 1 && !(shadows[0].light[i] > 0))) {
+                    unclear++;
+                    continue;
+                }
+                const float lit = t < 1 ? 0 : 1;
+                if (shadows[0].light[i] != lit || shadows[1].light[i] != (i % 2 ? 1 : lit)) {
+                    fail_msg("%s: is crossed at t = %g, and leaves %g of the light (%g of its own)", NAME(&s), t,
+                             (double)shadows[0].light[i], (double)shadows[1].light[i]);
+                }
+            }
+            koksma_scene_close(scene);
+        }
+        if (koksma__shape_types[kind]->hit && (dark < rays_in_all / 20 || unclear > rays_in_all / 20)) {
+            fail_msg("%s: %d of %d shadow rays are blocked, %d are unclear", koksma__shape_kinds[kind]->name, dark,
+                     rays_in_all, unclear);
+        }
+    }
+}
+
+/* Lane i of the block as lane 13 + i; and all lanes as one that hits, which takes another loop. */
+static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *rays, const koksma__hits *h)
+{
+    const koksma__batch_shape two[2] = {koksma__batch_shape_of(scene->shapes, 0),
+                                        koksma__batch_shape_of(scene->shapes, 1)};
+    koksma__rays turned;
+    koksma__hits hit;
+    int hitting = 0;
+    while (hitting < KOKSMA__BLOCK - 1 && h->primitive[hitting]) {
+        hitting++;
+    }
+    for (int all = 0; all < 2; all++) {
+        const float *const from[] = {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz, rays->time};
+        float *const to[] = {turned.ox, turned.oy, turned.oz, turned.dx, turned.dy, turned.dz, turned.time};
+        for (int i = 0; i < 7 * KOKSMA__BLOCK; i++) {
+            const int lane = i % KOKSMA__BLOCK;
+            to[i / KOKSMA__BLOCK][lane] = from[i / KOKSMA__BLOCK][all ? hitting : (lane + 13) % KOKSMA__BLOCK];
+        }
+        memset(&hit, 0xff, sizeof hit); /* no numbers, where a loop forgets to write */
+        koksma__batch()->closest(&(koksma__batch_shapes){2, two}, &turned, NULL, KOKSMA__BLOCK, &hit);
+        const float *const got[] = {hit.nx, hit.ny, hit.nz, hit.px, hit.py, hit.pz, hit.u, hit.v};
+        const float *const wanted[] = {h->nx, h->ny, h->nz, h->px, h->py, h->pz, h->u, h->v};
+        for (int i = 0; i < 8 * KOKSMA__BLOCK; i++) {
+            const int lane = i % KOKSMA__BLOCK, k = all ? hitting : (lane + 13) % KOKSMA__BLOCK;
+            assert_int_equal(hit.primitive[lane], h->primitive[k]);
+            assert_int_equal(hit.back[lane], h->back[k]);
+            if (!(fabsf(got[i / KOKSMA__BLOCK][lane] - wanted[i / KOKSMA__BLOCK][k]) <= 1e-5f)) {
+                fail_msg("%s: number %d is %g in one lane and %g in another", NAME(scene->shapes), i / KOKSMA__BLOCK,
+                         (double)wanted[i / KOKSMA__BLOCK][k], (double)got[i / KOKSMA__BLOCK][lane]);
+            }
+        }
+    }
+}
+
+/* Every instruction set, and a lane moved to another lane of the block. */
+static void lanes_are_alike(void **state)
+{
+    (void)state;
+    static const char *const isas[] = {"ref", "baseline", "avx2", "avx512"};
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
+            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial, "");
+            const koksma__batch_shape shape = koksma__batch_shape_of(scene->shapes, 0);
+            const koksma__batch_shapes list = {1, &shape};
+            koksma__rays rays;
+            koksma__hits hits[4];
+            koksma__shadows shadows[4];
+            make_rays(scene->shapes, 5000 + 100 * kind + trial, &rays);
+            memset(hits, 0, sizeof hits);
+            memset(shadows, 0, sizeof shadows);
+            for (int k = 0; k < 4; k++) {
+                const koksma__batch_table *batch = koksma__batch_find(isas[k]);
+                for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                    shadows[k].dx[i] = rays.dz[i];
+                    shadows[k].dy[i] = rays.dx[i];
+                    shadows[k].dz[i] = rays.dy[i];
+                    shadows[k].light[i] = 1;
+                }
+                if (batch) {
+                    memcpy(hits[k].time, rays.time, sizeof rays.time);
+                    batch->closest(&list, &rays, NULL, KOKSMA__BLOCK, &hits[k]);
+                    batch->occlude(&list, &hits[k], KOKSMA__BLOCK, &shadows[k]);
+                    assert_memory_equal(&hits[k], &hits[0], sizeof hits[0]);
+                    assert_memory_equal(&shadows[k], &shadows[0], sizeof shadows[0]);
+                }
+            }
+            check_moved_lanes(scene, &rays, &hits[0]);
+            koksma_scene_close(scene);
+        }
+    }
+}
+
+/* The geometry that Embree makes, with a mesh out of the way; and what a geometry leaves out of shadows (shapes that
+   lie beside all others) is dark nowhere between shapes and lights. */
+static void geometries_agree(void **state)
+{
+    (void)state;
+    static const char *const file = "koksma-test-shape.off";
+    FILE *mesh = fopen(file, "w");
+    assert_non_null(mesh);
+    fputs("OFF\n3 1 0\n900 900 900\n901 900 900\n900 901 900\n3 0 1 2\n", mesh);
+    assert_int_equal(fclose(mesh), 0);
+    const bool embree = koksma_mesh_tracer() != NULL;
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
+            koksma_scene *scene = scene_with(koksma__shape_types[kind], 100 * kind + trial,
+                                             embree ? ", {\"kind\": \"mesh\", \"file\": \"koksma-test-shape.off\", "
+                                                      "\"material\": \"m\"}"
+                                                    : "");
+            koksma__geometry plain, both;
+            koksma__rays rays;
+            koksma__hits a = {0}, b = {0};
+            koksma__shadows shadows[3];
+            assert_ok(koksma__accel_shapes(scene, &plain));
+            assert_ok(embree ? koksma__accel_embree(scene, &both) : koksma__accel_shapes(scene, &both));
+            make_rays(scene->shapes, 4000 + 100 * kind + trial, &rays);
+            plain.closest(&plain, &rays, NULL, KOKSMA__BLOCK, &a);
+            both.closest(&both, &rays, NULL, KOKSMA__BLOCK, &b);
+            assert_memory_equal(a.primitive, b.primitive, sizeof a.primitive);
+            assert_memory_equal(a.t, b.t, sizeof a.t);
+            assert_memory_equal(a.nx, b.nx, sizeof a.nx);
+            assert_memory_equal(a.material, b.material, sizeof a.material);
+            memcpy(a.time, rays.time, sizeof a.time);
+            memset(shadows, 0, sizeof shadows);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) { /* from the shape to the light at (0, 9, 0) */
+                for (int k = 0; k < 3; k++) {
+                    const bool hit = a.primitive[i] == 0 && a.t[i] < 20;
+                    shadows[k].dx[i] = hit ? -a.px[i] : 1;
+                    shadows[k].dy[i] = hit ? 9 - a.py[i] : 0;
+                    shadows[k].dz[i] = hit ? -a.pz[i] : 0;
+                    shadows[k].light[i] = hit;
+                }
+            }
+            plain.occlude(&plain, &a, KOKSMA__BLOCK, &shadows[0]);
+            both.occlude(&both, &a, KOKSMA__BLOCK, &shadows[1]);
+            koksma__batch()->occlude(plain.shapes, &a, KOKSMA__BLOCK, &shadows[2]);
+            assert_memory_equal(shadows[0].light, shadows[2].light, sizeof shadows[0].light);
+            assert_memory_equal(shadows[1].light, shadows[2].light, sizeof shadows[1].light);
+            plain.release(&plain);
+            both.release(&both);
+            koksma_scene_close(scene);
+        }
+    }
+    remove(file);
+}
+
+/* Fields: every kind, compounds too, is read from what it declares and refuses one that it doesn't. */
+static void kinds_refuse_unknown_fields(void **state)
+{
+    (void)state;
+    for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
+        const koksma__shape_type *type = koksma__shape_types[kind];
+        char fields[1024], text[4096];
+        koksma_scene *scene;
+        kind_fields(&type->kind, kind, fields, sizeof fields);
+        for (int wrong = 0; wrong < 2; wrong++) {
+            snprintf(text, sizeof text,
+                     "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"materials\": "
+                     "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\": [{\"kind\": \"%s\", "
+                     "\"material\": \"m\"%s%s}]}",
+                     type->kind.name, fields, wrong ? ", \"colour\": 1" : "");
+            const koksma_status status = koksma__scene_open_text("test.json", text, strlen(text), &scene);
+            if (wrong) {
+                assert_int_equal(status, KOKSMA_MALFORMED);
+                assert_non_null(strstr(koksma_error_text(), "colour"));
+            } else if (type->hit || type->kind.example) {
+                assert_ok(status);
+                koksma_scene_close(scene);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hits_are_those_of_the_equation),
+        cmocka_unit_test(starts_are_not_met_again),
+        cmocka_unit_test(shadows_are_those_of_the_equation),
+        cmocka_unit_test(lanes_are_alike),
+        cmocka_unit_test(geometries_agree),
+        cmocka_unit_test(kinds_refuse_unknown_fields),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
