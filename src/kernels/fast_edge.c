@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "kernels/kernels.h"
+#include "kernels/lanes64.h"
 
 enum { LANES = 16 };
 
@@ -32,22 +33,26 @@ double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double
     return lanes[0];
 }
 
+/* Two vectors of lines at a time, whose coefficients and counts stay in registers. */
 void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
                               const double c[16], double counts[16])
 {
-    double a_l[LANES], b_l[LANES], c_l[LANES], lanes[LANES] = {0};
-    for (int l = 0; l < LANES; l++) {
-        a_l[l] = a[l];
-        b_l[l] = b[l];
-        c_l[l] = c[l];
-    }
-    for (size_t i = 0; i < n; i++) {
-        const double at_x = x[i], at_y = y[i];
-        for (int l = 0; l < LANES; l++) {
-            lanes[l] += a_l[l] * at_x + b_l[l] * at_y <= c_l[l] ? 1.0 : 0.0;
+    for (int first = 0; first < LANES; first += 2 * LANES64) {
+        lanes64_d of[3][2];
+        lanes64_u found[2] = {{0}, {0}};
+        for (int v = 0; v < 2; v++) {
+            of[0][v] = lanes64_load_d(a + first + v * LANES64);
+            of[1][v] = lanes64_load_d(b + first + v * LANES64);
+            of[2][v] = lanes64_load_d(c + first + v * LANES64);
         }
-    }
-    for (int l = 0; l < LANES; l++) {
-        counts[l] = lanes[l];
+        for (size_t i = 0; i < n; i++) {
+            for (int v = 0; v < 2; v++) {
+                found[v] -= (lanes64_u)(of[0][v] * x[i] + of[1][v] * y[i] <= of[2][v]);
+            }
+        }
+        for (int v = 0; v < 2; v++) {
+            const lanes64_d count = lanes64_whole(found[v]);
+            memcpy(counts + first + v * LANES64, &count, sizeof count);
+        }
     }
 }

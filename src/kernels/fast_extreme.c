@@ -2,6 +2,7 @@
 /* Best boxes of 16 strips at once: points outside a strip change nothing but its candidates for sides, which are then
    no worse than true ones. */
 #include <math.h>
+#include <string.h>
 
 #include "kernels/kernels.h"
 
@@ -45,7 +46,8 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
     }
     for (int l = 0; l < LANES; l++) {
         const double value = width_open[l] - inside_open[l] - low_open[l];
-        excess[l] = best[l];
-        deficit[l] = value > best_open[l] ? value : best_open[l];
+        best_open[l] = value > best_open[l] ? value : best_open[l];
     }
+    memcpy(excess, best, sizeof best);
+    memcpy(deficit, best_open, sizeof best_open);
 }

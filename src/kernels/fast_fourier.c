@@ -49,25 +49,26 @@ static void radix4(const stage *s, size_t p)
     const double c2 = w[4 * p * s->step], s2 = -w[4 * p * s->step + 1];
     const double c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
     for (size_t q = 0; q < s->stride; q++) {
-        const size_t from = LANES * (q + s->stride * p), jump = LANES * s->stride * s->quarter;
-        const size_t to = LANES * (q + s->stride * 4 * p), hop = LANES * s->stride;
-        const double *restrict re = s->re + from, *restrict im = s->im + from;
-        double *restrict to_re = s->to_re + to, *restrict to_im = s->to_im + to;
-        for (size_t l = 0; l < LANES; l++) {
-            const double ar = re[l], ai = im[l], br = re[jump + l], bi = im[jump + l];
-            const double cr = re[2 * jump + l], ci = im[2 * jump + l], dr = re[3 * jump + l], di = im[3 * jump + l];
-            const double apc_r = ar + cr, apc_i = ai + ci, amc_r = ar - cr, amc_i = ai - ci;
-            const double bpd_r = br + dr, bpd_i = bi + di, jr = -(bi - di), ji = br - dr; /* i (b - d) */
-            to_re[l] = apc_r + bpd_r;
-            to_im[l] = apc_i + bpd_i;
-            const double x1 = amc_r - jr, y1 = amc_i - ji, x2 = apc_r - bpd_r, y2 = apc_i - bpd_i;
-            const double x3 = amc_r + jr, y3 = amc_i + ji;
-            to_re[hop + l] = c1 * x1 - s1 * y1;
-            to_im[hop + l] = c1 * y1 + s1 * x1;
-            to_re[2 * hop + l] = c2 * x2 - s2 * y2;
-            to_im[2 * hop + l] = c2 * y2 + s2 * x2;
-            to_re[3 * hop + l] = c3 * x3 - s3 * y3;
-            to_im[3 * hop + l] = c3 * y3 + s3 * x3;
+        const size_t from = LANES * (q + s->stride * p), jump = VECTORS * s->stride * s->quarter;
+        const size_t to = LANES * (q + s->stride * 4 * p), hop = VECTORS * s->stride;
+        const loose *re = (const loose *)(s->re + from), *im = (const loose *)(s->im + from);
+        loose *to_re = (loose *)(s->to_re + to), *to_im = (loose *)(s->to_im + to);
+        for (size_t v = 0; v < VECTORS; v++) {
+            const lanes64_d ar = re[v], ai = im[v], br = re[jump + v], bi = im[jump + v];
+            const lanes64_d cr = re[2 * jump + v], ci = im[2 * jump + v], dr = re[3 * jump + v],
+                            di = im[3 * jump + v];
+            const lanes64_d apc_r = ar + cr, apc_i = ai + ci, amc_r = ar - cr, amc_i = ai - ci;
+            const lanes64_d bpd_r = br + dr, bpd_i = bi + di, jr = -(bi - di), ji = br - dr; /* i (b - d) */
+            to_re[v] = apc_r + bpd_r;
+            to_im[v] = apc_i + bpd_i;
+            const lanes64_d x1 = amc_r - jr, y1 = amc_i - ji, x2 = apc_r - bpd_r, y2 = apc_i - bpd_i;
+            const lanes64_d x3 = amc_r + jr, y3 = amc_i + ji;
+            to_re[hop + v] = c1 * x1 - s1 * y1;
+            to_im[hop + v] = c1 * y1 + s1 * x1;
+            to_re[2 * hop + v] = c2 * x2 - s2 * y2;
+            to_im[2 * hop + v] = c2 * y2 + s2 * x2;
+            to_re[3 * hop + v] = c3 * x3 - s3 * y3;
+            to_im[3 * hop + v] = c3 * y3 + s3 * x3;
         }
     }
 }

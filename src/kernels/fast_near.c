@@ -23,7 +23,7 @@ static inline bool any(lanes64_i mask)
 /* The square of the distance to the far end of (at - h, at + h). */
 static inline lanes64_d reach(lanes64_d from, lanes64_d at, lanes64_d h)
 {
-    const lanes64_d t = (lanes64_d)((lanes64_u)(from - at) & (0x7fffffffffffffffu - (lanes64_u){0})) + h;
+    const lanes64_d t = lanes64_abs(from - at) + h;
     return t * t;
 }
 

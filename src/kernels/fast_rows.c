@@ -120,7 +120,7 @@ INLINE void store_columns(size_t count, int dim, const double *doubles, const ui
         lanes64_d v[4];
         for (size_t c = 0; c < (size_t)dim; c++) {
             if (doubles) {
-                memcpy(&v[c], doubles + c * stride + i, sizeof v[c]);
+                v[c] = lanes64_load_d(doubles + c * stride + i);
             } else {
                 half_lanes w;
                 memcpy(&w, words + c * stride + i, sizeof w);
@@ -158,7 +158,9 @@ INLINE void rows_of(size_t count, int dim, const double *doubles, const uint32_t
 void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
                                   double *out)
 {
-    rows_of(count, dim, columns, NULL, stride, stream, out);
+    if (columns) { /* so that the compiler knows which of the two is NULL */
+        rows_of(count, dim, columns, NULL, stride, stream, out);
+    }
 }
 
 void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The sweep of the star discrepancy: the counts after an insertion serve the excess at this x and the deficit at the
-   next. Maxima are kept in lanes; a maximum is the same in any order. */
+   next. Maxima are kept in lanes; a maximum is the same in any order. The partition's steps are convolutions with
+   extremes for sums: each vector of results stays in registers while one list slides along the other. */
 #include <math.h>
+#include <string.h>
 
 #include "kernels/kernels.h"
-
-enum { LANES = 16 };
+#include "kernels/lanes64.h"
 
 void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
                              double best[2], size_t at[2]);
@@ -19,39 +20,25 @@ typedef struct step {
     double best[2];
 } step;
 
-/* Excess of ranks 0 .. n-1 and deficit of ranks 0 .. n. */
-static void maxima(size_t n, const double *restrict y, const double *restrict count, step *s)
+/* Excess of ranks 0 .. n-1 and deficit of ranks 0 .. n. What vectors reach behind is a box of height 1, whose deficit
+   is that of rank n and whose excess is no larger than that of rank n-1. */
+static void maxima(size_t n, const double *y, const double *count, step *s)
 {
-    double excess[LANES], deficit[LANES];
-    for (int l = 0; l < LANES; l++) {
-        excess[l] = deficit[l] = -INFINITY;
+    lanes64_d excess = lanes64_splat_d(-INFINITY), deficit = excess;
+    for (size_t j = 0; j <= n; j += LANES64) {
+        const lanes64_d height = lanes64_load_d(y + j);
+        excess = lanes64_max(lanes64_load_d(count + j + 1) - s->here * height, excess);
+        deficit = lanes64_max(s->next * height - lanes64_load_d(count + j), deficit);
     }
-    size_t j = 0;
-    for (; j + LANES <= n; j += LANES) {
-        for (int l = 0; l < LANES; l++) {
-            const double e = count[j + 1 + (size_t)l] - s->here * y[j + (size_t)l];
-            const double d = s->next * y[j + (size_t)l] - count[j + (size_t)l];
-            excess[l] = e > excess[l] ? e : excess[l];
-            deficit[l] = d > deficit[l] ? d : deficit[l];
-        }
-    }
-    for (; j <= n; j++) {
-        const double e = j < n ? count[j + 1] - s->here * y[j] : -(double)INFINITY, d = s->next * y[j] - count[j];
-        excess[0] = e > excess[0] ? e : excess[0];
-        deficit[0] = d > deficit[0] ? d : deficit[0];
-    }
-    s->best[0] = s->best[1] = -INFINITY;
-    for (int l = 0; l < LANES; l++) {
-        s->best[0] = excess[l] > s->best[0] ? excess[l] : s->best[0];
-        s->best[1] = deficit[l] > s->best[1] ? deficit[l] : s->best[1];
-    }
+    s->best[0] = lanes64_largest(excess);
+    s->best[1] = lanes64_largest(deficit);
 }
 
 void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
                              double best[2], size_t at[2])
 {
     const double scale = (double)n;
-    for (size_t j = 0; j <= n; j++) {
+    for (size_t j = 0; j <= n + 8; j++) {
         count[j] = 0;
     }
     at[0] = at[1] = 0;
@@ -59,7 +46,7 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     best[1] = scale * x[0]; /* nothing before the first point: the whole height */
     for (size_t i = 0; i < n; i++) {
         step s = {.here = scale * x[i], .next = scale * (i + 1 < n ? x[i + 1] : 1)};
-        for (size_t j = (size_t)rank[i] + 1; j <= n; j++) {
+        for (size_t j = (size_t)rank[i] + 1; j <= n + 8; j++) {
             count[j] += 1;
         }
         maxima(n, y, count, &s);
@@ -74,57 +61,94 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     }
 }
 
-void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
-                                double *const out[2])
+enum { WIDTH = 8, VECTORS = WIDTH / LANES64, ROOM = 256 };
+
+/* Up to ROOM sides of the longer list, between WIDTH that change no extreme: 0, and infinity (whose product with 0 is
+   no number, and not below any). The shorter list is that of the kernel's caller. */
+typedef struct convolution {
+    size_t n_short, first, count;
+    const double *shorts[2];
+    double longs[2][ROOM + 2 * WIDTH];
+} convolution;
+
+/* The extremes of short[i] long[j], i + j = c .. c + WIDTH - 1, and those that are already there. */
+static inline void extremes(const convolution *s, size_t c, lanes64_d most[VECTORS], lanes64_d least[VECTORS])
 {
-    const double *restrict high = b[0], *restrict low = b[1];
-    for (size_t c = 0; c < na + nb - 1; c++) {
-        out[0][c] = 0;
-        out[1][c] = 1;
-    }
-    for (size_t i = 0; i < na; i++) {
-        const double h = a[0][i], l = a[1][i];
-        double *restrict most = out[0] + i, *restrict least = out[1] + i;
-        for (size_t j = 0; j < nb; j++) {
-            const double p = h * high[j], q = l * low[j];
-            most[j] = p > most[j] ? p : most[j];
-            least[j] = q < least[j] ? q : least[j];
+    const size_t past = s->first + s->count, begin = c >= past ? c - past + 1 : 0;
+    const size_t end = c + WIDTH - s->first < s->n_short ? c + WIDTH - s->first : s->n_short;
+    for (size_t i = begin; i < end; i++) {
+        const size_t j = c + WIDTH - i - s->first;
+        for (size_t v = 0; v < VECTORS; v++) {
+            most[v] = lanes64_max(s->shorts[0][i] * lanes64_load_d(s->longs[0] + j + v * LANES64), most[v]);
+            least[v] = lanes64_min(s->shorts[1][i] * lanes64_load_d(s->longs[1] + j + v * LANES64), least[v]);
         }
     }
 }
 
+/* Takes the chunk of the longer list from `first`. Returns the number behind its largest i + j. */
+static inline size_t take_chunk(convolution *s, size_t n_long, const double *const longs[2], size_t first)
+{
+    s->first = first;
+    s->count = n_long - first < ROOM ? n_long - first : ROOM;
+    for (int k = 0; k < 2; k++) {
+        for (int l = 0; l < WIDTH; l++) {
+            s->longs[k][l] = s->longs[k][WIDTH + s->count + (size_t)l] = k ? INFINITY : 0;
+        }
+        memcpy(s->longs[k] + WIDTH, longs[k] + first, s->count * sizeof(double));
+    }
+    return first + s->count + s->n_short - 1;
+}
+
+void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
+                                double *const out[2])
+{
+    const size_t n_long = na > nb ? na : nb;
+    const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
+    convolution s = {.n_short = na > nb ? nb : na, .shorts = {shorts[0], shorts[1]}};
+    for (size_t c = 0; c < na + nb - 1 + WIDTH; c++) {
+        out[0][c] = 0;
+        out[1][c] = 1;
+    }
+    for (size_t first = 0; first < n_long; first += ROOM) {
+        const size_t end = take_chunk(&s, n_long, longs, first);
+        for (size_t c = first; c < end; c += WIDTH) {
+            lanes64_d most[VECTORS], least[VECTORS];
+            memcpy(most, out[0] + c, sizeof most);
+            memcpy(least, out[1] + c, sizeof least);
+            extremes(&s, c, most, least);
+            memcpy(out[0] + c, most, sizeof most);
+            memcpy(out[1] + c, least, sizeof least);
+        }
+    }
+}
+
+/* Rounding keeps order, so that the share of all pairs of one sum can be taken from their extremes. */
 void KERNEL_NAME(star_pairs)(size_t na, const double *const a[2], size_t nb, const double *const b[2], double n,
                              double inside, double best[2])
 {
-    enum { WIDTH = 8 };
-    const double *restrict high = b[0], *restrict low = b[1];
-    double deficit[WIDTH], excess[WIDTH], shares[WIDTH];
-    for (int l = 0; l < WIDTH; l++) {
-        deficit[l] = excess[l] = -1;
-        shares[l] = (double)l / n;
-    }
-    for (size_t i = 0; i < na; i++) {
-        const double h = a[0][i], q = a[1][i];
-        size_t j = 0;
-        for (; j + WIDTH <= nb; j += WIDTH) {
-            const double share = (inside + (double)(i + j)) / n;
-            for (int l = 0; l < WIDTH; l++) {
-                const double here = share + shares[l];
-                const double d = h * high[j + (size_t)l] - here, e = here - q * low[j + (size_t)l];
-                deficit[l] = d > deficit[l] ? d : deficit[l];
-                excess[l] = e > excess[l] ? e : excess[l];
+    const size_t n_long = na > nb ? na : nb;
+    const double *const *shorts = na > nb ? b : a, *const *longs = na > nb ? a : b;
+    convolution s = {.n_short = na > nb ? nb : na, .shorts = {shorts[0], shorts[1]}};
+    const lanes64_d none = lanes64_splat_d(-1);
+    lanes64_d deficit = none, excess = none;
+    for (size_t first = 0; first < n_long; first += ROOM) {
+        const size_t end = take_chunk(&s, n_long, longs, first);
+        for (size_t c = first; c < end; c += WIDTH) {
+            lanes64_d most[VECTORS], least[VECTORS];
+            for (int v = 0; v < VECTORS; v++) {
+                most[v] = lanes64_splat_d(0);
+                least[v] = lanes64_splat_d(1);
+            }
+            extremes(&s, c, most, least);
+            for (size_t v = 0; v < VECTORS; v++) {
+                const lanes64_u sum = lanes64_count() + (c + v * LANES64);
+                const lanes64_i within = (lanes64_i)(sum < end);
+                const lanes64_d share = (inside + lanes64_whole(sum)) / n;
+                deficit = lanes64_max(lanes64_chosen(within, most[v] - share, none), deficit);
+                excess = lanes64_max(lanes64_chosen(within, share - least[v], none), excess);
             }
         }
-        for (; j < nb; j++) {
-            const double here = (inside + (double)(i + j)) / n;
-            const double d = h * high[j] - here, e = here - q * low[j];
-            deficit[0] = d > deficit[0] ? d : deficit[0];
-            excess[0] = e > excess[0] ? e : excess[0];
-        }
     }
-    best[0] = best[1] = -1;
-    for (int l = 0; l < WIDTH; l++) {
-        best[0] = deficit[l] > best[0] ? deficit[l] : best[0];
-        best[1] = excess[l] > best[1] ? excess[l] : best[1];
-    }
+    best[0] = lanes64_largest(deficit);
+    best[1] = lanes64_largest(excess);
 }

@@ -4,6 +4,7 @@
 #ifndef KOKSMA_KERNELS_LANES64_H
 #define KOKSMA_KERNELS_LANES64_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -177,6 +178,18 @@ static inline lanes64_d lanes64_masked(lanes64_i mask, lanes64_d x)
     return (lanes64_d)((lanes64_i)x & mask);
 }
 
+/* x where the mask is set, and y elsewhere. */
+static inline lanes64_d lanes64_chosen(lanes64_i mask, lanes64_d x, lanes64_d y)
+{
+    return (lanes64_d)(((lanes64_i)x & mask) | ((lanes64_i)y & ~mask));
+}
+
+/* Whole numbers below 2^52 as doubles. */
+static inline lanes64_d lanes64_whole(lanes64_u x)
+{
+    return (lanes64_d)(x | 0x4330000000000000u) - 0x1p52;
+}
+
 /* The largest whole numbers not above numbers in [0, 2^52). */
 static inline lanes64_d lanes64_floor(lanes64_d x)
 {
@@ -214,7 +227,7 @@ static inline void lanes64_interleave(lanes64_d x, lanes64_d y, void *out)
     memcpy((char *)out + sizeof low, &high, sizeof high);
 }
 
-/* The lower of two numbers. */
+/* x < y ? x : y, and x > y ? x : y. */
 static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
 {
 #if defined(__AVX512F__)
@@ -225,6 +238,52 @@ static inline lanes64_d lanes64_min(lanes64_d x, lanes64_d y)
     return (lanes64_d)_mm_min_pd((__m128d)x, (__m128d)y);
 #else
     return (lanes64_d){x[0] < y[0] ? x[0] : y[0], x[1] < y[1] ? x[1] : y[1]};
+#endif
+}
+
+static inline lanes64_d lanes64_max(lanes64_d x, lanes64_d y)
+{
+#if defined(__AVX512F__)
+    return (lanes64_d)_mm512_max_pd((__m512d)x, (__m512d)y);
+#elif defined(__AVX2__)
+    return (lanes64_d)_mm256_max_pd((__m256d)x, (__m256d)y);
+#elif defined(__SSE2__)
+    return (lanes64_d)_mm_max_pd((__m128d)x, (__m128d)y);
+#else
+    return (lanes64_d){x[0] > y[0] ? x[0] : y[0], x[1] > y[1] ? x[1] : y[1]};
+#endif
+}
+
+static inline lanes64_d lanes64_sqrt(lanes64_d x)
+{
+#if defined(__AVX512F__)
+    return (lanes64_d)_mm512_sqrt_pd((__m512d)x);
+#elif defined(__AVX2__)
+    return (lanes64_d)_mm256_sqrt_pd((__m256d)x);
+#elif defined(__SSE2__)
+    return (lanes64_d)_mm_sqrt_pd((__m128d)x);
+#else
+    return (lanes64_d){sqrt(x[0]), sqrt(x[1])};
+#endif
+}
+
+static inline lanes64_d lanes64_abs(lanes64_d x)
+{
+    return (lanes64_d)((lanes64_u)x & 0x7fffffffffffffffu);
+}
+
+/* The largest lane. */
+static inline double lanes64_largest(lanes64_d v)
+{
+#if defined(__AVX512F__)
+    return _mm512_reduce_max_pd((__m512d)v);
+#elif defined(__AVX2__)
+    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128((__m256d)v), _mm256_extractf128_pd((__m256d)v, 1));
+    return _mm_cvtsd_f64(_mm_max_pd(two, _mm_unpackhi_pd(two, two)));
+#elif defined(__SSE2__)
+    return _mm_cvtsd_f64(_mm_max_pd((__m128d)v, _mm_unpackhi_pd((__m128d)v, (__m128d)v)));
+#else
+    return v[0] > v[1] ? v[0] : v[1];
 #endif
 }
 

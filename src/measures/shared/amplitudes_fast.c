@@ -72,7 +72,7 @@ static koksma_status transform_columns(void *context, size_t block)
 {
     job *j = context;
     const size_t m = j->m, room = LANES * m;
-    double *memory = malloc(4 * room * sizeof *memory);
+    double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* a vector in one line of the cache */
     if (!memory) {
         return koksma__fail_memory(4 * room * sizeof *memory);
     }

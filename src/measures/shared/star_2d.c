@@ -43,7 +43,7 @@ void koksma__star_keep(const koksma_points *points, const double *corner, bool c
 }
 
 typedef struct sweep {
-    double *x, *y, *count; /* n, n + 1 and n + 1 numbers */
+    double *x, *y, *count; /* n, n + 8 and n + 9 numbers: what star_sweep takes */
     uint32_t *order, *rank;
 } sweep;
 
@@ -111,20 +111,22 @@ static koksma_status prepare(const koksma_points *points, const koksma_run *run,
     preparation p = {points, s};
     koksma_status status = koksma__order(run, n, points->xs + 1, 2, s->order);
     status = status ? status : koksma__parallel(run, n_blocks, take_ys, &p);
-    s->y[n] = 1;
+    for (size_t j = n; j < n + 8; j++) {
+        s->y[j] = 1;
+    }
     status = status ? status : koksma__order(run, n, points->xs, 2, s->order);
     return status ? status : koksma__parallel(run, n_blocks, take_xs, &p);
 }
 
 koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
-    const size_t n = points->n, bytes = (3 * n + 2) * sizeof(double) + 2 * n * sizeof(uint32_t);
+    const size_t n = points->n, bytes = (3 * n + 17) * sizeof(double) + 2 * n * sizeof(uint32_t);
     double *memory = malloc(bytes);
     if (!memory) {
         return koksma__fail_memory(bytes);
     }
-    sweep s = {.x = memory, .y = memory + n, .count = memory + 2 * n + 1};
-    s.order = (uint32_t *)(memory + 3 * n + 2);
+    sweep s = {.x = memory, .y = memory + n, .count = memory + 2 * n + 8};
+    s.order = (uint32_t *)(memory + 3 * n + 17);
     s.rank = s.order + n;
     double best[2];
     size_t at[2];

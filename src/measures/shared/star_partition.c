@@ -53,7 +53,7 @@ typedef struct searcher {
     uint32_t *sorted;  /* dim rows of n: `inside` in order of the next coordinate */
     bool *flags;       /* n */
     double *sides;     /* the leaf's sides: 2 rows of n + dim */
-    double **products; /* dim pairs of rows of n + dim: of the coordinates up to k */
+    double **products; /* dim pairs of rows of n + 2 dim + 8: of the coordinates up to k */
     size_t leaves;
     bool stop;
     koksma_value *best;
@@ -273,7 +273,7 @@ static void search(searcher *s, size_t k)
 
 static bool open_searcher(problem *p, searcher *s)
 {
-    const size_t n = p->n, dim = p->dim, room = n + 2 * dim;
+    const size_t n = p->n, dim = p->dim, room = n + 2 * dim + 8;
     *s = (searcher){.p = p};
     const size_t doubles = 2 * dim + dim * (n + 2) + room + 2 * dim * room;
     const size_t bytes = doubles * sizeof(double) + (dim + 1) * (sizeof(region) + (dim + 1) * sizeof(size_t)) +

@@ -5,6 +5,7 @@
  * square roots: power (n.d) (-n'.d) / (d.d)^2
  */
 #include <math.h>
+#include <string.h>
 
 #include "core/random.h"
 #include "render/pipelines/batch_kernel.h"
@@ -128,16 +129,17 @@ void BATCH_NAME(shuffle)(const float *pairs, const uint32_t *words, size_t n, fl
 
 double BATCH_NAME(mean)(const float *x, size_t n)
 {
-    double lanes[8] = {0};
-    size_t i = 0;
-    for (; i + 8 <= n; i += 8) {
-        for (size_t l = 0; l < 8; l++) {
-            lanes[l] += (double)x[i + l];
-        }
+    typedef float floats __attribute__((vector_size(32)));
+    typedef double doubles __attribute__((vector_size(64)));
+    doubles lanes = {0};
+    for (size_t i = 0; i < n; i += 8) {
+        floats some = {0};
+        memcpy(&some, x + i, n - i < 8 ? (n - i) * sizeof *x : sizeof some);
+        lanes += __builtin_convertvector(some, doubles);
     }
-    for (; i < n; i++) {
-        lanes[i % 8] += (double)x[i];
-    }
-    return (((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))) /
-           (double)n;
+    typedef double two __attribute__((vector_size(16)));
+    two p[4];
+    memcpy(p, &lanes, sizeof p);
+    const two sum = (p[0] + p[2]) + (p[1] + p[3]);
+    return (sum[0] + sum[1]) / (double)n;
 }
