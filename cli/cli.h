@@ -70,7 +70,10 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
 
-/* "koksma NAME: text" on stderr; returns the exit code of a wrong command line. */
+/* "koksma NAME: text" on stderr, as one line of UTF-8 whatever the names in it hold. command: "" for none. */
+void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
+
+/* The same of an error; returns the exit code of a wrong command line. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* The library's error text on stderr; returns the exit code of status. */

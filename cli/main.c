@@ -37,8 +37,7 @@ static bool kernels_are_there(void)
     if (!wish || !*wish || !strcmp(wish, koksma_instruction_set())) {
         return true;
     }
-    fprintf(stderr, "koksma: KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it\n",
-            wish);
+    cli_say("", "KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it", wish);
     return false;
 }
 
@@ -56,7 +55,7 @@ int main(int argc, char **argv)
                                                   : !strcmp(first, "--version")                    ? "version"
                                                                                                    : first);
     if (!command) {
-        fprintf(stderr, "koksma: no command '%s'; 'koksma --help' names them\n", first);
+        cli_say("", "no command '%s'; 'koksma --help' names them", first);
         return CLI_USAGE;
     }
     return cli_run(command, argc - 1, argv + 1);

@@ -72,6 +72,11 @@ KOKSMA_API int koksma_status_exit_code(koksma_status status);
    reason. The string is valid until the next failing call of this thread; before the first it is empty. */
 KOKSMA_API const char *koksma_error_text(void);
 
+/* Makes a text one line of valid UTF-8, as error texts are: control characters and bytes that are no UTF-8 (a file's
+   name may hold any) become \xNN. size: bytes that there is room for at text; what no longer fits is cut. text may be
+   NULL. */
+KOKSMA_API void koksma_text_escape(char *text, size_t size);
+
 /* Returns the instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref" (plain C,
    for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one;
    the first call that computes reads it. The first three give the same bits; "ref" may differ in the last digits of
