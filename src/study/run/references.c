@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 
 #include "core/status.h"
+#include "image/registry.h"
 #include "render/rows.h"
 #include "study/plan/point_files.h"
 #include "study/run/study.h"
@@ -144,5 +145,5 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
         return KOKSMA_OK;
     }
     koksma__reference_path(study, reference, path, sizeof path);
-    return koksma_image_read(path, &reference->image);
+    return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &reference->image);
 }
