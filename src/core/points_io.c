@@ -64,7 +64,7 @@ koksma_status koksma__numbers_write(const char *path, const koksma_points *point
                                     const koksma_run *run)
 {
     koksma__atomic_file file;
-    koksma_status status = koksma__atomic_open(path, &file);
+    koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (status) {
         return status;
     }

@@ -237,24 +237,31 @@ bool koksma_image_has_layers(const char *path)
     return format && format->has_layers;
 }
 
-koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
+static koksma_status write_file(const char *folder, const char *path, const koksma_layer *layers, size_t n,
+                                const char *metadata)
 {
     koksma__bytes bytes = {0};
-    koksma__atomic_file file;
     koksma_status status = koksma_image_check_path(path);
     if (status) {
         return status;
     }
     status = koksma__layers_check(layers, n);
     status = status ? status : format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
-    if (status) {
-        koksma__fail_in(status, path);
-    } else if (!(status = koksma__atomic_open(path, &file))) {
-        fwrite(bytes.data, 1, bytes.size, file.stream); /* close looks for the stream's error */
-        status = koksma__atomic_close(&file, true);
-    }
+    status = status ? koksma__fail_in(status, path) : koksma__atomic_put(folder, path, bytes.data, bytes.size);
     free(bytes.data);
     return status;
+}
+
+koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
+{
+    return write_file(NULL, path, layers, n, metadata);
+}
+
+koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
+                                     const char *metadata)
+{
+    const koksma_layer only = {"", image};
+    return write_file(folder, name, &only, 1, metadata);
 }
 
 koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)

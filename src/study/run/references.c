@@ -132,7 +132,9 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     status = status ? status : koksma__store_put_reference(study->store, &key, error);
     status = status ? status : koksma__store_commit(study->store);
     koksma__reference_path(study, reference, path, sizeof path);
-    status = status ? status : koksma_image_write(path, &reference->image, name);
+    status = status
+                 ? status
+                 : koksma__image_write_in(study->folder, path + strlen(study->folder) + 1, &reference->image, name);
     free(s->sum);
     *s = (koksma__replicates){0};
     return status;
