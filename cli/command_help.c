@@ -15,10 +15,9 @@ void cli_print_overview(FILE *stream)
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
     fputs("\n'koksma COMMAND --help' prints the options. Exit codes: 0 done; 1 it ran and the answer is no; 2 the "
-          "command "
-          "line is\n"
-          "wrong; 3 a named file is missing or malformed; 4 the system failed; 130 interrupted, finished "
-          "results are kept.\n",
+          "command line is\n"
+          "wrong; 3 a named file is missing, malformed or of a kind that is not read; 4 the system failed; 130\n"
+          "interrupted, finished results are kept.\n",
           stream);
 }
 

@@ -56,9 +56,8 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
     if (!whole) {
         return fail();
     }
-    return fits
-               ? KOKSMA_OK
-               : koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
+    return fits ? KOKSMA_OK
+                : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
 /* Whether a list of channels ends with its value: entries are a name and 16 bytes, and an empty name is the end. */
