@@ -12,7 +12,7 @@ bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value)
 void cli_tell_cuts(const cli_arguments *arguments, const char *what, size_t n_cut)
 {
     if (n_cut > 0 && !cli_flag(arguments, "quiet")) {
-        fprintf(stderr, "koksma %s: %s: %zu value%s lower bound%s, not exact: the search was cut short\n",
-                arguments->command->name, what, n_cut, n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
+        cli_say(arguments->command->name, "%s: %zu value%s lower bound%s, not exact: the search was cut short", what,
+                n_cut, n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
     }
 }

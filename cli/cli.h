@@ -79,7 +79,10 @@ const char *cli_command_name(const void *table, size_t i);
 const char *cli_integrator_name(const void *table, size_t i);
 const char *cli_filter_name(const void *table, size_t i);
 
-/* "koksma NAME: text" on stderr; returns the exit code of a wrong command line. */
+/* "koksma NAME: text" on stderr, as one line of UTF-8 whatever the names in it hold. command: "" for none. */
+void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
+
+/* The same of an error; returns the exit code of a wrong command line. */
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* The library's error text on stderr; returns the exit code of status. */

@@ -12,6 +12,7 @@ typedef struct comparison {
     koksma_coherence coherence;
     size_t images;
     koksma_image_error error; /* sums over the images */
+    const char *compared;     /* the image that is being compared, NULL while none is */
 } comparison;
 
 static int put_row(const cli_arguments *arguments, const comparison *c)
@@ -63,15 +64,27 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
     return status;
 }
 
+/* Of two files neither is the wrong one. */
+static int fail(const cli_arguments *arguments, const comparison *c, const char *reference, koksma_status status)
+{
+    if (!c->compared) {
+        return cli_fail(arguments, status);
+    }
+    cli_say("compare", "%s and %s: %s", c->compared, reference, koksma_error_text());
+    return koksma_status_exit_code(status);
+}
+
 /* Adds the image of a file; difference: NULL, or where its errors are written. */
 static koksma_status add_image(comparison *c, const char *path, const char *difference)
 {
     koksma_image image = {0};
     koksma_image_error error;
     koksma_status status = read_numbers(path, &image);
+    c->compared = status ? NULL : path;
     status = status ? status : koksma_image_compare(&image, &c->reference, &error);
     status = status ? status : koksma_coherence_add(&c->coherence, &image, &c->reference);
     if (!status) {
+        c->compared = NULL;
         c->images++;
         c->error.mean += error.mean;
         c->error.sd += error.sd;
@@ -103,7 +116,7 @@ static int run(const cli_arguments *arguments)
     for (int i = 0; !status && i < last; i++) {
         status = add_image(&c, arguments->operands[i], output);
     }
-    const int code = status ? cli_fail(arguments, status) : put_row(arguments, &c);
+    const int code = status ? fail(arguments, &c, arguments->operands[last], status) : put_row(arguments, &c);
     koksma_coherence_fini(&c.coherence);
     koksma_image_fini(&c.reference);
     return code ? code : c.error.mean <= most * (double)c.images ? CLI_YES : CLI_NO;

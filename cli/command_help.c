@@ -15,8 +15,9 @@ void cli_print_overview(FILE *stream)
         fprintf(stream, "  %-10s %s\n", command->name, command->summary);
     }
     fputs("\n'koksma COMMAND --help' prints options and examples. Exit codes: 0 done; 1 it\n"
-          "ran and the answer is no; 2 the command line is wrong; 3 a named file is missing\n"
-          "or malformed; 4 the system failed; 130 interrupted, finished results are kept.\n",
+          "ran and the answer is no; 2 the command line is wrong; 3 a named file is\n"
+          "missing, malformed or of a kind that is not read; 4 the system failed; 130\n"
+          "interrupted, finished results are kept.\n",
           stream);
 }
 

@@ -170,8 +170,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     }
     for (size_t i = ranking.n; i < options->n_patterns; i++) {
         if (ranking.n || table[i].state == KOKSMA_RANK_REFUSED) { /* else the time is too short for all */
-            fprintf(stderr, "koksma rank: %s is not ranked: %s\n", options->patterns[table[i].pattern],
-                    table[i].reason);
+            cli_say("rank", "%s is not ranked: %s", options->patterns[table[i].pattern], table[i].reason);
         }
     }
     *settled = ranking.settled;

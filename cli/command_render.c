@@ -110,17 +110,16 @@ static bool announce_size(const cli_arguments *arguments, const koksma_scene *sc
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const uint64_t machine = pages > 0 && page > 0 ? (uint64_t)pages * (uint64_t)page : UINT64_MAX;
     if (first > machine) {
-        fprintf(stderr,
-                "koksma render: %d x %d pixels take %.1f GiB of memory, and this machine has %.1f; a smaller --size "
-                "would do%s%s\n",
+        cli_say("render",
+                "%d x %d pixels take %.1f GiB of memory, and this machine has %.1f; a smaller --size "
+                "would do%s%s",
                 options->width, options->height, in_gib(first), in_gib(machine),
                 layers && !adaptive->method ? ", or .pfm, which has no layers" : "",
                 options->splat ? ", or no --splat" : "");
         return false;
     }
     if (first + size.file >= LARGE && !cli_flag(arguments, "quiet")) {
-        fprintf(stderr,
-                "koksma render: %d x %d pixels take %.1f GiB of memory, and up to %.1f more while %s is written\n",
+        cli_say("render", "%d x %d pixels take %.1f GiB of memory, and up to %.1f more while %s is written",
                 options->width, options->height, in_gib(first), in_gib(size.file), cli_text(arguments, "output", ""));
     }
     return true;
@@ -150,8 +149,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
         status = cli_adaptive_strata(adaptive);
     }
     if (status == KOKSMA_INTERRUPTED && done && !written) {
-        fprintf(stderr, "koksma render: interrupted; %s has the pixels that were done\n",
-                cli_text(arguments, "output", ""));
+        cli_say("render", "interrupted; %s has the pixels that were done", cli_text(arguments, "output", ""));
         return koksma_status_exit_code(status);
     }
     return status || written ? cli_fail(arguments, status ? status : written)

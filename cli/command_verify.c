@@ -82,15 +82,13 @@ static bool disappoints(const char *list, const char *source, const koksma_point
             }
         }
         if (!seen) {
-            fprintf(stderr,
-                    "koksma verify: %s: %s was not tested: it does not apply to %zu points in %d dimensions\n",
-                    source, name, points->n, points->dim);
+            cli_say("verify", "%s: %s was not tested: it does not apply to %zu points in %d dimensions", source, name,
+                    points->n, points->dim);
             return true;
         }
         const int coordinates = find_property(name)->coordinates;
         if (coordinates && points->dim > coordinates) {
-            fprintf(stderr, "koksma verify: %s: %s was looked at in the first %d coordinates alone\n", source, name,
-                    coordinates);
+            cli_say("verify", "%s: %s was looked at in the first %d coordinates alone", source, name, coordinates);
             return true;
         }
     }

@@ -43,8 +43,7 @@ static bool kernels_are_there(void)
     if (!wish || !*wish || !strcmp(wish, koksma_instruction_set())) {
         return true;
     }
-    fprintf(stderr, "koksma: KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it\n",
-            wish);
+    cli_say("", "KOKSMA_KERNELS=%s: it takes ref, baseline, avx2 or avx512, where the machine has it", wish);
     return false;
 }
 
@@ -63,7 +62,7 @@ int main(int argc, char **argv)
                                                                                                    : first);
     if (!command) {
         char meant[96];
-        fprintf(stderr, "koksma: no command '%s'; %s'koksma --help' names them\n", first,
+        cli_say("", "no command '%s'; %s'koksma --help' names them", first,
                 cli_meant(first, cli_command_name, NULL, meant));
         return CLI_USAGE;
     }

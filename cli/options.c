@@ -177,8 +177,9 @@ static int parse(cli_arguments *arguments, int argc, char **argv)
 /* What is on stdout must have got there: a full disk shows when the buffer is written. */
 int cli_end_output(int code)
 {
+    errno = 0;
     if (code <= CLI_NO && (fflush(stdout) || ferror(stdout))) {
-        fputs("koksma: standard output could not be written\n", stderr);
+        cli_say("", "standard output could not be written%s%s", errno ? ": " : "", errno ? strerror(errno) : "");
         return koksma_status_exit_code(KOKSMA_IO);
     }
     return code;
@@ -261,14 +262,28 @@ bool cli_real(const cli_arguments *arguments, const char *name, double fallback,
     return true;
 }
 
+static void put_line(const char *command, const char *format, va_list list)
+{
+    char text[4096];
+    vsnprintf(text, sizeof text, format, list);
+    koksma_text_escape(text, sizeof text);
+    fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
+}
+
+void cli_say(const char *command, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    put_line(command, format, list);
+    va_end(list);
+}
+
 int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 {
     va_list list;
     complained = true;
     va_start(list, format);
-    fprintf(stderr, "koksma %s: ", arguments->command->name);
-    vfprintf(stderr, format, list);
-    fputc('\n', stderr);
+    put_line(arguments->command->name, format, list);
     va_end(list);
     return CLI_USAGE;
 }
@@ -276,7 +291,7 @@ int cli_usage_error(const cli_arguments *arguments, const char *format, ...)
 int cli_fail(const cli_arguments *arguments, koksma_status status)
 {
     complained = true;
-    fprintf(stderr, "koksma %s: %s\n", arguments->command->name, koksma_error_text());
+    cli_say(arguments->command->name, "%s", koksma_error_text());
     return koksma_status_exit_code(status);
 }
 

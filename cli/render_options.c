@@ -118,8 +118,9 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
 {
     for (size_t i = 0; koksma_use_at(i); i++) {
         if (options->patterns[i].pattern && !koksma_use_is_spent(scene, options, i)) {
-            fprintf(stderr, "koksma %s: %s: warning: no sample is spent on %s here; its pattern changes nothing\n",
-                    arguments->command->name, name, koksma_use_at(i)->name);
+            cli_say(arguments->command->name,
+                    "%s: warning: no sample is spent on %s here; its pattern changes nothing", name,
+                    koksma_use_at(i)->name);
         }
     }
     for (size_t g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
@@ -128,10 +129,9 @@ void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksm
         koksma_use_group_text(group, text);
         for (int i = 0; i < group->n_uses; i++) {
             if (!koksma_use_is_spent(scene, options, (size_t)group->uses[i])) {
-                fprintf(
-                    stderr,
-                    "koksma %s: %s: warning: no sample is spent on %s here; its coordinates of %s change nothing\n",
-                    arguments->command->name, name, koksma_use_at((size_t)group->uses[i])->name, text);
+                cli_say(arguments->command->name,
+                        "%s: warning: no sample is spent on %s here; its coordinates of %s change nothing", name,
+                        koksma_use_at((size_t)group->uses[i])->name, text);
             }
         }
     }
@@ -146,12 +146,11 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
                    : koksma_scene_warning(scene, n, text, sizeof text);
          n++) {
         if (n < most) {
-            fprintf(stderr, "koksma %s: %s: warning: %s\n", arguments->command->name, name, text);
+            cli_say(arguments->command->name, "%s: warning: %s", name, text);
         }
     }
     if (n > most) {
-        fprintf(stderr, "koksma %s: %s: %zu more warnings; 'koksma scene check' tells all\n",
-                arguments->command->name, name, n - most);
+        cli_say(arguments->command->name, "%s: %zu more warnings; 'koksma scene check' tells all", name, n - most);
     }
     return n;
 }

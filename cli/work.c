@@ -29,8 +29,8 @@ bool cli_interrupted(void)
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder)
 {
     if (folder) {
-        fprintf(stderr, "koksma %s: interrupted; what is done is kept in %s, and the same command goes on there\n",
-                arguments->command->name, folder);
+        cli_say(arguments->command->name,
+                "interrupted; what is done is kept in %s, and the same command goes on there", folder);
     }
     return koksma_status_exit_code(KOKSMA_INTERRUPTED);
 }

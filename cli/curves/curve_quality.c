@@ -17,8 +17,7 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
         koksma_spectrum_quality_values q;
         koksma_spectrum_quality(&s, &q);
         if (isnan(q.oscillation) && !cli_flag(c->arguments, "quiet")) {
-            fprintf(stderr,
-                    "koksma curve: %s: no oscillation: frequencies up to %d end before 5 sqrt(n) beyond the rise%s\n",
+            cli_say("curve", "%s: no oscillation: frequencies up to %d end before 5 sqrt(n) beyond the rise%s",
                     source, s.half, s.half < KOKSMA_SPECTRUM_MAX_HALF ? "; try a larger --half" : "");
         }
         sink->points = s.points;

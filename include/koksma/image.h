@@ -40,8 +40,8 @@ KOKSMA_API void koksma_image_fini(koksma_image *image);
      PNG   1 to 16 bits, sRGB; the chunk gAMA sets another power (1.0: linear) unless sRGB or iCCP is present
      PFM   Pf and PF in either byte order; the magnitude of the scale is ignored; extra bytes at the end are an error
    Alpha and further channels are dropped; colours are not multiplied by alpha.
-   Errors: MISSING, MALFORMED, UNSUPPORTED (a deep or subsampled EXR; with B44 and DWA also other channels and values
-   above 65504; a format that this build lacks), MEMORY. */
+   Errors: MISSING, MALFORMED (also a kind that is not read: a deep or subsampled EXR; with B44 and DWA other channels
+   and values above 65504), UNSUPPORTED (a format that this build lacks), MEMORY, SYSTEM. */
 KOKSMA_API koksma_status koksma_image_read(const char *path, koksma_image *out);
 
 /* Returns the name of image format i, NULL past the end.

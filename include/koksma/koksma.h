@@ -79,6 +79,10 @@ typedef const char *koksma_name_at(const void *table, size_t i);
    near, or word is NULL, empty or longer than 64 characters. Case does not count.
      name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL */
 KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
+/* Makes a text one line of valid UTF-8, as error texts are: control characters and bytes that are no UTF-8 (a file's
+   name may hold any) become \xNN. size: bytes that there is room for at text; what no longer fits is cut. text may be
+   NULL. */
+KOKSMA_API void koksma_text_escape(char *text, size_t size);
 
 /* Returns the instruction set whose inner loops run in this process: "avx512", "avx2", "baseline" or "ref" (plain C,
    for tests). It is the first that the processor has. The environment variable KOKSMA_KERNELS selects another one;

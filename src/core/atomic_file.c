@@ -1,36 +1,153 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A file is written under a temporary name beside its own and renamed when it is whole (POSIX rename is atomic), so
- * that readers and later runs see the old file or the new one. Standard streams and paths such as /dev/fd/3 are
- * written as they are. fsync before the rename keeps an empty file from surviving a crash.
+ * A file is written under a temporary name in the folder of its own, synced, and renamed when it is whole (POSIX rename
+ * is atomic), so that readers and later runs see the old file or the new one; then the folder is synced. After a loss
+ * of power the file is the old or the new one, whole; it is the new one if the program had ended with success.
+ *
+ * The temporary name has 64 random bits, and O_EXCL makes a new file: what others planted in the folder, or another
+ * process with an equal number (the rule in containers) chose, is never opened. All steps go by the folder's
+ * descriptor, which stays the same folder whatever is renamed above it.
+ *
+ * The writer holds a lock (flock) on its temporary file for as long as it lives. A file of such a name that belongs to
+ * the user, has no other name and can be locked is of a dead process, and the next writer into the folder removes it.
+ * Who locks a file that somebody else is about to remove finds it without a name, and takes another one. Where the
+ * file system has no locks nothing is removed.
  */
+#define _GNU_SOURCE /* fopencookie, flock, getentropy, O_PATH */
 #include "core/atomic_file.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/status.h"
 
-enum { MOST_OF_NAME = 100 };
+static const char prefix[] = ".koksma-";
 
-/* Names that end alike stay alike, because libraries choose a format by the ending: out.png ->
-   .koksma-1234-0-out.png. Two threads that write one path have two of them. */
-static char *temporary_name(const char *path)
+enum { PREFIX = sizeof prefix - 1, RANDOM = 16, TRIES = 100 };
+
+typedef struct koksma__output {
+    char *path, *name; /* for messages; in the folder */
+    char temporary[PREFIX + RANDOM + 1];
+    int folder; /* -1: what is written is no plain file */
+    int descriptor;
+    int reason; /* errno of the first write that failed */
+} output;
+
+/* Keeps the reason, which stdio would lose. */
+static ssize_t put(void *cookie, const char *bytes, size_t size)
 {
-    static atomic_uint count;
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    const int folder = (int)(name - path);
-    const size_t length = strlen(name), size = strlen(path) + 60;
-    char *temporary = malloc(size);
-    if (temporary) {
-        snprintf(temporary, size, "%.*s.koksma-%ld-%u-%s", folder, path, (long)getpid(), atomic_fetch_add(&count, 1),
-                 name + (length > MOST_OF_NAME ? length - MOST_OF_NAME : 0));
+    output *o = cookie;
+    size_t done = 0;
+    while (done < size && !o->reason) {
+        const ssize_t n = write(o->descriptor, bytes + done, size - done);
+        done += n > 0 ? (size_t)n : 0;
+        o->reason = n < 0 && errno != EINTR ? errno : 0;
     }
-    return temporary;
+    return (ssize_t)done;
+}
+
+/* ---- Leftovers ------------------------------------------------------------------------------------------- */
+
+static bool is_temporary(const char *name)
+{
+    return !strncmp(name, prefix, PREFIX) && strlen(name) == PREFIX + RANDOM &&
+           strspn(name + PREFIX, "0123456789abcdef") == RANDOM;
+}
+
+static bool is_ours(const struct stat *info)
+{
+    return S_ISREG(info->st_mode) && info->st_uid == geteuid() && info->st_nlink == 1;
+}
+
+static void remove_if_dead(int folder, const char *name)
+{
+    struct stat info, opened;
+    if (fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) || !is_ours(&info)) {
+        return;
+    }
+    /* for writing, as NFS wants it of who locks */
+    const int descriptor = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor >= 0 && !fstat(descriptor, &opened) && is_ours(&opened) && opened.st_ino == info.st_ino &&
+        !flock(descriptor, LOCK_EX | LOCK_NB)) {
+        unlinkat(folder, name, 0);
+    }
+    if (descriptor >= 0) {
+        close(descriptor);
+    }
+}
+
+/* A process that writes many files into one folder looks once. */
+static void remove_leftovers(int folder)
+{
+    static atomic_ullong last;
+    struct stat info;
+    if (fstat(folder, &info) || atomic_exchange(&last, (unsigned long long)info.st_ino) == info.st_ino) {
+        return;
+    }
+    const int again = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *entries = again < 0 ? NULL : fdopendir(again);
+    for (const struct dirent *e; entries && (e = readdir(entries));) {
+        if (is_temporary(e->d_name)) {
+            remove_if_dead(folder, e->d_name);
+        }
+    }
+    if (entries) {
+        closedir(entries);
+    } else if (again >= 0) {
+        close(again);
+    }
+}
+
+/* ---- Opening --------------------------------------------------------------------------------------------- */
+
+/* A folder that can be written and not read is enough. */
+static int open_folder(int at, const char *path, int flags)
+{
+    const int folder = openat(at, path, O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
+    return folder < 0 && errno == EACCES ? openat(at, path, O_PATH | O_DIRECTORY | O_CLOEXEC | flags) : folder;
+}
+
+/* Away from 0, 1 and 2, which other code writes to even where they were closed. */
+static int above_streams(int descriptor)
+{
+    if (descriptor < 0 || descriptor > STDERR_FILENO) {
+        return descriptor;
+    }
+    const int other = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    close(descriptor);
+    return other;
+}
+
+/* A new file with a lock. False: errno. */
+static bool make_temporary(output *o)
+{
+    struct stat info;
+    for (int tries = 0; tries < TRIES; tries++) {
+        unsigned long long random = 0;
+        if (getentropy(&random, sizeof random)) {
+            return false;
+        }
+        snprintf(o->temporary, sizeof o->temporary, "%s%016llx", prefix, random);
+        o->descriptor = openat(o->folder, o->temporary, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        o->descriptor = above_streams(o->descriptor);
+        if (o->descriptor < 0 && errno == EEXIST) {
+            continue;
+        }
+        const bool locked = o->descriptor >= 0 && (!flock(o->descriptor, LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK);
+        if (o->descriptor < 0 || (locked && !fstat(o->descriptor, &info) && info.st_nlink == 1)) {
+            return o->descriptor >= 0;
+        }
+        close(o->descriptor); /* somebody is removing it as a leftover */
+        o->descriptor = -1;
+    }
+    return false;
 }
 
 /* The stream that the process has open under such a path already, "/dev/stdout" or "/dev/fd/3": where it leads to a
@@ -38,8 +155,8 @@ static char *temporary_name(const char *path)
 static int descriptor_of(const char *path)
 {
     int number = -1, used = 0;
-    if (!strcmp(path, "/dev/stdout") || !strcmp(path, "/dev/stderr")) {
-        return path[8] == 'o' ? STDOUT_FILENO : STDERR_FILENO;
+    if (!strcmp(path, "-") || !strcmp(path, "/dev/stdout") || !strcmp(path, "/dev/stderr")) {
+        return !strcmp(path, "/dev/stderr") ? STDERR_FILENO : STDOUT_FILENO;
     }
     const bool numbered = sscanf(path, "/dev/fd/%9d%n", &number, &used) == 1 ||
                           sscanf(path, "/proc/self/fd/%9d%n", &number, &used) == 1;
@@ -65,69 +182,186 @@ static char *new_target(const char *path)
     return target;
 }
 
-koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file)
+/* What is no plain file, as it is: renaming over it would replace it. False: it is one, or none yet. */
+static bool open_special(const char *path, output *o)
 {
-    *file = (koksma__atomic_file){0};
-    const int descriptor = descriptor_of(path);
-    if (!strcmp(path, "-") || descriptor == STDOUT_FILENO) {
-        file->stream = stdout;
-        return KOKSMA_OK;
-    }
     struct stat info;
-    if (!stat(path, &info) && S_ISDIR(info.st_mode)) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be written: it is a directory", path);
+    const int stream = descriptor_of(path);
+    if (stream >= 0) {
+        fflush(stream == STDOUT_FILENO ? stdout : NULL);
+        o->descriptor = fcntl(stream, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+        return true;
     }
-    /* A device or a pipe is written directly: renaming over it would replace it. */
-    const bool special = descriptor >= 0 || (!stat(path, &info) && !S_ISREG(info.st_mode));
-    /* What a link leads to is replaced, not the link. */
-    char *target = special ? NULL : realpath(path, NULL);
-    file->path = target ? target : special ? strdup(path) : new_target(path);
-    file->path = file->path ? file->path : strdup(path);
-    file->temporary = special || !file->path ? strdup(path) : temporary_name(file->path);
-    if (!file->path || !file->temporary) {
-        koksma__atomic_close(file, false);
-        return koksma__fail_memory(strlen(path));
+    if (stat(path, &info) || S_ISREG(info.st_mode)) {
+        return false;
     }
-    file->stream = descriptor >= 0 ? fdopen(dup(descriptor), "wb") : fopen(file->temporary, "wb");
+    o->descriptor = above_streams(open(path, O_WRONLY | O_TRUNC | O_CLOEXEC | O_NOCTTY));
+    return true;
+}
+
+/* Below the folder's descriptor, which it takes over, no link is followed. False: errno. */
+static bool open_within(int folder, const char *path, output *o)
+{
+    struct stat info;
+    for (const char *slash; folder >= 0 && (slash = strchr(path, '/')); path = slash + 1) {
+        char *part = strndup(path, (size_t)(slash - path));
+        const int next = part ? open_folder(folder, part, O_NOFOLLOW) : -1;
+        int reason = errno;
+        if (next < 0 && part && !fstatat(folder, part, &info, AT_SYMLINK_NOFOLLOW) && S_ISLNK(info.st_mode)) {
+            reason = ELOOP;
+        }
+        free(part);
+        close(folder);
+        folder = next;
+        errno = reason;
+    }
+    o->folder = folder;
+    o->name = folder < 0 ? NULL : strdup(path);
+    if (!o->name) {
+        return false;
+    }
+    remove_leftovers(folder);
+    if (!make_temporary(o)) {
+        return false;
+    }
+    if (!fstatat(folder, path, &info, AT_SYMLINK_NOFOLLOW) && S_ISREG(info.st_mode)) {
+        fchmod(o->descriptor, info.st_mode & 0777); /* a private file stays private */
+    }
+    return true;
+}
+
+static bool open_target(const char *path, output *o)
+{
+    char *known = realpath(path, NULL), *target = known ? known : new_target(path);
+    char *copy = target ? target : strdup(path);
+    char *slash = copy ? strrchr(copy, '/') : NULL;
+    bool done = false;
+    if (copy) {
+        const char *name = slash ? slash + 1 : copy;
+        const char first = *name;
+        if (slash) {
+            *slash = '\0';
+        }
+        errno = ENOENT;
+        done = first && open_within(open_folder(AT_FDCWD, !slash ? "." : *copy ? copy : "/", 0), name, o);
+    }
+    const int reason = errno;
+    free(copy);
+    errno = reason;
+    return done;
+}
+
+static void end(output *o)
+{
+    if (o->descriptor >= 0) {
+        close(o->descriptor);
+    }
+    if (o->folder >= 0) {
+        close(o->folder);
+    }
+    free(o->name);
+    free(o->path);
+    free(o);
+}
+
+/* "%s/%s", or a copy. */
+static char *whole_path(const char *folder, const char *path)
+{
+    const size_t size = strlen(path) + (folder ? strlen(folder) : 0) + 2;
+    char *whole = malloc(size);
+    if (whole) {
+        snprintf(whole, size, "%s%s%s", folder ? folder : "", folder ? "/" : "", path);
+    }
+    return whole;
+}
+
+koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file)
+{
+    static const cookie_io_functions_t functions = {.write = put};
+    *file = (koksma__atomic_file){0};
+    output *o = malloc(sizeof *o);
+    if (o) {
+        *o = (output){
+            .path = whole_path(folder, strcmp(path, "-") ? path : "standard output"), .folder = -1, .descriptor = -1};
+    }
+    if (!o || !o->path) {
+        free(o);
+        return koksma__fail_memory(sizeof *o + strlen(path));
+    }
+    if (folder) {
+        open_within(open_folder(AT_FDCWD, folder, 0), path, o);
+    } else if (!open_special(path, o)) {
+        open_target(path, o);
+    }
+    file->stream = o->descriptor >= 0 ? fopencookie(o, "w", functions) : NULL;
     if (!file->stream) {
         const int reason = errno;
-        free(file->path);
-        free(file->temporary);
-        *file = (koksma__atomic_file){0};
-        return koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(reason));
+        if (o->folder >= 0 && o->descriptor >= 0) {
+            unlinkat(o->folder, o->temporary, 0);
+        }
+        koksma__fail(KOKSMA_IO, "%s: can't be written: %s", o->path,
+                     reason == EISDIR            ? "it is a directory"
+                     : folder && reason == ELOOP ? "its folder is a link, which is not followed here"
+                                                 : strerror(reason));
+        end(o);
+        return KOKSMA_IO;
     }
-    if (target) {
-        fchmod(fileno(file->stream), info.st_mode & 07777); /* a private file stays private */
-    }
+    file->output = o;
     return KOKSMA_OK;
+}
+
+/* ---- Closing --------------------------------------------------------------------------------------------- */
+
+/* File systems that can't sync a folder say so, as do folders that may not be read. */
+static bool sync_folder(int folder)
+{
+    return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
 }
 
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)
 {
+    output *o = file->output;
     koksma_status status = KOKSMA_OK;
-    const char *name = file->path ? file->path : "standard output";
-    errno = 0;
-    if (file->stream) {
-        bool failed = ferror(file->stream) != 0;
-        failed |= fflush(file->stream) != 0;
-        if (file->path) {
-            failed |= keep && strcmp(file->path, file->temporary) != 0 && fsync(fileno(file->stream)) != 0;
-            failed |= fclose(file->stream) != 0;
-        }
-        if (failed && keep) {
-            status = koksma__fail(KOKSMA_IO, "%s: writing failed: %s", name, strerror(errno ? errno : EIO));
+    if (!o) {
+        return status;
+    }
+    const char *what = "writing failed";
+    bool placed = false;
+    if (fclose(file->stream) && !o->reason) {
+        o->reason = errno;
+    }
+    if (o->folder >= 0 && keep && !o->reason) {
+        if (fsync(o->descriptor)) {
+            o->reason = errno;
+        } else if (renameat(o->folder, o->temporary, o->folder, o->name)) {
+            o->reason = errno;
+            what = "can't be written";
+        } else {
+            placed = true;
+            o->reason = sync_folder(o->folder) ? 0 : errno;
         }
     }
-    if (file->path && file->temporary && strcmp(file->path, file->temporary) != 0) {
-        if (keep && !status && rename(file->temporary, file->path)) {
-            status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", name, strerror(errno));
-        }
-        if (!keep || status) {
-            remove(file->temporary);
-        }
+    if (o->folder >= 0 && !placed) {
+        unlinkat(o->folder, o->temporary, 0);
     }
-    free(file->path);
-    free(file->temporary);
+    if (o->folder < 0 && close(o->descriptor) && !o->reason) { /* after fsync closing has nothing to tell */
+        o->reason = errno;
+    }
+    o->descriptor = o->folder < 0 ? -1 : o->descriptor;
+    if (keep && o->reason) {
+        status = koksma__fail(KOKSMA_IO, "%s: %s: %s", o->path, what, strerror(o->reason));
+    }
+    end(o);
     *file = (koksma__atomic_file){0};
     return status;
+}
+
+koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size)
+{
+    koksma__atomic_file file;
+    const koksma_status status = koksma__atomic_open(folder, path, &file);
+    if (!status) {
+        fwrite(bytes, 1, size, file.stream);
+    }
+    return status ? status : koksma__atomic_close(&file, true);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Output files that are written whole or not at all: a temporary name beside the target, then a rename. */
+/* Output files that are written whole or not at all. */
 #ifndef KOKSMA_CORE_ATOMIC_FILE_H
 #define KOKSMA_CORE_ATOMIC_FILE_H
 
@@ -11,15 +11,19 @@
 
 typedef struct koksma__atomic_file {
     FILE *stream;
-    char *path, *temporary; /* NULL for standard output */
+    struct koksma__output *output; /* the file behind the stream */
 } koksma__atomic_file;
 
-/* Opens a temporary file beside path for writing; "-" is standard output. A library that wants a file name may be given
-   `temporary`; it then overwrites the empty file. */
-KOKSMA__LAB koksma_status koksma__atomic_open(const char *path, koksma__atomic_file *file);
+/* Opens a file for writing. folder NULL: path is the user's. "-" is standard output; streams, devices and pipes are
+   written as they are; where a link leads is replaced, not the link. Else path is a name below folder that the program
+   chose: links below folder are not followed, and one in the file's place is replaced. Errors: IO, MEMORY. */
+KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
-/* Closes the file. If keep is true it is flushed, synced and renamed to its path; if keep is false, or one of these
-   steps fails, the temporary file is removed. Frees the struct's memory in either case. */
+/* Closes the file. If keep is true it is synced and put in its place; if keep is false, or a step fails, what was in
+   its place stays. Errors: IO, with the system's reason for the first write that failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);
+
+/* Both, and the bytes between them. */
+KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
 
 #endif

@@ -6,16 +6,27 @@
 #include <stdint.h>
 
 /* 64 bits of a byte string: FNV-1a, then the finalizer of SplitMix64 so that every bit counts.
-   Seeds of study jobs are made of it, so it never changes. */
-static inline uint64_t koksma__hash(const void *bytes, size_t size)
+   Seeds of study jobs are made of it, so it never changes. In pieces: start, more of each, end. */
+#define KOKSMA__HASH_START 0xcbf29ce484222325u
+
+static inline uint64_t koksma__hash_more(uint64_t h, const void *bytes, size_t size)
 {
-    uint64_t h = 0xcbf29ce484222325u;
     for (size_t i = 0; i < size; i++) {
         h = (h ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
     }
+    return h;
+}
+
+static inline uint64_t koksma__hash_end(uint64_t h)
+{
     h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
     h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
     return h ^ (h >> 31);
+}
+
+static inline uint64_t koksma__hash(const void *bytes, size_t size)
+{
+    return koksma__hash_end(koksma__hash_more(KOKSMA__HASH_START, bytes, size));
 }
 
 #endif

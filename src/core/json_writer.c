@@ -33,29 +33,10 @@ static void append(koksma__json_writer *w, const char *text, size_t size)
     w->text[w->size] = '\0';
 }
 
-/* The bytes of the UTF-8 character at the text's start; 0 where none is. */
-static size_t utf8_length(const unsigned char *text)
-{
-    const unsigned char c = text[0];
-    const size_t length = c < 0x80                ? 1
-                          : c >= 0xc2 && c < 0xe0 ? 2
-                          : c >= 0xe0 && c < 0xf0 ? 3
-                          : c >= 0xf0 && c < 0xf5 ? 4
-                                                  : 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((text[i] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    const bool overlong = (c == 0xe0 && text[1] < 0xa0) || (c == 0xf0 && text[1] < 0x90);
-    const bool no_character = (c == 0xed && text[1] > 0x9f) || (c == 0xf4 && text[1] > 0x8f);
-    return overlong || no_character ? 0 : length;
-}
-
 void koksma__json_add_text(koksma__json_writer *w, const char *text)
 {
     while (*text) {
-        const size_t length = utf8_length((const unsigned char *)text);
+        const size_t length = koksma__utf8_length((const unsigned char *)text);
         const unsigned char c = (unsigned char)*text;
         char escape[8] = {'\\', *text};
         if (!length) {

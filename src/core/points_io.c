@@ -5,37 +5,32 @@
  */
 #include "core/points_io.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "core/atomic_file.h"
 #include "core/status.h"
 
+koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points)
+{
+    FILE *stream;
+    *points = (koksma_points){0};
+    koksma_status status = koksma__file_open(path, KOKSMA__FILE_POINTS, by, &stream);
+    if (status) {
+        return status;
+    }
+    const char *name = stream == stdin ? "standard input" : path;
+    const int first = getc(stream); /* the first byte of "\x93NUMPY"; no text begins with it */
+    ungetc(first, stream);
+    status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
+                           : koksma__points_read_text(stream, name, points);
+    koksma__file_close(stream);
+    return status;
+}
+
 koksma_status koksma_points_read(const char *path, koksma_points *points)
 {
-    *points = (koksma_points){0};
-    const bool standard = !strcmp(path, "-");
-    const char *name = standard ? "standard input" : path;
-    FILE *stream = standard ? stdin : fopen(path, "rb");
-    if (!stream) {
-        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(errno));
-    }
-    struct stat info;
-    koksma_status status;
-    if (!fstat(fileno(stream), &info) && S_ISDIR(info.st_mode)) {
-        status = koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a directory", name);
-    } else {
-        const int first = getc(stream); /* the first byte of "\x93NUMPY"; no text begins with it */
-        ungetc(first, stream);
-        status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
-                               : koksma__points_read_text(stream, name, points);
-    }
-    if (!standard) {
-        fclose(stream);
-    }
-    return status;
+    return koksma__points_read(path, KOKSMA__BY_USER, points);
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -69,7 +64,7 @@ koksma_status koksma__numbers_write(const char *path, const koksma_points *point
                                     const koksma_run *run)
 {
     koksma__atomic_file file;
-    koksma_status status = koksma__atomic_open(path, &file);
+    koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (status) {
         return status;
     }

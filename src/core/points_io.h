@@ -6,6 +6,7 @@
 
 #include <koksma/koksma.h>
 
+#include "core/read_file.h"
 #include "core/visibility.h"
 
 /* An error unless dim is a number of dimensions and n points of so many fit into one set. Errors: ARGUMENT, DIM. */
@@ -14,6 +15,9 @@ koksma_status koksma__points_fit(size_t n, int dim);
 /* An error unless there are points, they fit, and each coordinate is in [0,1] (NaN is not): what every public
    function that takes points and has no other rule asks first. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);
+
+/* koksma_points_read, and who named the file. */
+koksma_status koksma__points_read(const char *path, koksma__named by, koksma_points *points);
 
 /* Readers and writers by format. `name` is what errors call the source. On failure points is left empty. Writers
    accept any numbers. They stop when run's progress function asks for it (INTERRUPTED), or when writing fails, which

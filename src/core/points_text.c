@@ -19,6 +19,7 @@ typedef struct reader {
     const char *name;
     char *line; /* MAX_LINE + 1 bytes */
     size_t line_number, length;
+    uint64_t bytes; /* of all lines */
     bool header_seen;
     bool in_preamble; /* after a `key number` line and before `points` */
     size_t header_fields;
@@ -54,6 +55,11 @@ static bool read_line(reader *r, koksma_status *status)
     r->line[n] = '\0';
     r->length = n;
     r->line_number++;
+    r->bytes += n;
+    if (r->bytes > koksma__file_most(KOKSMA__FILE_POINTS)) { /* a pipe without end, of comments */
+        *status = koksma__file_too_long(r->name, KOKSMA__FILE_POINTS);
+        return false;
+    }
     return true;
 }
 

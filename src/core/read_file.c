@@ -1,62 +1,196 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Reads a file or a pipe whole into memory, with a limit on its size; a 0 follows the last byte. */
+/*
+ * Opens files from outside, for every reader. A scene, plan or model from a stranger may name a device without end, a
+ * fifo that nobody writes to, or a sparse file of any size, so that a file which a file names is opened only if it is
+ * plain, and read only up to the limit of its kind (file_kinds.def), its first bytes first. stat() looks before
+ * open(), because opening alone makes some devices act; fstat() looks again at what was opened. O_NONBLOCK keeps a
+ * fifo that came in between, and files of /proc, from waiting. A fifo that the user names is opened without it: reading
+ * would else end before another program has begun to write.
+ */
 #include "core/read_file.h"
 
 #include <errno.h>
-#include <stdio.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include "core/hash.h"
 #include "core/status.h"
 
-/* Reads to the end; capacity doubles, because a pipe does not tell its length. */
-static koksma_status read_all(FILE *stream, const char *path, size_t max, unsigned char **bytes, size_t *size)
+static const struct {
+    uint64_t most;
+    const char *text;
+} kinds[] = {
+#define FILE_KIND(name, mib, text) {(uint64_t)(mib) << 20, text},
+#include "core/file_kinds.def"
+#undef FILE_KIND
+};
+
+uint64_t koksma__file_most(koksma__file_kind kind)
 {
-    size_t capacity = 1 << 14, used = 0;
-    unsigned char *data = NULL;
+    const uint64_t most = kinds[kind].most;
+    return most < SIZE_MAX / 4 ? most : SIZE_MAX / 4;
+}
+
+koksma_status koksma__file_too_long(const char *name, koksma__file_kind kind)
+{
+    return koksma__fail(KOKSMA_MALFORMED, "%s: longer than %llu MiB, the limit of %s", name,
+                        (unsigned long long)(koksma__file_most(kind) >> 20), kinds[kind].text);
+}
+
+static koksma_status fail_read(const char *name, int reason)
+{
+    const bool exhausted = reason == EMFILE || reason == ENFILE || reason == ENOMEM;
+    return koksma__fail(exhausted ? KOKSMA_SYSTEM : KOKSMA_MISSING, "%s: can't be read: %s", name, strerror(reason));
+}
+
+/* An error for what is no file, or too long. */
+static koksma_status check_file(const char *path, const struct stat *info, koksma__file_kind kind, koksma__named by,
+                                bool terminal)
+{
+    if (S_ISDIR(info->st_mode)) {
+        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a directory", path);
+    }
+    if (S_ISCHR(info->st_mode) || S_ISBLK(info->st_mode)) {
+        return terminal && by == KOKSMA__BY_USER
+                   ? KOKSMA_OK
+                   : koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a device", path);
+    }
+    if (!S_ISREG(info->st_mode)) {
+        return by == KOKSMA__BY_USER ? KOKSMA_OK
+                                     : koksma__fail(KOKSMA_MISSING,
+                                                    "%s: can't be read: it is a pipe or socket, and only plain files "
+                                                    "are read here",
+                                                    path);
+    }
+    return (uint64_t)info->st_size > koksma__file_most(kind) ? koksma__file_too_long(path, kind) : KOKSMA_OK;
+}
+
+/* *descriptor is -1 after an error. */
+static koksma_status open_path(const char *path, koksma__file_kind kind, koksma__named by, int *descriptor)
+{
+    enum { FLAGS = O_RDONLY | O_CLOEXEC | O_NOCTTY };
+    struct stat info;
+    *descriptor = -1;
+    if (stat(path, &info)) {
+        return fail_read(path, errno);
+    }
+    koksma_status status = check_file(path, &info, kind, by, true);
+    if (status) {
+        return status;
+    }
+    *descriptor = open(path, S_ISFIFO(info.st_mode) ? FLAGS : FLAGS | O_NONBLOCK);
+    if (*descriptor < 0 || fstat(*descriptor, &info)) {
+        status = fail_read(path, errno);
+    }
+    status = status ? status : check_file(path, &info, kind, by, isatty(*descriptor));
+    if (!status && !S_ISREG(info.st_mode)) {
+        fcntl(*descriptor, F_SETFL, fcntl(*descriptor, F_GETFL) & ~O_NONBLOCK);
+    }
+    if (status && *descriptor >= 0) {
+        close(*descriptor);
+        *descriptor = -1;
+    }
+    return status;
+}
+
+koksma_status koksma__file_open(const char *path, koksma__file_kind kind, koksma__named by, FILE **stream)
+{
+    int descriptor;
+    *stream = by == KOKSMA__BY_USER && !strcmp(path, "-") ? stdin : NULL;
+    koksma_status status = *stream ? KOKSMA_OK : open_path(path, kind, by, &descriptor);
+    if (!status && !*stream && !(*stream = fdopen(descriptor, "rb"))) {
+        status = koksma__fail(KOKSMA_SYSTEM, "%s: can't be read: %s", path, strerror(errno));
+        close(descriptor);
+    }
+    return status;
+}
+
+void koksma__file_close(FILE *stream)
+{
+    if (stream && stream != stdin) {
+        fclose(stream);
+    }
+}
+
+koksma_status koksma__check_text(const unsigned char *bytes, size_t size)
+{
+    return memchr(bytes, 0, size) ? koksma__fail(KOKSMA_MALFORMED, "no text in UTF-8: it has a zero byte")
+                                  : KOKSMA_OK;
+}
+
+/* Reads to the end; capacity doubles, because a pipe does not tell its length, and ends at the limit. */
+static koksma_status read_all(FILE *stream, const char *name, size_t most, koksma__check_start *check,
+                              unsigned char **bytes, size_t *size)
+{
+    size_t capacity = KOKSMA__FILE_START, used = 0;
     for (;;) {
-        unsigned char *more = realloc(data, capacity + 1);
+        unsigned char *more = realloc(*bytes, capacity + 1);
         if (!more) {
-            free(data);
             return koksma__fail_memory(capacity);
         }
-        data = more;
-        used += fread(data + used, 1, capacity - used, stream);
-        if (used < capacity || used > max) {
+        *bytes = more;
+        const size_t got = fread(more + used, 1, capacity - used, stream);
+        const int reason = errno;
+        const bool first = used == 0;
+        used += got;
+        if (used < capacity && ferror(stream)) {
+            return fail_read(name, reason);
+        }
+        const koksma_status status = first && check ? check(more, used) : KOKSMA_OK;
+        if (status) {
+            return koksma__fail_in(status, name);
+        }
+        if (used < capacity || used > most) {
             break;
         }
-        capacity *= 2;
+        capacity = 2 * capacity <= most ? 2 * capacity : most + 1;
     }
-    if (ferror(stream) || used > max) {
-        free(data);
-        return used > max ? koksma__fail(KOKSMA_MALFORMED, "%s: longer than %zu bytes", path, max)
-                          : koksma__fail(KOKSMA_MISSING, "%s: can't be read: %s", path, strerror(errno));
-    }
-    data[used] = 0;
-    *bytes = data;
+    (*bytes)[used] = 0;
     *size = used;
     return KOKSMA_OK;
 }
 
-koksma_status koksma__read_file(const char *path, size_t max, unsigned char **bytes, size_t *size)
+koksma_status koksma__read_file(const char *path, koksma__file_kind kind, koksma__named by,
+                                koksma__check_start *check, unsigned char **bytes, size_t *size)
 {
+    FILE *stream;
+    const size_t most = (size_t)koksma__file_most(kind);
     *bytes = NULL;
     *size = 0;
-    if (!strcmp(path, "-")) {
-        return read_all(stdin, "standard input", max, bytes, size);
+    koksma_status status = koksma__file_open(path, kind, by, &stream);
+    if (status) {
+        return status;
     }
-    struct stat info;
-    if (!stat(path, &info) && S_ISDIR(info.st_mode)) {
-        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a directory", path);
+    const char *name = stream == stdin ? "standard input" : path;
+    status = read_all(stream, name, most, check, bytes, size);
+    koksma__file_close(stream);
+    status = !status && *size > most ? koksma__file_too_long(name, kind) : status;
+    if (status) {
+        free(*bytes);
+        *bytes = NULL;
+        *size = 0;
     }
-    FILE *stream = fopen(path, "rb");
-    if (!stream) {
-        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: %s", path, strerror(errno));
-    }
-    const koksma_status status = read_all(stream, path, max, bytes, size);
-    fclose(stream);
     return status;
+}
+
+koksma_status koksma__hash_file(const char *path, uint64_t *hash)
+{
+    unsigned char bytes[1 << 14];
+    FILE *stream;
+    const koksma_status status = koksma__file_open(path, KOKSMA__FILE_POINTS, KOKSMA__BY_FILE, &stream);
+    if (status) {
+        return status;
+    }
+    *hash = KOKSMA__HASH_START;
+    for (size_t n; (n = fread(bytes, 1, sizeof bytes, stream));) {
+        *hash = koksma__hash_more(*hash, bytes, n);
+    }
+    *hash = koksma__hash_end(*hash);
+    koksma__file_close(stream);
+    return KOKSMA_OK;
 }
 
 bool koksma__path_beside(const char *name, const char *path, char out[KOKSMA__MAX_PATH])

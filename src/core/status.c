@@ -46,12 +46,45 @@ const char *koksma_version(void)
     return KOKSMA_VERSION;
 }
 
-void koksma__make_printable(char *text)
+size_t koksma__utf8_length(const unsigned char *text)
 {
-    for (; *text; text++) {
-        if ((unsigned char)*text < 0x20 || *text == 0x7f) {
-            *text = '?';
+    const unsigned char c = text[0];
+    const size_t length = c < 0x80                ? 1
+                          : c >= 0xc2 && c < 0xe0 ? 2
+                          : c >= 0xe0 && c < 0xf0 ? 3
+                          : c >= 0xf0 && c < 0xf5 ? 4
+                                                  : 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((text[i] & 0xc0) != 0x80) {
+            return 0;
         }
+    }
+    const bool overlong = (c == 0xe0 && text[1] < 0xa0) || (c == 0xf0 && text[1] < 0x90);
+    const bool no_character = (c == 0xed && text[1] > 0x9f) || (c == 0xf4 && text[1] > 0x8f);
+    return overlong || no_character ? 0 : length;
+}
+
+/* A terminal obeys the control characters of Latin-1, too (U+0080 to U+009F). */
+void koksma_text_escape(char *text, size_t size)
+{
+    static const char hex[] = "0123456789abcdef";
+    for (size_t i = 0; text && text[i];) {
+        const unsigned char c = (unsigned char)text[i];
+        const size_t length = koksma__utf8_length((const unsigned char *)text + i);
+        const bool control = c < 0x20 || c == 0x7f || (c == 0xc2 && (unsigned char)text[i + 1] < 0xa0);
+        if (length && !control) {
+            i += length;
+            continue;
+        }
+        if (i + 5 > size) {
+            text[i] = '\0';
+            return;
+        }
+        const size_t rest = strlen(text + i + 1), room = size - i - 5, kept = rest < room ? rest : room;
+        memmove(text + i + 4, text + i + 1, kept);
+        text[i + 4 + kept] = '\0';
+        memcpy(text + i, (const char[]){'\\', 'x', hex[c >> 4], hex[c & 15]}, 4);
+        i += 4;
     }
 }
 
@@ -62,7 +95,7 @@ koksma_status koksma__fail(koksma_status status, const char *format, ...)
     va_start(arguments, format);
     koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    koksma__make_printable(text);
+    koksma_text_escape(text, sizeof text);
     memcpy(error_text, text, sizeof text);
     return status;
 }

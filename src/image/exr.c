@@ -34,6 +34,16 @@ static bool recognises(const unsigned char *bytes, size_t size)
     return size >= 4 && !memcmp(bytes, magic, 4);
 }
 
+/* OpenEXRCore calls "out of memory" what it can't decompress. */
+static _Thread_local bool exhausted;
+
+static void *allocate(size_t size)
+{
+    void *memory = malloc(size);
+    exhausted |= !memory;
+    return memory;
+}
+
 static void on_error(exr_const_context_t file, exr_result_t code, const char *text)
 {
     (void)file;
@@ -47,10 +57,7 @@ static void on_error(exr_const_context_t file, exr_result_t code, const char *te
 static koksma_status fail(exr_result_t code, koksma_status otherwise)
 {
     const char *text = *message ? message : exr_get_default_error_message(code);
-    const koksma_status status = code == EXR_ERR_OUT_OF_MEMORY || code == EXR_ERR_WRITE_IO ? KOKSMA_MEMORY
-                                 : code == EXR_ERR_FEATURE_NOT_IMPLEMENTED                 ? KOKSMA_UNSUPPORTED
-                                                                                           : otherwise;
-    return koksma__fail(status, "as an EXR: %s", text);
+    return koksma__fail(exhausted || code == EXR_ERR_WRITE_IO ? KOKSMA_MEMORY : otherwise, "as an EXR: %s", text);
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------ */
@@ -109,7 +116,7 @@ static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, i
         wide |= list->entries[i].pixel_type != EXR_PIXEL_HALF;
     }
     return others || y != (channels == 1)
-               ? koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: B44 and DWA files are read for R, G, B or for Y alone")
+               ? koksma__fail(KOKSMA_MALFORMED, "as an EXR: B44 and DWA files are read for R, G, B or for Y alone")
                : koksma__exr_rgba_read(s->bytes, s->size, channels, wide, out);
 }
 
@@ -194,7 +201,7 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         return fail(r, KOKSMA_MALFORMED);
     }
     if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
-        return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: deep images are not read");
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: deep images are not read");
     }
     const int channels = count_channels(list);
     if (!channels) {
@@ -202,7 +209,7 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
     }
     for (int i = 0; i < list->num_channels; i++) {
         if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1) {
-            return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: subsampled channels are not read");
+            return koksma__fail(KOKSMA_MALFORMED, "as an EXR: subsampled channels are not read");
         }
     }
     if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
@@ -227,6 +234,8 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     exr_context_t file;
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = on_error;
+    how.alloc_fn = allocate;
+    exhausted = false;
     *message = 0;
     how.user_data = &s;
     how.read_fn = read_bytes;
@@ -316,6 +325,8 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
     exr_context_t file;
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = on_error;
+    how.alloc_fn = allocate;
+    exhausted = false;
     *message = 0;
     how.user_data = &s;
     how.write_fn = write_bytes;

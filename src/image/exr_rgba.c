@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * EXR files that OpenEXRCore 3.1.5 decodes wrongly (B44, B44A) or not at all (DWAA, DWAB), by the C face of OpenEXR's
- * C++ library. It opens files by name only and gives half floats, so the bytes go through a temporary file. Its last
+ * C++ library. It opens files by name only and gives half floats, so the bytes go through a file in memory. Its last
  * error is a variable that threads share: the text may be another's, the status is not.
  */
 #ifdef KOKSMA_EXR
+#define _GNU_SOURCE /* memfd_create */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <OpenEXR/ImfCRgbaFile.h>
@@ -53,9 +56,8 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
     if (!whole) {
         return fail();
     }
-    return fits
-               ? KOKSMA_OK
-               : koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
+    return fits ? KOKSMA_OK
+                : koksma__fail(KOKSMA_MALFORMED, "as an EXR: numbers above 65504 in a B44 or DWA file are not read");
 }
 
 /* Whether a list of channels ends with its value: entries are a name and 16 bytes, and an empty name is the end. */
@@ -143,34 +145,29 @@ static bool header_fits(const unsigned char *bytes, size_t size)
 koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
                                     koksma_image *out)
 {
-    const char *folder = getenv("TMPDIR");
-    char path[4096];
+    char path[64];
     if (!header_fits(bytes, size)) {
         return koksma__fail(KOKSMA_MALFORMED, "as an EXR: an attribute of its header states a wrong size");
     }
-    if ((size_t)snprintf(path, sizeof path, "%s/koksma-XXXXXX", folder && *folder ? folder : "/tmp") >= sizeof path) {
-        return koksma__fail(KOKSMA_SYSTEM, "TMPDIR is too long");
+    const int descriptor = memfd_create("koksma", MFD_CLOEXEC);
+    ssize_t n = descriptor < 0 ? -1 : 0;
+    for (size_t done = 0; n >= 0 && done < size; done += (size_t)(n > 0 ? n : 0)) {
+        n = write(descriptor, bytes + done, size - done);
     }
-    const int descriptor = mkstemp(path);
-    FILE *stream = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
-    if (!stream) {
-        if (descriptor >= 0) {
-            close(descriptor);
-            unlink(path);
+    koksma_status status = KOKSMA_OK;
+    if (n < 0) {
+        status = koksma__fail(KOKSMA_SYSTEM, "as an EXR: no file in memory: %s", strerror(errno));
+    } else {
+        snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+        ImfInputFile *file = ImfOpenInputFile(path);
+        status = file ? read_pixels(file, size, channels, wide, out) : fail();
+        if (file) {
+            ImfCloseInputFile(file);
         }
-        return koksma__fail(KOKSMA_IO, "%s: no temporary file can be made", path);
     }
-    const bool written = fwrite(bytes, 1, size, stream) == size;
-    if (fclose(stream) || !written) {
-        unlink(path);
-        return koksma__fail(KOKSMA_IO, "%s: can't be written", path);
+    if (descriptor >= 0) {
+        close(descriptor);
     }
-    ImfInputFile *file = ImfOpenInputFile(path);
-    const koksma_status status = file ? read_pixels(file, size, channels, wide, out) : fail();
-    if (file) {
-        ImfCloseInputFile(file);
-    }
-    unlink(path);
     return status;
 }
 #else

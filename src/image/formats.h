@@ -49,7 +49,7 @@ koksma_status koksma__image_check_shape(int width, int height, int channels);
 const koksma__image_format *koksma__image_format_at(size_t i);
 
 /* exr_rgba.c: EXR files by way of half floats: those compressed by DWAA, DWAB, B44 and B44A, whose channels are R, G,
-   B or Y. wide: they have numbers that are no halves; one too large for a half is UNSUPPORTED. */
+   B or Y. wide: they have numbers that are no halves; one too large for a half is MALFORMED. */
 koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
                                     koksma_image *out);
 

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Images as such, and their files by way of the table of formats. */
+#include "image/registry.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/atomic_file.h"
-#include "core/read_file.h"
 #include "core/status.h"
 #include "image/formats.h"
-
-#define MAX_FILE ((size_t)1 << (sizeof(size_t) > 4 ? 33 : 30))
 
 static const koksma__image_format *const formats[] = {
 #define FORMAT(name) &koksma__format_##name,
@@ -127,40 +126,55 @@ static const char *list_names(const char *before, bool capitals, const char *com
     return text;
 }
 
+static koksma_status find_format(const unsigned char *bytes, size_t size, const koksma__image_format **out)
+{
+    char names[128];
+    for (size_t i = 0; formats[i]; i++) {
+        if (formats[i]->recognises(bytes, size)) {
+            *out = formats[i];
+            return formats[i]->left_out ? no_library(formats[i]) : KOKSMA_OK;
+        }
+    }
+    return size ? koksma__fail(KOKSMA_MALFORMED, "neither %s",
+                               list_names("", true, " nor ", " nor ", names, sizeof names))
+                : koksma__fail(KOKSMA_MALFORMED, "empty");
+}
+
+static koksma_status check_start(const unsigned char *bytes, size_t size)
+{
+    const koksma__image_format *format;
+    return find_format(bytes, size, &format);
+}
+
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out)
 {
-    const koksma__image_format *format = NULL;
+    const koksma__image_format *format;
     *out = (koksma_image){0};
-    for (size_t i = 0; formats[i] && !format; i++) {
-        format = formats[i]->recognises(bytes, size) ? formats[i] : NULL;
-    }
-    koksma_status status = KOKSMA_OK;
-    if (!format) {
-        char names[128];
-        status = size ? koksma__fail(KOKSMA_MALFORMED, "neither %s",
-                                     list_names("", true, " nor ", " nor ", names, sizeof names))
-                      : koksma__fail(KOKSMA_MALFORMED, "empty");
-    } else {
-        status = format->left_out ? no_library(format) : format->read(bytes, size, out);
-    }
+    koksma_status status = find_format(bytes, size, &format);
+    status = status ? status : format->read(bytes, size, out);
     if (status) {
         koksma_image_fini(out);
     }
     return status;
 }
 
-koksma_status koksma_image_read(const char *path, koksma_image *out)
+koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out)
 {
     unsigned char *bytes;
     size_t size;
     *out = (koksma_image){0};
-    koksma_status status = koksma__read_file(path, MAX_FILE, &bytes, &size);
+    koksma_status status = koksma__read_file(path, kind, by, check_start, &bytes, &size);
     if (status) {
         return status;
     }
     status = koksma__image_read_bytes(bytes, size, out);
     free(bytes);
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
+}
+
+koksma_status koksma_image_read(const char *path, koksma_image *out)
+{
+    return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_USER, out);
 }
 
 static size_t count_numbers(const koksma_image *image)
@@ -223,24 +237,31 @@ bool koksma_image_has_layers(const char *path)
     return format && format->has_layers;
 }
 
-koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
+static koksma_status write_file(const char *folder, const char *path, const koksma_layer *layers, size_t n,
+                                const char *metadata)
 {
     koksma__bytes bytes = {0};
-    koksma__atomic_file file;
     koksma_status status = koksma_image_check_path(path);
     if (status) {
         return status;
     }
     status = koksma__layers_check(layers, n);
     status = status ? status : format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
-    if (status) {
-        koksma__fail_in(status, path);
-    } else if (!(status = koksma__atomic_open(path, &file))) {
-        fwrite(bytes.data, 1, bytes.size, file.stream); /* close looks for the stream's error */
-        status = koksma__atomic_close(&file, true);
-    }
+    status = status ? koksma__fail_in(status, path) : koksma__atomic_put(folder, path, bytes.data, bytes.size);
     free(bytes.data);
     return status;
+}
+
+koksma_status koksma_image_write_layers(const char *path, const koksma_layer *layers, size_t n, const char *metadata)
+{
+    return write_file(NULL, path, layers, n, metadata);
+}
+
+koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
+                                     const char *metadata)
+{
+    const koksma_layer only = {"", image};
+    return write_file(folder, name, &only, 1, metadata);
 }
 
 koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)

@@ -82,7 +82,7 @@ static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koks
     if (!koksma__find_named(g->out->path, uri, file)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__read_file(file, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    const koksma_status status = koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size);
     if (status) {
         return status;
     }

@@ -8,7 +8,6 @@
 
 #define KOKSMA__MAX_VERTICES ((size_t)1 << 26)
 #define KOKSMA__MAX_TRIANGLES ((size_t)1 << 26) /* of a mesh */
-#define KOKSMA__MAX_MESH_FILE ((size_t)1 << 30)
 
 typedef struct koksma__mesh {
     char name[64]; /* for instances; may be empty */

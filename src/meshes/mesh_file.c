@@ -18,10 +18,10 @@ enum { MAX_PLACEMENTS = 1 << 20 };
 
 /* ---- Files beside a model ----------------------------------------------------------------------------------- */
 
-bool koksma__is_plain_file(const char *path)
+bool koksma__is_file(const char *path)
 {
     struct stat about;
-    return !stat(path, &about) && S_ISREG(about.st_mode);
+    return !stat(path, &about) && !S_ISDIR(about.st_mode);
 }
 
 /* Decodes what is encoded; false: that is nothing, or a zero. */
@@ -58,10 +58,10 @@ bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MA
 {
     static bool (*const ways[])(char *text) = {decode, use_slashes};
     char other[KOKSMA__MAX_PATH];
-    bool found = koksma__path_beside(model, name, out) && koksma__is_plain_file(out);
+    bool found = koksma__path_beside(model, name, out) && koksma__is_file(out);
     for (size_t i = 0; !found && i < 2 && strlen(name) < sizeof other; i++) {
         strcpy(other, name);
-        found = ways[i](other) && koksma__path_beside(model, other, out) && koksma__is_plain_file(out);
+        found = ways[i](other) && koksma__path_beside(model, other, out) && koksma__is_file(out);
     }
     return found;
 }

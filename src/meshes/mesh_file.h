@@ -98,10 +98,10 @@ koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uin
 /* Hands the list's indices over to a mesh without triangles. */
 void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
 
-/* Whether there is a file that is no folder, device or the like. */
-bool koksma__is_plain_file(const char *path);
+/* Whether there is something that is no folder; koksma__read_file refuses what is no plain file. */
+bool koksma__is_file(const char *path);
 
-/* The plain file beside the model that a model names: as it stands there, or with its %20 and the like decoded (names
+/* The file beside the model that a model names: as it stands there, or with its %20 and the like decoded (names
    in glTF are URIs: RFC 3986, section 2.1), or with \ taken for / (OBJ files of Windows). false: there is none. */
 bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MAX_PATH]);
 

@@ -242,7 +242,8 @@ koksma_status koksma__mtl_read(const char *path, koksma__mtl_names *names, koksm
 {
     unsigned char *bytes = NULL;
     size_t size = 0, current = SIZE_MAX;
-    koksma_status status = koksma__read_file(path, KOKSMA__MAX_MESH_FILE, &bytes, &size);
+    koksma_status status =
+        koksma__read_file(path, KOKSMA__FILE_MATERIALS, KOKSMA__BY_FILE, koksma__check_text, &bytes, &size);
     if (status) {
         return status;
     }

@@ -287,7 +287,7 @@ static koksma_status note_missing(obj *o, const char *name)
     o->own_library = true;
     strcpy(own, o->text.path);
     strcpy(strrchr(own, '.'), ".mtl");
-    return koksma__is_plain_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
+    return koksma__is_file(own) ? koksma__mtl_read(own, &o->names, o->out) : KOKSMA_OK;
 }
 
 /* What follows mtllib: one name with blanks, or several. */

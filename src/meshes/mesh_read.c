@@ -50,7 +50,14 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
+/* PLY and binary glTF begin so; all others are texts. */
+static koksma_status check_start(const unsigned char *bytes, size_t size)
+{
+    const bool binary = size >= 4 && (!memcmp(bytes, "glTF", 4) || !memcmp(bytes, "ply", 3));
+    return binary ? KOKSMA_OK : koksma__check_text(bytes, size);
+}
+
+koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out)
 {
     unsigned char *bytes = NULL;
     size_t size = 0;
@@ -59,8 +66,7 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
     if (!how) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
     }
-    const bool plain = koksma__is_plain_file(path); /* where not, reading says why */
-    koksma_status status = koksma__read_file(path, plain ? KOKSMA__MAX_MESH_FILE : 1, &bytes, &size);
+    koksma_status status = koksma__read_file(path, KOKSMA__FILE_MESH, by, check_start, &bytes, &size);
     if (status) {
         return status;
     }
@@ -70,8 +76,8 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out)
         return KOKSMA_MEMORY;
     }
     *kept = bytes;
-    if (!plain || !size) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, plain ? "empty" : "no plain file");
+    if (!size) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
     }
     out->hash = how->times * koksma__hash(bytes, size);
     return how->read(bytes, size, out);
@@ -141,7 +147,7 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out)
 {
     koksma__mesh_file f;
-    koksma_status status = koksma__mesh_file_read(path, &f);
+    koksma_status status = koksma__mesh_file_read(path, KOKSMA__BY_FILE, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
         if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {

@@ -10,9 +10,9 @@ bool koksma__is_mesh_file(const char *path);
 
 /* Reads a mesh file and the files that it names. Whatever comes of it, the caller calls koksma__mesh_file_fini.
    Errors: MISSING, MALFORMED, MEMORY. */
-koksma_status koksma__mesh_file_read(const char *path, koksma__mesh_file *out);
+koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma__mesh_file *out);
 
-/* All triangles of a file as one mesh, checked. out is zeroed but for its name. Errors: MISSING, MALFORMED, MEMORY.
+/* All triangles of a file that a file names as one mesh, checked. out is zeroed but for its name. Errors: MISSING, MALFORMED, MEMORY.
  */
 koksma_status koksma__mesh_read(const char *path, koksma__mesh *out);
 

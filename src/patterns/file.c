@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * file: points from elsewhere: file:PATH, a .txt, .csv or .npy file. Asked for n points it gives the file's first n;
- * asked for fewer dimensions than the file's, the first of them. The file is read anew at each call.
+ * asked for fewer dimensions than the file's, the first of them. The file is read anew at each call, and a
+ * plan may name it, so that it is a plain file.
  *
  *     x_i = row i of the file, cut to dim columns
  */
 #include <string.h>
 
+#include "core/points_io.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 
@@ -14,7 +16,7 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 {
     (void)seed;
     const int dim = out->dim;
-    koksma_status status = koksma_points_read(args->path, out);
+    koksma_status status = koksma__points_read(args->path, KOKSMA__BY_FILE, out);
     if (!status && out->dim < dim) {
         status =
             koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", args->path, out->dim, dim);

@@ -328,11 +328,5 @@ koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format
 
 koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size)
 {
-    koksma__atomic_file file;
-    const koksma_status status = koksma__atomic_open(path, &file);
-    if (status) {
-        return status;
-    }
-    fwrite(bytes, 1, size, file.stream);
-    return koksma__atomic_close(&file, true);
+    return koksma__atomic_put(NULL, path, bytes, size);
 }

@@ -12,6 +12,7 @@
 
 #include "core/vector.h"
 #include "image/formats.h"
+#include "image/registry.h"
 
 const char *koksma__package_hint(const char *path)
 {
@@ -37,7 +38,7 @@ koksma_status koksma__parse_image(const char *name, const field *f, const char *
     if (!*out) {
         return koksma__fail_memory(sizeof **out);
     }
-    koksma_status status = koksma_image_read(full, *out);
+    koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, *out);
     status = status ? status : koksma__image_check(*out, full);
     if (status == KOKSMA_MISSING) {
         koksma__fail(status, "%s%s", koksma_error_text(), koksma__package_hint(full));

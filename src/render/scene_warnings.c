@@ -199,7 +199,7 @@ bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, c
     const bool found = of_materials(scene, &a) || of_all(scene, &a) || of_meshes(scene, &a) ||
                        of_placements(scene, &a) || of_lights(scene, &a) || (by_paths && of_hidden_lights(scene, &a));
     if (found && size) {
-        koksma__make_printable(text);
+        koksma_text_escape(text, size);
     }
     return found;
 }

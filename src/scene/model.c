@@ -53,7 +53,7 @@ static void frame_all(koksma_scene *scene)
     koksma__camera_aim(eye, forward, up, fov, &scene->camera);
 }
 
-koksma_status koksma__model_parse(const char *path, koksma_scene *scene)
+koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene)
 {
     bool has_camera = false;
     const char *slash = strrchr(path, '/');
@@ -67,7 +67,7 @@ koksma_status koksma__model_parse(const char *path, koksma_scene *scene)
     scene->width = 512;
     scene->height = 384;
     scene->clamp = INFINITY;
-    const koksma_status status = koksma__model_read(path, scene, &has_camera);
+    const koksma_status status = koksma__model_read(path, by, scene, &has_camera);
     if (status) {
         return status;
     }

@@ -12,6 +12,7 @@
 #include "core/status.h"
 #include "core/vector.h"
 #include "image/formats.h"
+#include "image/registry.h"
 #include "meshes/mesh_read.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
@@ -51,7 +52,7 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
     if (!koksma__find_named(build->file->path, from->name, full)) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->name);
     }
-    const koksma_status status = koksma_image_read(full, image);
+    const koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, image);
     return status ? status : koksma__image_check(image, from->name);
 }
 
@@ -347,11 +348,11 @@ static koksma_status build_all(builder *build, bool *has_camera)
     return status;
 }
 
-koksma_status koksma__model_read(const char *path, koksma_scene *scene, bool *has_camera)
+koksma_status koksma__model_read(const char *path, koksma__named by, koksma_scene *scene, bool *has_camera)
 {
     koksma__mesh_file file;
     builder build = {.scene = scene, .file = &file};
-    koksma_status status = koksma__mesh_file_read(path, &file);
+    koksma_status status = koksma__mesh_file_read(path, by, &file);
     if (!status) {
         scene->hash = file.hash;
         scene->unread = file.unread;

@@ -16,8 +16,6 @@
 #include "scene/model.h"
 #include "scene/scenes_embedded.h"
 
-#define MAX_FILE ((size_t)1 << 26)
-
 enum { N_SHIPPED = sizeof embedded_texts / sizeof *embedded_texts };
 
 const char *koksma_scene_name_at(size_t i)
@@ -65,10 +63,10 @@ koksma_status koksma__scene_open_text(const char *name, const char *text, size_t
     return close_failed(koksma__scene_parse(name, text, size, *out), out);
 }
 
-static koksma_status open_model(const char *path, koksma_scene **out)
+static koksma_status open_model(const char *path, koksma__named by, koksma_scene **out)
 {
     const koksma_status status = new_scene(out);
-    return status ? status : close_failed(koksma__model_parse(path, *out), out);
+    return status ? status : close_failed(koksma__model_parse(path, by, *out), out);
 }
 
 static bool is_path(const char *text)
@@ -77,7 +75,7 @@ static bool is_path(const char *text)
     return koksma__is_mesh_file(text) || strchr(text, '/') || (dot && !strcmp(dot, ".json"));
 }
 
-koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
+koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, koksma_scene **out)
 {
     *out = NULL;
     if (!name_or_path) {
@@ -93,16 +91,21 @@ koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
                                     "'koksma list scenes' names them, and a file's name ends in .json");
     }
     if (koksma__is_mesh_file(name_or_path)) {
-        return open_model(name_or_path, out);
+        return open_model(name_or_path, by, out);
     }
     unsigned char *bytes;
     size_t size;
-    koksma_status status = koksma__read_file(name_or_path, MAX_FILE, &bytes, &size);
+    koksma_status status = koksma__read_file(name_or_path, KOKSMA__FILE_SCENE, by, koksma__check_text, &bytes, &size);
     if (!status) {
         status = koksma__scene_open_text(name_or_path, (const char *)bytes, size, out);
         free(bytes);
     }
     return status;
+}
+
+koksma_status koksma_scene_open(const char *name_or_path, koksma_scene **out)
+{
+    return koksma__scene_open(name_or_path, KOKSMA__BY_USER, out);
 }
 
 void koksma__scene_fini(koksma_scene *scene)

@@ -5,7 +5,9 @@
 
 #include <errno.h>
 #include <execinfo.h>
+#include <fcntl.h>
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -146,28 +148,69 @@ static void *json_memory(size_t size)
 /* A stream whose reads and writes come by here; the stream below it has no buffer of its own. */
 enum { MAX_FILES = 64, BUFFER = 1024 };
 static struct {
-    FILE *above, *below;
+    FILE *above;
     char buffer[BUFFER]; /* small, so that there are several writes in a short file */
 } files[MAX_FILES];
 
 FILE *__real_fopen(const char *path, const char *how);
 FILE *__real_fdopen(int descriptor, const char *how);
 int __real_fclose(FILE *stream);
-int __real_fileno(FILE *stream);
+FILE *__real_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions);
+int __real_open(const char *path, int flags, ...);
+int __real_openat(int folder, const char *path, int flags, ...);
+int __real_memfd_create(const char *name, unsigned flags);
+ssize_t __real_write(int descriptor, const void *bytes, size_t size);
 int __real_fsync(int descriptor);
-int __real_rename(const char *from, const char *to);
+int __real_renameat(int from_folder, const char *from, int folder, const char *to);
+int __real_unlinkat(int folder, const char *path, int flags);
+int __real_close(int descriptor);
 int __real_mkdir(const char *path, mode_t bits);
-int __real_mkstemp(char *path);
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 FILE *__wrap_fopen(const char *path, const char *how);
 FILE *__wrap_fdopen(int descriptor, const char *how);
 int __wrap_fclose(FILE *stream);
-int __wrap_fileno(FILE *stream);
+FILE *__wrap_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions);
+int __wrap_open(const char *path, int flags, ...);
+int __wrap_openat(int folder, const char *path, int flags, ...);
+int __wrap_memfd_create(const char *name, unsigned flags);
+ssize_t __wrap_write(int descriptor, const void *bytes, size_t size);
 int __wrap_fsync(int descriptor);
-int __wrap_rename(const char *from, const char *to);
+int __wrap_renameat(int from_folder, const char *from, int folder, const char *to);
+int __wrap_unlinkat(int folder, const char *path, int flags);
+int __wrap_close(int descriptor);
 int __wrap_mkdir(const char *path, mode_t bits);
-int __wrap_mkstemp(char *path);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
+
+/* ---- The order of what reaches the disk ------------------------------------------------------------------ */
+
+/* KOKSMA_FAULT_LOG: a line for each call that changes a file or folder, by inode; tests/hostile/file_power.py. */
+static int log_descriptor = -1;
+
+static unsigned long long inode(int descriptor)
+{
+    struct stat info;
+    return fstat(descriptor, &info) ? 0 : (unsigned long long)info.st_ino;
+}
+
+static void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+static void note(const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    if (log_descriptor >= 0) {
+        vdprintf(log_descriptor, format, list);
+    }
+    va_end(list);
+}
+
+static void note_write(int descriptor, const unsigned char *bytes, size_t size)
+{
+    note("write %llu ", inode(descriptor));
+    for (size_t i = 0; log_descriptor >= 0 && i < size; i++) {
+        dprintf(log_descriptor, "%02x", bytes[i]);
+    }
+    note("\n");
+}
 
 static ssize_t read_below(void *cookie, char *bytes, size_t size)
 {
@@ -208,6 +251,18 @@ static int close_below(void *cookie)
     return __real_fclose(cookie);
 }
 
+static FILE *in_pieces(FILE *stream)
+{
+    for (int i = 0; stream && i < MAX_FILES; i++) {
+        if (!files[i].above) {
+            files[i].above = stream;
+            setvbuf(stream, files[i].buffer, _IOFBF, BUFFER);
+            return stream;
+        }
+    }
+    abort();
+}
+
 static FILE *above(FILE *below, const char *how)
 {
     const cookie_io_functions_t functions = {read_below, write_below, seek_below, close_below};
@@ -215,16 +270,7 @@ static FILE *above(FILE *below, const char *how)
         return NULL;
     }
     setvbuf(below, NULL, _IONBF, 0);
-    FILE *stream = fopencookie(below, how, functions);
-    for (int i = 0; stream && i < MAX_FILES; i++) {
-        if (!files[i].above) {
-            files[i].above = stream;
-            files[i].below = below;
-            setvbuf(stream, files[i].buffer, _IOFBF, BUFFER);
-            return stream;
-        }
-    }
-    abort();
+    return in_pieces(__real_fopencookie(below, how, functions));
 }
 
 FILE *__wrap_fopen(const char *path, const char *how)
@@ -262,14 +308,66 @@ int __wrap_fclose(FILE *stream)
     return code;
 }
 
-int __wrap_fileno(FILE *stream)
+static mode_t mode_in(int flags, va_list list)
 {
-    for (int i = 0; i < MAX_FILES; i++) {
-        if (files[i].above == stream) {
-            return __real_fileno(files[i].below);
-        }
+    return flags & O_CREAT ? va_arg(list, mode_t) : 0;
+}
+
+int __wrap_open(const char *path, int flags, ...)
+{
+    va_list list;
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = EMFILE;
+        return -1;
     }
-    return __real_fileno(stream);
+    va_start(list, flags);
+    const int descriptor = __real_open(path, flags, mode_in(flags, list));
+    va_end(list);
+    return descriptor;
+}
+
+int __wrap_openat(int folder, const char *path, int flags, ...)
+{
+    va_list list;
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = EMFILE;
+        return -1;
+    }
+    va_start(list, flags);
+    const int descriptor = __real_openat(folder, path, flags, mode_in(flags, list));
+    va_end(list);
+    if (descriptor >= 0 && flags & O_CREAT) {
+        note("create %llu %llu %s\n", inode(folder), inode(descriptor), path);
+    }
+    return descriptor;
+}
+
+FILE *__wrap_fopencookie(void *cookie, const char *how, cookie_io_functions_t functions)
+{
+    if (fault_here(FAULT_OPEN, NULL)) {
+        errno = ENOMEM;
+        return NULL;
+    }
+    FILE *stream = __real_fopencookie(cookie, how, functions);
+    return listening ? in_pieces(stream) : stream;
+}
+
+ssize_t __wrap_write(int descriptor, const void *bytes, size_t size)
+{
+    bool half = false;
+    if (fault_here(FAULT_WRITE, &half)) {
+        if (half) {
+            __real_write(descriptor, bytes, size / 2);
+            fault_end();
+        }
+        errno = ENOSPC;
+        return -1;
+    }
+    const ssize_t n = __real_write(descriptor, bytes, size);
+    if (n > 0) {
+        note_write(descriptor, bytes, (size_t)n);
+    }
+    return n;
 }
 
 int __wrap_fsync(int descriptor)
@@ -278,16 +376,34 @@ int __wrap_fsync(int descriptor)
         errno = EIO;
         return -1;
     }
+    note("sync %llu\n", inode(descriptor));
     return __real_fsync(descriptor);
 }
 
-int __wrap_rename(const char *from, const char *to)
+int __wrap_renameat(int from_folder, const char *from, int folder, const char *to)
 {
     if (fault_here(FAULT_RENAME, NULL)) {
         errno = EACCES;
         return -1;
     }
-    return __real_rename(from, to);
+    note("rename %llu %s %s\n", inode(folder), from, to);
+    return __real_renameat(from_folder, from, folder, to);
+}
+
+int __wrap_unlinkat(int folder, const char *path, int flags)
+{
+    note("unlink %llu %s\n", inode(folder), path);
+    return __real_unlinkat(folder, path, flags);
+}
+
+int __wrap_close(int descriptor)
+{
+    const int code = __real_close(descriptor);
+    if (fault_here(FAULT_CLOSE, NULL)) {
+        errno = EIO;
+        return -1;
+    }
+    return code;
 }
 
 int __wrap_mkdir(const char *path, mode_t bits)
@@ -299,13 +415,13 @@ int __wrap_mkdir(const char *path, mode_t bits)
     return __real_mkdir(path, bits);
 }
 
-int __wrap_mkstemp(char *path)
+int __wrap_memfd_create(const char *name, unsigned flags)
 {
     if (fault_here(FAULT_OPEN, NULL)) {
-        errno = ENOSPC;
+        errno = EMFILE;
         return -1;
     }
-    return __real_mkstemp(path);
+    return __real_memfd_create(name, flags);
 }
 
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument)
@@ -337,6 +453,9 @@ __attribute__((constructor)) static void begin(void)
     const char *kind = getenv("KOKSMA_FAULT"), *at = getenv("KOKSMA_FAULT_AT"), *how = getenv("KOKSMA_FAULT_MODE");
     if (!kind) {
         return;
+    }
+    if (getenv("KOKSMA_FAULT_LOG")) {
+        log_descriptor = __real_open(getenv("KOKSMA_FAULT_LOG"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     }
     json_set_alloc_funcs(json_memory, free);
     fault_install_sqlite();

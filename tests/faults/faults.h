@@ -13,12 +13,12 @@
 typedef enum fault_kind {
     FAULT_NONE,
     FAULT_MEMORY,    /* malloc and the like in the program and the libraries, and jansson's */
-    FAULT_OPEN,      /* fopen, fdopen, mkstemp, mkdir */
-    FAULT_READ,      /* reading from a file that fopen gave */
-    FAULT_WRITE,     /* writing to one, or to standard output */
+    FAULT_OPEN,      /* open, openat, fopen, fdopen, fopencookie, memfd_create, mkdir */
+    FAULT_READ,      /* reading from a file that fopen or fdopen gave */
+    FAULT_WRITE,     /* write, or writing to standard output */
     FAULT_SYNC,      /* fsync */
-    FAULT_CLOSE,     /* fclose */
-    FAULT_RENAME,    /* rename */
+    FAULT_CLOSE,     /* close, fclose */
+    FAULT_RENAME,    /* renameat */
     FAULT_THREAD,    /* pthread_create */
     FAULT_DB,        /* what SQLite asks of its files */
     FAULT_DB_MEMORY, /* SQLite's memory */

@@ -107,7 +107,7 @@ static void corners_of_obj_name_three_things(void **state)
                             "newmtl b\nd 0.5\nKe 2 3 4\nmap_ke 1.png\nnewmtl c\nTr 0\n");
     write_text("parts.obj", "mtllib parts.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl b\nf 1 2 3\nf 2 3 1\ng x\n"
                             "f 3 1 2\ng x\nusemtl a\nusemtl b\nf 1 2 3\nusemtl nobody\nf 1 2 3\n");
-    assert_ok(koksma__mesh_file_read("parts.obj", &file));
+    assert_ok(koksma__mesh_file_read("parts.obj", KOKSMA__BY_USER, &file));
     static const size_t materials[4] = {0, 2, 2, 4}, triangles[4] = {1, 2, 2, 1};
     assert_int_equal(file.meshes.n, 4);
     assert_int_equal(file.placements.n, 4);
@@ -216,7 +216,7 @@ static void wedges_of_ply_are_of_vertices(void **state)
                "ply\nformat ascii 1.0\ncomment TextureFile my wood.png\nelement vertex 3\nproperty float x\n"
                "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                "property list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 2 0 1 6 0 1 .25 .5 1 0\n");
-    assert_ok(koksma__mesh_file_read("wedge.ply", &file));
+    assert_ok(koksma__mesh_file_read("wedge.ply", KOKSMA__BY_USER, &file));
     const float wanted[6] = {0.25f, 0.5f, 1, 0, 0, 1};
     assert_memory_equal(koksma__file_mesh_at(&file, 0)->mesh.uvs, wanted, sizeof wanted);
     assert_string_equal(koksma__file_material_at(&file, 0)->colour_map.name, "my wood.png");

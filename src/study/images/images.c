@@ -13,6 +13,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "image/registry.h"
 #include "stats/slopes.h"
 #include "stats/statistics.h"
 #include "study/images/image_names.h"
@@ -70,7 +71,7 @@ static koksma_status compare_one(void *context, size_t i)
 {
     pictures *all = context;
     koksma_image image;
-    koksma_status status = koksma_image_read(all->at[i].path, &image);
+    koksma_status status = koksma__image_read(all->at[i].path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image);
     if (!status) {
         status = koksma_image_compare(&image, &all->reference, &all->at[i].error);
         /* One pixel that is no number would make a whole group's error none. */
@@ -156,7 +157,9 @@ static koksma_status add_coherence(const pictures *all, const koksma_run *run, k
         status = koksma_coherence_init(&coherence, all->reference.width, all->reference.height);
         for (size_t k = 0; !status && k < rows[i].trials; k++, p++) {
             koksma_image image = {0};
-            status = koksma__keep_going(run, 1) ? koksma_image_read(p->path, &image) : koksma__fail_interrupted();
+            status = koksma__keep_going(run, 1)
+                         ? koksma__image_read(p->path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &image)
+                         : koksma__fail_interrupted();
             if (!status) {
                 status = koksma_coherence_add(&coherence, &image, &all->reference);
                 koksma_image_fini(&image);

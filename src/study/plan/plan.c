@@ -10,6 +10,7 @@
 #include <koksma/study.h>
 #include <koksma/warp.h>
 
+#include "scene/scene.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
@@ -115,7 +116,7 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
 static koksma_status check_scene(const koksma__json_node *node, const char *name)
 {
     koksma_scene *scene;
-    const koksma_status status = koksma_scene_open(name, &scene);
+    const koksma_status status = koksma__scene_open(name, KOKSMA__BY_FILE, &scene);
     if (!status) {
         koksma_scene_close(scene);
     }

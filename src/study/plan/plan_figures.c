@@ -7,6 +7,7 @@
 #include <koksma/warp.h>
 
 #include "core/status.h"
+#include "scene/scene.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
@@ -36,7 +37,7 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
 {
     koksma_adaptive_options adaptive;
     koksma_scene *scene;
-    koksma_status status = f->scene ? koksma_scene_open(f->scene, &scene) : KOKSMA_OK;
+    koksma_status status = f->scene ? koksma__scene_open(f->scene, KOKSMA__BY_FILE, &scene) : KOKSMA_OK;
     if (f->scene && !status) {
         koksma_scene_close(scene);
     }

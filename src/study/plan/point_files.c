@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/hash.h"
 #include "core/read_file.h"
 
 static const char prefix[] = "file:";
@@ -30,14 +29,8 @@ static const char *path_in(const char *spec, size_t *length)
 
 static uint64_t hash_of_file(const char *path)
 {
-    unsigned char *bytes = NULL;
-    size_t size = 0;
     uint64_t hash = 0;
-    if (strcmp(path, "-") != 0 && !koksma__read_file(path, SIZE_MAX / 4, &bytes, &size)) {
-        hash = koksma__hash(bytes, size);
-    }
-    free(bytes);
-    return hash;
+    return koksma__hash_file(path, &hash) ? 0 : hash;
 }
 
 /* Without memory for the list the file is read again the next time. */

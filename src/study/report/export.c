@@ -215,7 +215,7 @@ koksma_status koksma_study_export(const char *folder, koksma_export_format forma
     if (status) {
         return status;
     }
-    status = koksma__atomic_open(path, &file);
+    status = koksma__atomic_open(NULL, path, &file);
     if (!status) {
         w.stream = file.stream;
         status = write_rows(store, format, &w);

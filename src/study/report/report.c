@@ -88,10 +88,8 @@ static koksma_status build(koksma_study *study, const koksma_run *run, koksma__d
 /* Writes the parts, which end at NULL, to a file of the study's folder. */
 static koksma_status write_file(const koksma_study *study, const char *name, const char *const *parts)
 {
-    char path[1100];
     koksma__atomic_file file;
-    snprintf(path, sizeof path, "%s/%s", study->folder, name);
-    koksma_status status = koksma__atomic_open(path, &file);
+    koksma_status status = koksma__atomic_open(study->folder, name, &file);
     if (!status) {
         for (; *parts; parts++) {
             fputs(*parts, file.stream);

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 
 #include "core/status.h"
+#include "image/registry.h"
 #include "render/rows.h"
 #include "study/plan/point_files.h"
 #include "study/run/study.h"
@@ -131,7 +132,9 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     status = status ? status : koksma__store_put_reference(study->store, &key, error);
     status = status ? status : koksma__store_commit(study->store);
     koksma__reference_path(study, reference, path, sizeof path);
-    status = status ? status : koksma_image_write(path, &reference->image, name);
+    status = status
+                 ? status
+                 : koksma__image_write_in(study->folder, path + strlen(study->folder) + 1, &reference->image, name);
     free(s->sum);
     *s = (koksma__replicates){0};
     return status;
@@ -144,5 +147,5 @@ koksma_status koksma__reference_read(const koksma_study *study, koksma__referenc
         return KOKSMA_OK;
     }
     koksma__reference_path(study, reference, path, sizeof path);
-    return koksma_image_read(path, &reference->image);
+    return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &reference->image);
 }

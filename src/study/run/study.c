@@ -9,11 +9,10 @@
 
 #include "core/read_file.h"
 #include "core/status.h"
+#include "scene/scene.h"
 #include "study/plan/plan_owned.h"
 #include "study/run/mpi_rank.h"
 #include "study/run/study.h"
-
-enum { MAX_PLAN = 1 << 22 };
 
 static koksma_status load_plan(const char *name, const koksma__plan_trials *trials, koksma__plan *plan,
                                char **text_out)
@@ -31,7 +30,7 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
         text = (unsigned char *)strdup(shipped);
         status = text ? KOKSMA_OK : koksma__fail_memory(size);
     } else {
-        status = koksma__read_file(name, MAX_PLAN, &text, &size);
+        status = koksma__read_file(name, KOKSMA__FILE_PLAN, KOKSMA__BY_USER, koksma__check_text, &text, &size);
     }
     status = status ? status : koksma__plan_parse(name, (const char *)text, size, trials, plan);
     *text_out = (char *)text;
@@ -60,7 +59,7 @@ static koksma_status open_scene(koksma_study *study, const char *name)
     study->scenes = scenes;
     koksma__study_scene *s = &scenes[study->n_scenes];
     *s = (koksma__study_scene){.name = name};
-    const koksma_status status = koksma_scene_open(name, &s->scene);
+    const koksma_status status = koksma__scene_open(name, KOKSMA__BY_FILE, &s->scene);
     if (status) {
         return status;
     }

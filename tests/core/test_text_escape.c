@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* koksma_text_escape: what it must leave, what it must escape (RFC 3629, section 4: the table of well-formed UTF-8),
+   and that no text of any bytes and no size leaves what is not a line of valid UTF-8. */
+#include "test.h"
+
+#include <stdint.h>
+#include <string.h>
+
+static void test_rows(void **state)
+{
+    static const struct {
+        const char *text, *escaped;
+    } rows[] = {
+        {"", ""},
+        {"plain", "plain"},
+        {"Grün \xe2\x82\xac \xf0\x9f\x98\x80", "Grün \xe2\x82\xac \xf0\x9f\x98\x80"},
+        {"a\nb\tc\x7f", "a\\x0ab\\x09c\\x7f"},
+        {"\x1b[2J", "\\x1b[2J"},
+        {"\xc2\x9b", "\\xc2\\x9b"}, /* CSI in one character of Latin-1 */
+        {"\xc2\xa0", "\xc2\xa0"},   /* the first that is none */
+        {"\xff\xfe", "\\xff\\xfe"},
+        {"\xc0\xaf", "\\xc0\\xaf"},                   /* overlong */
+        {"\xe0\x9f\xbf", "\\xe0\\x9f\\xbf"},          /* overlong */
+        {"\xed\xa0\x80", "\\xed\\xa0\\x80"},          /* a surrogate */
+        {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"}, /* above U+10FFFF */
+        {"cut \xe2\x82", "cut \\xe2\\x82"},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[64];
+        strcpy(text, rows[i].text);
+        koksma_text_escape(text, sizeof text);
+        assert_string_equal(text, rows[i].escaped);
+    }
+    koksma_text_escape(NULL, 8);
+}
+
+/* A decoder of its own: bits into a number, then the number's shortest length. */
+static bool is_line_of_utf8(const char *text)
+{
+    for (const unsigned char *at = (const unsigned char *)text; *at;) {
+        const int more = *at < 0x80             ? 0
+                         : (*at & 0xe0) == 0xc0 ? 1
+                         : (*at & 0xf0) == 0xe0 ? 2
+                         : (*at & 0xf8) == 0xf0 ? 3
+                                                : -1;
+        uint32_t value = more == 0 ? *at : *at & (0x3fu >> (unsigned)(more > 0 ? more : 1));
+        if (more < 0) {
+            return false;
+        }
+        at++;
+        for (int i = 0; i < more; i++, at++) {
+            if ((*at & 0xc0) != 0x80) {
+                return false;
+            }
+            value = value << 6 | (*at & 0x3f);
+        }
+        static const uint32_t least[] = {0x20, 0xa0, 0x800, 0x10000};
+        if (value < least[more] || value == 0x7f || (value >= 0xd800 && value < 0xe000) || value > 0x10ffff) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void test_any_bytes(void **state)
+{
+    uint64_t h = 1;
+    (void)state;
+    for (int n = 0; n < 200000; n++) {
+        char text[24], around[26];
+        const size_t size = 1 + (size_t)n % sizeof text, length = (size_t)n / sizeof text % size;
+        for (size_t i = 0; i < length; i++) {
+            h = h * 6364136223846793005u + 1442695040888963407u;
+            text[i] = (char)(h >> 60 & 1 ? 1 + (h >> 33) % 255 : 0x80 + (h >> 33) % 0x80); /* half of them high */
+        }
+        text[length] = '\0';
+        memset(around, 'z', sizeof around);
+        memcpy(around + 1, text, length + 1);
+        koksma_text_escape(around + 1, size);
+        assert_int_equal(around[0], 'z');
+        assert_true(memchr(around + 1, 0, size) != NULL);
+        assert_true(is_line_of_utf8(around + 1));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_rows), cmocka_unit_test(test_any_bytes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

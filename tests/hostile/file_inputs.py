@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""file_inputs.py PROGRAM: what scenes, plans, models and the command line may point at.
+
+Each place that names a file is pointed at devices, fifos without a writer, sockets, folders, links to them, sparse files
+beyond the limit of the kind (src/core/file_kinds.def), and sparse files within it whose first bytes are wrong. Whatever
+it is, the program must end, in the memory of an ordinary run, with exit code 3 and one line that names the file and says
+why. What the user names may be a pipe, which must give what the file gives, and is read up to the limit.
+"""
+import json
+import os
+import re
+import resource
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+
+import files
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCE = os.path.dirname(os.path.dirname(HERE))
+SPARSE = 10 << 30
+MODELS_TEXTURES = ("map_Kd", "glTF image")  # a malformed one is left out, of which `scene check` warns: exit code 1
+
+
+def limits():
+    """Bytes and words of each kind; a kind without a case below is a failure."""
+    with open(os.path.join(SOURCE, "src/core/file_kinds.def"), encoding="utf-8") as stream:
+        rows = re.findall(r'^FILE_KIND\((\w+), (\d+), "([^"]+)"\)', stream.read(), re.M)
+    return {name: (int(mib) << 20, text) for name, mib, text in rows}
+
+
+def put(path, value):
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(value if isinstance(value, str) else json.dumps(value))
+    return path
+
+
+def scene(shape=None, albedo=0.5, light=None):
+    return {"image": {"width": 4, "height": 4}, "camera": {"eye": [0, 0, 5], "target": [0, 0, 0], "fov_deg": 40},
+            "materials": [{"name": "m", "kind": "lambert", "albedo": albedo}],
+            "shapes": [shape or {"kind": "rectangle", "centre": [0, 0, 0], "normal": [0, 0, 1], "half": [1, 1],
+                                 "material": "m"}],
+            "lights": [light or {"kind": "environment", "radiance": 1}]}
+
+
+def plan(pattern="random", scenes=None):
+    made = {"name": "p", "title": "p",
+            "discrepancies": [{"patterns": [pattern], "n": [1], "measures": ["l2-star"], "trials": 1}]}
+    if scenes:
+        made["images"] = [{"scenes": scenes, "size": [4, 4], "patterns": ["random"], "spp": [1], "trials": 1,
+                           "references": [{"name": "r", "pattern": "random", "spp": 1}]}]
+    return made
+
+
+def gltf(uri="square.bin", image=None):
+    with open(os.path.join(SOURCE, "tests/faults/inputs/square.gltf"), encoding="utf-8") as stream:
+        model = json.load(stream)
+    model["buffers"][0]["uri"] = uri
+    if image:
+        model["images"], model["textures"] = [{"uri": image}], [{"source": 0}]
+        model["materials"] = [{"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}}}]
+        model["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"})
+        model["bufferViews"].append({"buffer": 0, "byteLength": 32})
+        model["meshes"][0]["primitives"][0].update({"material": 0})
+        model["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2
+    return model
+
+
+SQUARE = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl red\nf 1/1 2/2 3/3 4/4\n"
+
+
+def obj(folder, name):
+    put(os.path.join(folder, "model.mtl"), f"newmtl red\nKd 1 1 1\nmap_Kd {name}\n")
+    return put(os.path.join(folder, "model.obj"), "mtllib model.mtl\n" + SQUARE)
+
+
+def model(folder, made):
+    with open(os.path.join(SOURCE, "tests/faults/inputs/square.bin"), "rb") as stream:
+        data = stream.read()
+    with open(os.path.join(folder, "square.bin"), "wb") as stream:
+        stream.write(data)
+    return put(os.path.join(folder, "model.gltf"), made)
+
+
+def named_by_files(folder):
+    """(kind, ending, what names the file, arguments): one for each way in which a file names a file."""
+    def in_scene(**how):
+        return ["scene", "check", put(os.path.join(folder, "scene.json"), scene(**how))]
+
+    def in_plan(**how):
+        return ["study", "run", put(os.path.join(folder, "plan.json"), plan(**how)), "-q", "-o", "out"]
+
+    return [
+        ("TEXTURE", ".png", "albedo", lambda name: in_scene(albedo={"image": name})),
+        ("TEXTURE", ".exr", "environment", lambda name: in_scene(light={"kind": "environment", "image": name})),
+        ("TEXTURE", ".pfm", "map_Kd", lambda name: ["scene", "check", obj(folder, name)]),
+        ("TEXTURE", ".png", "glTF image", lambda name: ["scene", "check", model(folder, gltf(image=name))]),
+        ("MESH", ".obj", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
+        ("MESH", ".ply", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
+        ("MESH", ".off", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
+        ("MESH", ".gltf", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
+        ("MESH", ".glb", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
+        ("MATERIALS", ".mtl", "mtllib",
+         lambda name: ["scene", "check", put(os.path.join(folder, "other.obj"), f"mtllib {name}\n" + SQUARE)]),
+        ("BUFFER", ".bin", "buffer", lambda name: ["scene", "check", model(folder, gltf(uri=name))]),
+        ("SCENE", ".json", "scene of a plan", lambda name: in_plan(scenes=["./" + name])),
+        ("MESH", ".obj", "model of a plan", lambda name: in_plan(scenes=["./" + name])),
+        ("POINTS", ".txt", "pattern of a plan", lambda name: in_plan(pattern="file:" + name)),
+        ("POINTS", ".npy", "pattern of a plan", lambda name: in_plan(pattern="file:" + name)),
+    ]
+
+
+def named_by_user():
+    return [
+        ("IMAGE", ".png", "compare", lambda name: ["compare", name, name]),
+        ("IMAGE", ".exr", "reference", lambda name: ["study", "images", "good_{spp}.pfm", "--reference", name]),
+        ("SCENE", ".json", "scene", lambda name: ["scene", "check", "./" + name]),
+        ("MESH", ".obj", "model", lambda name: ["scene", "check", "./" + name]),
+        ("MESH", ".glb", "model", lambda name: ["scene", "check", "./" + name]),
+        ("PLAN", ".json", "plan", lambda name: ["study", "estimate", "./" + name]),
+        ("POINTS", ".csv", "points", lambda name: ["measure", name, "-m", "l2-star"]),
+        ("POINTS", ".npy", "points", lambda name: ["measure", name, "-m", "l2-star"]),
+    ]
+
+
+class Things:
+    """Makes hostile things in a folder, under names of any ending, and the words that must be said of them."""
+
+    def __init__(self, folder):
+        self.folder, self.sockets = folder, []
+
+    def path(self, kind, ending):
+        name = f"{kind}{ending}"
+        if os.path.lexists(os.path.join(self.folder, name)):
+            os.remove(os.path.join(self.folder, name))
+        return name, os.path.join(self.folder, name)
+
+    def device(self, ending):
+        name, path = self.path("device", ending)
+        os.symlink("/dev/zero", path)
+        return name, "it is a device"
+
+    def null(self, ending):
+        name, path = self.path("null", ending)
+        os.symlink("/dev/null", path)
+        return name, "it is a device"
+
+    def fifo(self, ending):
+        name, path = self.path("fifo", ending)
+        os.mkfifo(path)
+        return name, "it is a pipe or socket"
+
+    def socket(self, ending):
+        name, path = self.path("socket", ending)
+        made = socket.socket(socket.AF_UNIX)
+        made.bind(path)
+        self.sockets.append(made)
+        return name, "it is a pipe or socket"
+
+    def sparse(self, ending, size=SPARSE):
+        name, path = self.path("sparse", ending)
+        with open(path, "wb") as stream:
+            stream.truncate(size)
+        return name, None
+
+
+def check_named_by_files(checks, program, folder, kinds):
+    things = Things(folder)
+    seen = set()
+    for kind, ending, what, arguments in named_by_files(folder):
+        most, words = kinds[kind]
+        code = 1 if what in MODELS_TEXTURES else 3
+        seen.add(kind)
+        for make in (things.device, things.null, things.fifo, things.socket):
+            name, reason = make(ending)
+            done = files.run(program, *arguments(name), cwd=folder)
+            checks.refused(f"{what} {make.__name__}", done, 3, name, reason)
+        name, _ = things.sparse(ending)
+        checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), code, name,
+                       f"longer than {most >> 20} MiB, the limit of {words}")
+        if kind != "BUFFER":  # whose bytes are numbers, that the rest of the model needs
+            name, _ = things.sparse(ending, most)
+            checks.refused(f"{what} of zeros up to the limit", files.run(program, *arguments(name), cwd=folder), code,
+                           name)
+    for made in things.sockets:
+        made.close()
+    return seen
+
+
+def feed(path, data, endless=False):
+    """Writes into a fifo as soon as a reader is there."""
+    def write():
+        try:
+            with open(path, "wb", buffering=0) as stream:
+                stream.write(data)
+                while endless:
+                    stream.write(data)
+        except BrokenPipeError:
+            pass
+    thread = threading.Thread(target=write, daemon=True)
+    thread.start()
+    return thread
+
+
+def check_named_by_user(checks, program, folder, kinds):
+    things = Things(folder)
+    seen = set()
+    files.run(program, "render", "ball", "-n", "1", "--size", "4x4", "-q", "-o", "good_1.pfm", cwd=folder)
+    for kind, ending, what, arguments in named_by_user():
+        most, words = kinds[kind]
+        seen.add(kind)
+        for make in (things.device, things.null):
+            name, reason = make(ending)
+            checks.refused(f"{what} {make.__name__}", files.run(program, *arguments(name), cwd=folder), 3, name, reason)
+        name, _ = things.sparse(ending)
+        checks.refused(f"{what} of 10 GiB", files.run(program, *arguments(name), cwd=folder), 3, name,
+                       f"longer than {most >> 20} MiB, the limit of {words}")
+        name, _ = things.sparse(ending, most)
+        checks.refused(f"{what} of zeros up to the limit", files.run(program, *arguments(name), cwd=folder), 3, name)
+        name, _ = things.fifo(ending)
+        thread = feed(os.path.join(folder, name), bytes(1 << 16), endless=True)
+        checks.refused(f"{what}: endless zeros in a fifo", files.run(program, *arguments(name), cwd=folder), 3, name)
+        thread.join(files.SECONDS)
+        checks.check(not thread.is_alive(), f"{what}: the fifo was not read")
+    return seen
+
+
+def check_pipes(checks, program, folder):
+    """What the user names may be a pipe, and gives what the file gives."""
+    put(os.path.join(folder, "p.txt"), "0.5 0.25\n0.75 0.5\n")
+    put(os.path.join(folder, "s.json"), scene())
+    put(os.path.join(folder, "q.json"), plan())
+    put(os.path.join(folder, "m.obj"), SQUARE)
+    files.run(program, "render", "ball", "-n", "1", "--size", "4x4", "-q", "-o", "i.pfm", cwd=folder)
+    ways = [("p.txt", ["measure", "%", "-m", "l2-star"]), ("s.json", ["scene", "check", "%"]),
+            ("m.obj", ["scene", "check", "%"]), ("i.pfm", ["compare", "i.pfm", "%"]),
+            ("i.pfm", ["compare", "%", "i.pfm"])]
+    for name, arguments in ways:
+        with open(os.path.join(folder, name), "rb") as stream:
+            data = stream.read()
+        good = files.run(program, *[word.replace("%", "./" + name) for word in arguments], cwd=folder)
+        fifo = "pipe" + os.path.splitext(name)[1]
+        os.mkfifo(os.path.join(folder, fifo))
+        thread = feed(os.path.join(folder, fifo), data)
+        done = files.run(program, *[word.replace("%", "./" + fifo) for word in arguments], cwd=folder)
+        thread.join(files.SECONDS)
+        os.remove(os.path.join(folder, fifo))
+        checks.check(done and done.code == good.code < 2 and done.out.replace(fifo.encode(), name.encode()).split() ==
+                     good.out.split(), f"{arguments}: a fifo gives something else: {done and (done.out, done.err)}")
+    for way in ("-", "/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"):
+        for data, how in ((b"0.5 0.25\n0.75 0.5\n", "pipe"), (b"", "file")):
+            stdin = subprocess.PIPE
+            if how == "file":
+                stdin = open(os.path.join(folder, "p.txt"), "rb")  # pylint: disable=consider-using-with
+            done = subprocess.run([program, "measure", way, "-m", "l2-star", "--json"], stdin=None if how == "pipe" else stdin,
+                                  input=data if how == "pipe" else None, capture_output=True, cwd=folder, check=False,
+                                  timeout=files.SECONDS)
+            checks.check(done.returncode == 0 and b'"n":2' in done.stdout, f"measure {way} of a {how}: {done}")
+            if how == "file":
+                stdin.close()
+    done = files.run(program, "measure", "-", "-m", "l2-star", cwd=folder, stdin=open("/dev/zero", "rb"))
+    checks.refused("endless standard input", done, 3, "standard input")
+    done = files.run(program, "compare", "-", "i.pfm", cwd=folder, stdin=open("/dev/zero", "rb"))
+    checks.refused("endless standard input as an image", done, 3, "standard input")
+    put(os.path.join(folder, "dash.json"), scene(albedo={"image": "-"}))
+    done = files.run(program, "scene", "check", "dash.json", cwd=folder, stdin=open("/dev/zero", "rb"))
+    checks.refused("a scene that names '-'", done, 3, "-: can't be read: No such file")
+
+
+def check_descriptors(checks, program, folder):
+    """Without descriptors the reason is that, and the system's: the limit falls while the program waits for its scene."""
+    for arguments, made, name in (
+            (["scene", "check", "late.json"], scene(albedo={"image": "i.pfm"}), "i.pfm"),
+            (["render", "late.json", "-n", "1", "--size", "4x4", "-q", "-o", "o.pfm"], scene(), "o.pfm")):
+        fifo = os.path.join(folder, "late.json")
+        os.mkfifo(fifo)
+        process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        with open(fifo, "w", encoding="utf-8") as stream:  # returns when the program has opened it
+            resource.prlimit(process.pid, resource.RLIMIT_NOFILE, (3, 3))
+            json.dump(made, stream)
+        out, err = process.communicate(timeout=files.SECONDS)
+        checks.refused(f"{arguments} without descriptors", files.Done(process.returncode, out, err, 0), 4, name,
+                       "Too many open files")
+        os.remove(fifo)
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    checks, kinds = files.Checks(), limits()
+    with tempfile.TemporaryDirectory() as folder:
+        seen = check_named_by_files(checks, program, folder, kinds)
+        seen |= check_named_by_user(checks, program, folder, kinds)
+        check_pipes(checks, program, folder)
+        check_descriptors(checks, program, folder)
+    checks.check(seen == set(kinds), f"kinds of file without a case: {set(kinds) - seen}")
+    checks.end()
+
+
+if __name__ == "__main__":
+    main()

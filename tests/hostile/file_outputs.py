@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""file_outputs.py PROGRAM FAULTS: output files in folders that others may write to, and on disks that are full.
+
+Links are planted under the names that the program chooses, two processes have equal numbers (as in containers), runs are
+killed, and disks are full. A file is the old or the new one, whole; no file but the one that was asked for changes;
+what dead runs leave is removed by the next one, and what living runs write is not. FAULTS is the program with faults
+(tests/faults).
+"""
+import glob
+import os
+import random
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+import files
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+PLAN = os.path.join(os.path.dirname(HERE), "faults", "inputs", "plan.json")
+VICTIM = b"what somebody keeps here\n"
+POINTS = ["generate", "random", "-q"]
+
+
+def write(path, data=VICTIM):
+    with open(path, "wb") as stream:
+        stream.write(data)
+    return path
+
+
+def read(path):
+    with open(path, "rb") as stream:
+        return stream.read()
+
+
+def leftovers(folder):
+    return glob.glob(os.path.join(folder, "**", ".koksma-*"), recursive=True)
+
+
+def good(checks, what, done):
+    return checks.check(done is not None and done.code == 0, f"{what}: {done and (done.code, done.err)}")
+
+
+# ---- Links ----------------------------------------------------------------------------------------------------
+
+def check_planted_links(checks, program, folder):
+    """Links of the names that process numbers gave once, and of names like those of today."""
+    victim = write(os.path.join(folder, "victim"))
+    last = int(read("/proc/sys/kernel/ns_last_pid")) if os.path.exists("/proc/sys/kernel/ns_last_pid") else os.getpid()
+    for pid in range(last, last + 3000):
+        os.symlink("victim", os.path.join(folder, f".koksma-{pid}-0-out.txt"))
+    os.symlink("victim", os.path.join(folder, ".koksma-" + "0" * 16))
+    good(checks, "planted links", files.run(program, *POINTS, "-n", "4", "-o", "out.txt", cwd=folder))
+    checks.check(read(victim) == VICTIM, "a planted link was followed")
+    checks.check(not os.path.islink(os.path.join(folder, "out.txt")), "the output is a planted link")
+    checks.check(b"random" in read(os.path.join(folder, "out.txt")), "the output is not there")
+
+
+def check_own_names(checks, program, folder):
+    """Names that the program chose itself, in a folder that came from somebody."""
+    good(checks, "study", files.run(program, "study", "run", PLAN, "-q", "-o", "study", cwd=folder))
+    study, victim = os.path.join(folder, "study"), write(os.path.join(folder, "victim"))
+    picture = os.path.basename(glob.glob(os.path.join(study, "references", "*.exr"))[0])
+    for name in ("report.html", "report.json"):
+        for to in ("../victim", "../nothing"):
+            os.remove(os.path.join(study, name))
+            os.symlink(to, os.path.join(study, name))
+            good(checks, f"{name} -> {to}", files.run(program, "study", "report", "study", "-q", cwd=folder))
+            checks.check(read(victim) == VICTIM, f"{name}: the link was followed")
+            checks.check(not os.path.lexists(os.path.join(folder, "nothing")), f"{name}: a link to nothing was followed")
+            checks.check(not os.path.islink(os.path.join(study, name)), f"{name} is still a link")
+    again = ["study", "run", PLAN, "-q", "--trials", "4", "-o", "study"]
+    os.remove(os.path.join(study, "references", picture))
+    os.symlink("../../nothing", os.path.join(study, "references", picture))
+    good(checks, "a reference that is a link", files.run(program, *again, cwd=folder))
+    checks.check(not os.path.lexists(os.path.join(folder, "nothing")), "a reference was written through a link")
+    shutil.rmtree(os.path.join(study, "references"))
+    os.mkdir(os.path.join(folder, "elsewhere"))
+    os.symlink("../elsewhere", os.path.join(study, "references"))
+    done = files.run(program, *again[:-3], "6", "-o", "study", cwd=folder)
+    checks.refused("references/ that is a link", done, 4, "study/references", "link")
+    checks.check(not os.listdir(os.path.join(folder, "elsewhere")), "a reference was written below a link")
+
+
+def check_user_names(checks, program, folder):
+    """What the user named is written where it leads: through links, and to streams and devices as they are."""
+    target, link = write(os.path.join(folder, "target.txt")), os.path.join(folder, "link.txt")
+    os.chmod(target, 0o600)
+    os.symlink("target.txt", link)
+    os.symlink("new.txt", os.path.join(folder, "dangling.txt"))
+    for name, to in (("link.txt", "target.txt"), ("dangling.txt", "new.txt")):
+        good(checks, name, files.run(program, *POINTS, "-n", "4", "-o", name, cwd=folder))
+        checks.check(os.path.islink(os.path.join(folder, name)), f"{name} is no link any more")
+        checks.check(b"random" in read(os.path.join(folder, to)), f"{name}: not written where it leads")
+    checks.check(os.stat(target).st_mode & 0o777 == 0o600, "a private file is private no more")
+    for name in ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+        done = files.run(program, *POINTS, "-n", "4", "-s", "5", "-o", name, cwd=folder)
+        checks.check(good(checks, name, done) and done.out.count(b"\n") == 9, f"{name}: {done.out}")
+    good(checks, "/dev/null", files.run(program, *POINTS, "-n", "4", "-o", "/dev/null", cwd=folder))
+    done = files.run("/bin/sh", "-c", 'echo before >log; "$0" generate random -q -n 4 -o /dev/fd/3 3>>log; echo after >>log',
+                     program, cwd=folder)
+    lines = read(os.path.join(folder, "log")).split(b"\n")
+    checks.check(lines[0] == b"before" and lines[-2] == b"after" and len(lines) == 12, f"/dev/fd/3: {lines}")
+    checks.refused("a folder", files.run(program, *POINTS, "-n", "4", "-o", ".", cwd=folder), 4, "it is a directory")
+
+
+# ---- Equal process numbers ---------------------------------------------------------------------------------------
+
+def check_equal_numbers(checks, program, folder):
+    """Two first processes of two containers write one file: it is the one's or the other's."""
+    container = ["unshare", "--pid", "--fork"]
+    if subprocess.run([*container, "true"], capture_output=True, check=False).returncode:
+        container = ["unshare", "--user", "--map-root-user", "--pid", "--fork"]
+        if subprocess.run([*container, "true"], capture_output=True, check=False).returncode:
+            print("no process namespaces here: two processes have different numbers")
+            container = []
+    whole = []
+    for seed in "12":
+        good(checks, "one alone", files.run(program, *POINTS, "-n", "100000", "-s", seed, "-o", "one.txt", cwd=folder))
+        whole.append(read(os.path.join(folder, "one.txt")))
+    for _ in range(12):
+        both = [subprocess.Popen([*container, program, *POINTS, "-n", "100000", "-s", seed, "-o", "o.txt"], cwd=folder,
+                                 stderr=subprocess.PIPE) for seed in "12"]
+        for process in both:
+            _, err = process.communicate(timeout=files.SECONDS)
+            checks.check(process.returncode == 0, f"equal numbers: {process.returncode}, {err}")
+        checks.check(read(os.path.join(folder, "o.txt")) in whole, "equal numbers: the file is neither's")
+    checks.check(not leftovers(folder), "equal numbers: leftovers")
+
+
+# ---- Leftovers ---------------------------------------------------------------------------------------------------
+
+def check_leftovers(checks, program, faults, folder):
+    for kind in ("write", "sync", "rename"):
+        env = {"KOKSMA_FAULT": kind, "KOKSMA_FAULT_AT": "1", "KOKSMA_FAULT_MODE": "end"}
+        files.run(faults, *POINTS, "-n", "400", "-o", "out.txt", cwd=folder, env=env)
+        checks.check(len(leftovers(folder)) == 1, f"an end at {kind} left no file")
+        good(checks, "the next run", files.run(program, *POINTS, "-n", "4", "-o", "other.txt", cwd=folder))
+        checks.check(not leftovers(folder), f"the next run leaves what an end at {kind} left")
+    chance = random.Random(1)
+    for _ in range(20):
+        process = subprocess.Popen([program, *POINTS, "-n", "100000", "-o", "out.txt"], cwd=folder)
+        time.sleep(chance.random() * 0.3)
+        process.kill()
+        process.wait()
+    good(checks, "the next run", files.run(program, *POINTS, "-n", "4", "-o", "other.txt", cwd=folder))
+    checks.check(not leftovers(folder), "leftovers after 20 kills and a run")
+
+
+def check_others(checks, program, folder):
+    """What is no leftover of ours stays."""
+    name = os.path.join(folder, ".koksma-")
+    for other in ("0123456789abcde", "0123456789abcdefg", "0123456789abcdeX"):
+        write(name + other)
+    write(os.path.join(folder, "kept"))
+    os.symlink("kept", name + "1" * 16)
+    os.mkdir(name + "2" * 16)
+    os.mkfifo(name + "3" * 16)
+    os.link(os.path.join(folder, "kept"), name + "4" * 16)
+    planted = socket.socket(socket.AF_UNIX)
+    planted.bind(name + "5" * 16)
+    if os.geteuid() == 0:
+        os.chown(write(name + "6" * 16), 12345, 12345)
+    before = sorted(os.listdir(folder))
+    good(checks, "among others' files", files.run(program, *POINTS, "-n", "4", "-o", "out.txt", cwd=folder))
+    planted.close()
+    checks.check(sorted(os.listdir(folder)) == sorted(before + ["out.txt"]), "a file of others is gone")
+    checks.check(read(os.path.join(folder, "kept")) == VICTIM, "a file of others has changed")
+
+
+def check_living(checks, program, folder):
+    """The temporary file of a run that lives stays, and becomes its output."""
+    process = subprocess.Popen([program, *POINTS, "-n", "1000000", "-o", "long.txt"], cwd=folder)
+    while not leftovers(folder) and process.poll() is None:
+        time.sleep(0.001)
+    process.send_signal(signal.SIGSTOP)
+    found = leftovers(folder)
+    if found:  # else it was faster than this test
+        good(checks, "beside a living run", files.run(program, *POINTS, "-n", "4", "-o", "out.txt", cwd=folder))
+        checks.check(leftovers(folder) == found, "the file of a living run is gone")
+    process.send_signal(signal.SIGCONT)
+    checks.check(process.wait(files.SECONDS) == 0, "a living run failed")
+    checks.check(read(os.path.join(folder, "long.txt")).count(b"\n") == 1000005, "a living run's file is not whole")
+
+
+# ---- Full disks --------------------------------------------------------------------------------------------------
+
+OUTPUTS = [
+    (["generate", "random", "-n", "30000", "-q"], ["o.txt", "o.csv", "o.npy"]),
+    (["render", "ball", "--size", "400x400", "-n", "1", "-q"], ["o.exr", "o.png", "o.pfm"]),
+    (["plot", "pattern:random@20000"], ["o.svg", "o.pdf", "o.png"]),
+    (["curve", "power", "pattern:random@64", "--half", "200", "--trials", "1"], ["o.npy", "o.exr"]),
+    (["study", "export", "done"], ["o.csv", "o.json", "o.npy"]),
+]
+
+
+def check_full(checks, program, faults, folder):
+    """FAULTS fails the first write, or all, with ENOSPC; where a small file system can be mounted, a full one too."""
+    disk = os.path.join(folder, "disk")
+    os.mkdir(disk)
+    mounted = os.geteuid() == 0 and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16k", "none", disk],
+                                                   capture_output=True, check=False).returncode == 0
+    if not mounted:
+        print("no file system can be mounted here: full disks are faults only")
+    good(checks, "study", files.run(program, "study", "run", PLAN, "-q", "--trials", "300", "-o", "done", cwd=folder))
+    try:
+        for arguments, names in OUTPUTS:
+            for name in names:
+                for mode in ("once", "on"):
+                    write(os.path.join(folder, name))
+                    env = {"KOKSMA_FAULT": "write", "KOKSMA_FAULT_AT": "1", "KOKSMA_FAULT_MODE": mode}
+                    done = files.run(faults, *arguments, "-o", name, cwd=folder, env=env)
+                    checks.refused(f"{name}, a failing write {mode}", done, 4, name, "No space left on device")
+                    checks.check(read(os.path.join(folder, name)) == VICTIM, f"{name}: the old file is gone")
+                if mounted:
+                    path = write(os.path.join(disk, name))
+                    done = files.run(program, *arguments, "-o", path, cwd=folder)
+                    if checks.refused(f"{name} on a full disk", done, 4, name, "No space left on device"):
+                        checks.check(read(path) == VICTIM and os.listdir(disk) == [name], f"{name}: {os.listdir(disk)}")
+                    os.remove(path)
+    finally:
+        if mounted:
+            subprocess.run(["umount", disk], check=True)
+    checks.check(not leftovers(folder), "leftovers after failing writes")
+    for name in ("-", "/dev/stdout", "/dev/full"):
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([program, *POINTS, "-n", "3000", "-o", name], cwd=folder, stdout=full,
+                                  stderr=subprocess.PIPE, check=False)
+        checks.refused(f"{name} that is full", files.Done(done.returncode, b"", done.stderr, 0), 4,
+                       "No space left on device")
+
+
+def main():
+    program, faults = map(os.path.abspath, sys.argv[1:3])
+    checks = files.Checks()
+    cases = [(check_planted_links, [program]), (check_own_names, [program]), (check_user_names, [program]),
+             (check_equal_numbers, [program]), (check_leftovers, [program, faults]), (check_others, [program]),
+             (check_living, [program]), (check_full, [program, faults])]
+    for case, programs in cases:
+        with tempfile.TemporaryDirectory() as folder:
+            case(checks, *programs, folder)
+    checks.end()
+
+
+if __name__ == "__main__":
+    main()

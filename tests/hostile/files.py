@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of files share: runs of the program that must end, within memory, with a code and one line."""
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+
+SECONDS = 300  # a run takes tenths of one; this finds those that never end, on machines under any load
+MIB = 1 << 20
+OTHER = 400  # MiB that the program and its sanitizers take beside a file
+
+
+class Done:
+    def __init__(self, code, out, err, mib):
+        self.code, self.out, self.err, self.mib = code, out, err, mib
+
+
+class Checks:
+    """Counts checks, and tells which failed."""
+
+    def __init__(self):
+        self.n, self.bad = 0, 0
+
+    def check(self, holds, text):
+        self.n += 1
+        if not holds:
+            self.bad += 1
+            print("FAILED:", text)
+        return holds
+
+    def refused(self, what, done, code, *words):
+        """Ended with the code and one line of UTF-8 that has the words."""
+        if done is None:
+            return self.check(False, f"{what}: did not end")
+        line = done.err.decode("utf-8", "strict") if is_utf8(done.err) else repr(done.err)
+        self.check(is_utf8(done.err), f"{what}: not UTF-8: {done.err!r}")
+        self.check(done.mib < OTHER, f"{what}: took {done.mib:.0f} MiB")
+        return self.check(done.code == code and line.count("\n") == 1 and all(word in line for word in words),
+                          f"{what}: exit code {done.code} for {code}, without {words}: {line}")
+
+    def end(self):
+        print(f"{self.n} checks, {self.bad} failed")
+        sys.exit(1 if self.bad or not self.n else 0)
+
+
+def is_utf8(text):
+    try:
+        text.decode("utf-8")
+        return True
+    except UnicodeDecodeError:
+        return False
+
+
+def run(program, *arguments, cwd=None, stdin=subprocess.DEVNULL, env=None):
+    """Done, or None where it did not end. wait4 tells the memory of this run alone."""
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        process = subprocess.Popen([program, *arguments], cwd=cwd, stdin=stdin, stdout=out, stderr=err,
+                                   env=dict(os.environ, **(env or {})))
+        timer = threading.Timer(SECONDS, process.kill)
+        timer.start()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if not timer.is_alive():
+            return None
+        timer.cancel()
+        out.seek(0)
+        err.seek(0)
+        return Done(process.returncode, out.read(), err.read(), usage.ru_maxrss / 1024)
