@@ -42,6 +42,7 @@ static koksma_status take_shift(const char *name, const char *rest, char *others
 
 koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 {
+    KOKSMA__REQUIRE(text, spec);
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};
@@ -72,6 +73,7 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 
 koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
 {
+    KOKSMA__REQUIRE(text, spec);
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};

@@ -38,7 +38,7 @@ VALID = {
     "koksma_image *": "an_image()", "koksma_layer *": "two_layers()", "koksma_image_error *": "a_buffer(sizeof(koksma_image_error))",
     "koksma_coherence *": "a_coherence()", "koksma_coherence_values *": "a_buffer(sizeof(koksma_coherence_values))",
     "koksma_scene *": "a_scene()", "koksma_scene **": "a_buffer(sizeof(void *))",
-    "koksma_render_options *": ["render_options(\"jittered\")", "render_options(\"random;pixel+time=scan-time\")"],
+    "koksma_render_options *": ["render_options(\"gaussian-jittered\")", "render_options(\"random;pixel=gaussian-jittered;lens+time=random\")"],
     "koksma_use_group *": "a_group()", "koksma_layers *": "a_buffer(sizeof(koksma_layers))",
     "koksma_strata *": "a_buffer(sizeof(koksma_strata))", "koksma_adaptive_options *": "adaptive_options()",
     "koksma_adaptive_report *": "a_buffer(sizeof(koksma_adaptive_report))",
@@ -78,7 +78,7 @@ VALID = {
     "koksma_adaptive_find.name": "\"contrast\"", "koksma_strata_fini.strata": "a_zero(sizeof(koksma_strata))",
     "koksma_adaptive_parse.text": "\"contrast\"", "koksma_adaptive_parse.out": "a_buffer(sizeof(koksma_adaptive_options))",
     "koksma_mask_void_and_cluster.size": "4", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
-    "koksma_study_export.folder": "study_folder()", "koksma_study_table_row.id": "\"5.1\"",
+    "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")",
     "koksma_findings_fini.findings": "a_zero(sizeof(koksma_findings))",
 }
@@ -86,14 +86,48 @@ VALID = {
 # Members of the library's tables: a caller has them from the library, and only a missing one can be noticed.
 TABLES = {"koksma_pattern", "koksma_measure", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_param"}
 # Structs that a function only writes: what is in them before the call means nothing.
-RESULTS = re.compile(r"_(value|line|values|error|report|summary|cost|row|ranking|findings|ring)$")
+RESULTS = re.compile(r"_(tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring)$")
 WRONG = {
     "size_t": ["0", "SIZE_MAX", "SIZE_MAX / 2 + 1"], "int": ["0", "-1", "INT_MIN", "INT_MAX"],
     "long long": ["-1", "LLONG_MIN", "LLONG_MAX"], "uint64_t": ["0", "UINT64_MAX"],
     "uint32_t": ["0", "UINT32_MAX", "1u << 31"], "double": ["NAN", "INFINITY", "-INFINITY", "-1", "0", "1e308"],
     "float": ["NAN"], "_Bool": [], "unsigned int": ["0", "UINT_MAX"],
-    "const char *": ["NULL", "\"\"", "long_text()", "\"/\"", "\"%s%n \\xff\\x1b\\n\"", "\"nothing:of=this,kind\""],
+    "const char *": ["NULL", "\"\"", "long_text()", "\"/dev/null/x\"", "\"%s%n \\xff\\x1b\\n\"", "\"nothing:of=this,kind\""],
 }
+
+# What a text may call an argument, beside its name and that of the struct's member.
+SYNONYMS = {"params": ["takes"], "n": ["point", "points", "panels", "layers"], "width": ["pixels"], "height": ["pixels"],
+            "size": ["bytes"], "n_sizes": ["sizes"], "bins": ["bins"], "n_uses": ["uses"], "uses": ["use"], "n_plans": ["results"], "folder": ["folder"], "places": ["path"], "xs": ["point", "points", "coordinate"], "dim": ["dimensions", "dimensional"],
+            "x": ["corner"], "path": ["characters"]}
+
+
+def words(label):
+    """The words of which an error's text must have one."""
+    parts = re.findall(r"[a-z]\w*", label)
+    return "|".join(dict.fromkeys(parts + [word for part in parts for word in SYNONYMS.get(part, [])]))
+
+
+# Values that the headers allow, or whose wrongness nobody can see: "FUNCTION PLACE = VALUE".
+ALLOWED = [
+    r"\w+ (run|comment|metadata|left_out) = .*", r"\w+_(fini|close) \w+ = NULL", r"\w+ (summary|report) = NULL",
+    r"\w+ run->(threads = (0|INT_MAX)|time_limit_s = (INFINITY|0|1e308)) .*", r"\w+ seed = .*",
+    # A pattern has no measure, a measure no pattern; the path is of patterns that read a file, which have no parameters.
+    r"\w+ (spec|pattern)->measure = NULL .*", r"\w+ (spec|measure)->pattern = NULL .*l2-disk.*", r"\w+ measure->pattern = NULL .*",
+    r"\w+ \w+->path = .*(l2-disk|edge).*", r"\w+ \w+->params.* = 0 .*", r"\w+ \w+->params.*file:.*",
+    r"koksma_generate_whole dim = 0 .*", r"koksma_local_discrepancy x\[0\] = 0 .*", r"\w+ n_sizes = 0 .*",
+    r"koksma_warp_evaluate measure->params.*", r"\w+ (options->witness->|panels->scatter\.)(dim|count|columns|rows) = .*",
+    r"koksma_plot_panels panels->spectrum = NULL .*", r"\w+ chart->curves->(xs|ys|errors|colour).*(\d|NAN|X|INFINITY|2 \+ 1) a_chart.*",
+    r"\w+ \S*->level = .*", r"\w+ layers->name = .*", r"\w+ coherence->images = .*", r"\w+ options->(x_label|y_label).*",
+    r"koksma_render_patterns options->.*", r"\w+ options->(patterns|groups).*\(\"gaussian-jittered\"\)",
+    r"\w+ options->(pattern|patterns\[0\]|groups\[0\]\.pattern)\.(measure = NULL|path|params\[0\] = 0) .*", r"\w+ options->patterns\[0\]\.pattern = NULL .*",
+    r"\w+ options->groups\[0\]\.(n_uses = 0|uses\[0\] = 0|pattern\.params.*) .*", r"\w+ options->depth = (0|-1) .*", r"\w+ options->pattern\.params.*random;.*",
+    r"koksma_plot_scatter options = NULL .*", r"\w+ options->seed = .*", r"koksma_render_adaptive adaptive->probes = 0 .*",
+    r"koksma_study_open options->(folder = NULL|trials = LLONG_MAX) .*", r"koksma_study_table_row i = .*",
+    r"koksma_rank_patterns options->(width = 0|height = 0|integrator = NULL|filter = NULL|time_limit_s = (INFINITY|0|1e308)) .*",
+    r"\w+ spectrum->sets = .*", r"koksma_image_check_finite name = .*", r"\w+ options->caption.*", r"\w+ \S*(caption|label) = .*",
+    r"\w+ options->(columns|rows) = 0 .*", r"\w+ \S*(size|white|level|errors|warp|witness|splits|strata|curves) = (0|NULL) .*", r"\w+ \S*n(_splits|_curves)? = 0 .*",
+    r"\w+ path = .(%s%n|nothing:of).*",  # names of files like others
+]
 
 headers = sorted(name for name in os.listdir(os.path.join(include, "koksma")) if name.endswith(".h"))
 source = "".join(f"#include <koksma/{name}>\n" for name in headers)
@@ -103,7 +137,7 @@ functions, structs, enums = [], {}, set()
 for node in tree["inner"]:
     if node["kind"] == "FunctionDecl" and node["name"].startswith("koksma_"):
         functions.append(node)
-    elif node["kind"] == "RecordDecl" and node.get("completeDefinition"):
+    elif node["kind"] == "RecordDecl" and "name" in node and node.get("completeDefinition"):
         structs[node["name"]] = [(f["name"], f["type"]["qualType"]) for f in node["inner"] if f["kind"] == "FieldDecl"]
     elif node["kind"] == "EnumDecl" and "name" in node:
         enums.add(node["name"])
@@ -136,6 +170,8 @@ def wrong_values(place, kind, depth, name):
             yield place, value, f"{place} = ({kind}){value}"
     elif kind in WRONG:
         for value in WRONG[kind]:
+            if kind == "double" and depth and name not in ("params", "time_limit_s"):
+                value = f"(double){value}"  # of a struct: a number that is wrong gives a wrong result, and no error
             yield place, value, f"{place} = {value}"
     elif kind.endswith("*"):
         yield place, "NULL", f"{place} = NULL"
@@ -168,28 +204,36 @@ def write_function(node, lines):
     result = plain(node["type"]["qualType"].split("(")[0].strip())
     parameters = [(p["name"], p["type"]["qualType"], plain(p["type"]["qualType"])) for p in node.get("inner", [])
                   if p["kind"] == "ParmVarDecl"]
-    cases, lines_of = [], []
+    kinds = {p: k for p, _, k in parameters}
+    cases = []
     for parameter, _, kind in parameters:
         for variant, expression in enumerate(valid(name, parameter, kind)):
             if variant:
                 cases.append((parameter, expression, f"{parameter} = {expression}", "VALID", (parameter, variant)))
             for place, value, statement in wrong_values(parameter, kind, 0, parameter):
+                if expression.startswith(("a_buffer", "a_zero")) and place != parameter:
+                    continue  # a result, or nothing to look at
                 if not (variant and place == parameter) and not (expression == "NULL" and place != parameter):
                     cases.append((place, value, statement, parameter, (parameter, variant)))
     lines.append(f"static bool call_{name}(size_t k)\n{{")
     for parameter, _, kind in parameters:
         shown = kind.replace("_Bool", "bool")
         lines.append(f"    {shown} {parameter} = {'(void *)' if kind.endswith('*') and 'char' not in kind else ''}{valid(name, parameter, kind)[0]};")
-    lines.append("    switch (k) {\n    case 0: valid_call(\"" + name + "\"); break;")
+    lines.append(f"    switch (k) {{\n    case 0: valid_call(\"{name}\", \"\"); break;")
     for index, (place, value, statement, parameter, (of, variant)) in enumerate(cases, 1):
-        base = f"{of} = (void *){valid(name, of, dict((p, k) for p, _, k in parameters)[of])[variant]}; " if variant else ""
+        base = f"{of} = (void *){valid(name, of, kinds[of])[variant]}; " if variant else ""
         if parameter == "VALID":
-            lines.append(f"    case {index}: {base}valid_call(\"{name}\"); break;")
+            shown = value.replace('"', "'")
+            lines.append(f"    case {index}: {base}valid_call(\"{name}\", \"{shown}\"); break;")
             continue
-        label = place.replace('"', "'")
+        label = re.sub(r"\(\(koksma_\w+ \*\)([^()]*)\)", r"\1", re.sub(r"\(\(koksma_\w+ \*\)([^()]*)\)", r"\1", place))
         shown = value.replace("\\", "\\\\").replace('"', "'")
-        lines.append(f"    case {index}: {base}{statement}; "
-                     f"wrong_call(\"{name}\", \"{label}\", \"{shown}\"); break;")
+        kind = f"any_call(\"{name}\", \"{label}\", \"{shown}\")"
+        case = f"{name} {label} = {value} {valid(name, of, kinds[of])[variant]}"
+        strict = result == "koksma_status" and not value.startswith("(double)") or value == "NULL" and place == of
+        if strict and not any(re.fullmatch(rule, case) or re.fullmatch(rule, f"{name} {label} = {value}") for rule in ALLOWED):
+            kind = f"wrong_call(\"{name}\", \"{label}\", \"{shown}\", \"{words(label)}\")"
+        lines.append(f"    case {index}: {base}{statement}; {kind}; break;")
     lines.append("    default: return false;\n    }")
     for parameter, declared, kind in parameters:
         target = kind[:-1].strip() if kind.endswith("*") else ""
