@@ -16,11 +16,14 @@
  *
  * These rules hold for every function of every header of this directory:
  *
- *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the
- * others              that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names
- * the thing              and the reason. After an error the results are not set, unless the function's comment says
- * otherwise.   Results    go through out-pointers, which are the last parameters.
- *   Pointers   must not be NULL unless the comment says "may be NULL".
+ *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the others
+ *              that it returns, without the prefix KOKSMA_; any may also return ARGUMENT. koksma_error_text() then
+ *              has one line that names the thing and the reason. After an error each result is as before or zero,
+ *              unless the function's comment says otherwise.
+ *   Results    go through out-pointers, which are the last parameters.
+ *   Pointers   must not be NULL unless the comment says "may be NULL". A NULL is ARGUMENT. A function without a
+ *              status then returns NULL, NaN, 0 or false, or does nothing, and leaves a text, too. What a pointer
+ *              points to, and that an array has as many members as its count says, is for the caller to ensure.
  *   Memory     The caller owns every struct. koksma_NOUN_init, and functions that say "allocates", take memory that
  *              koksma_NOUN_fini frees; koksma_NOUN_open goes with koksma_NOUN_close. Both accept NULL.
  *   Threads    Any function may be called from several threads at once, on different objects. Read-only arguments

@@ -23,11 +23,16 @@ koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec
 koksma_status koksma_evaluate(const koksma_spec *spec, const koksma_points *points, const koksma_run *run,
                               koksma_value *out)
 {
-    *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
+    KOKSMA__REQUIRE(spec, points, out);
+    KOKSMA__REQUIRE_RUN(run);
+    koksma_value value = {.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
     koksma_status status = koksma__evaluate_check("koksma_evaluate", spec, points);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
-        status = spec->measure->eval(points, &args, out);
+        status = spec->measure->eval(points, &args, &value);
+    }
+    if (!status) {
+        *out = value;
     }
     if (!status && out->exact) {
         out->lower = out->upper = out->value;

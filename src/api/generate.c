@@ -26,9 +26,18 @@ static void shift_points(uint64_t seed, koksma_points *out)
     }
 }
 
+static koksma_status check_path(const koksma_spec *spec)
+{
+    return memchr(spec->path, '\0', sizeof spec->path)
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "the path of a spec is longer than %d characters",
+                              KOKSMA_MAX_SPEC - 1);
+}
+
 static koksma_status check_generate(const koksma_spec *spec, const koksma_pattern *p, int dim)
 {
-    const koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
+    koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
+    status = status ? status : check_path(spec);
     return status ? status : koksma__params_check(p->name, p->params, spec->params);
 }
 
@@ -51,6 +60,8 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
 
 koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)
 {
+    KOKSMA__REQUIRE(spec, out);
+    KOKSMA__REQUIRE_RUN(run);
     const koksma_pattern *p = pattern_of(spec);
     if (!p || !out->xs || out->n == 0) {
         return koksma__fail(KOKSMA_ARGUMENT,
@@ -71,18 +82,24 @@ koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koks
 koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,
                                     koksma_points *out)
 {
+    KOKSMA__REQUIRE(spec, out);
+    KOKSMA__REQUIRE_RUN(run);
     const koksma_pattern *p = pattern_of(spec);
-    *out = (koksma_points){.dim = dim};
+    *out = (koksma_points){0};
     if (!p) {
         return koksma__fail(KOKSMA_ARGUMENT, "koksma_generate_whole: it takes the spec of a pattern");
     }
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
-    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : KOKSMA_OK;
+    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : check_path(spec);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
+        out->dim = dim;
         status = p->whole(seed, &args, out);
+    }
+    if (status) {
+        *out = (koksma_points){0};
     }
     if (!status && spec->shift) {
         shift_points(seed, out);

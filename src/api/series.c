@@ -16,16 +16,20 @@
 
 #include <koksma/series.h>
 
+#include "api/evaluate.h"
 #include "core/status.h"
 
 koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_points *points, const size_t *sizes,
                                        size_t n_sizes, const koksma_run *run, koksma_value *values)
 {
-    koksma_status status = KOKSMA_OK;
+    KOKSMA__REQUIRE(measure, points, sizes, values);
+    KOKSMA__REQUIRE_RUN(run);
+    koksma_status status = koksma__evaluate_check(__func__, measure, points);
+    status = status ? status : koksma__array_check("sizes", sizes, n_sizes, sizeof *values);
     for (size_t i = 0; i < n_sizes && !status; i++) {
         const koksma_points prefix = {sizes[i], points->dim, points->xs};
         if (prefix.n == 0 || prefix.n > points->n) {
-            return koksma__fail(KOKSMA_N, "prefixes: %zu points: the set has %zu", prefix.n, points->n);
+            return koksma__fail(KOKSMA_N, "sizes[%zu] = %zu points: the set has %zu", i, prefix.n, points->n);
         }
         status = koksma_evaluate(measure, &prefix, run, &values[i]);
     }
@@ -45,6 +49,10 @@ static bool columns_are_given(const koksma_spec *spec)
 
 double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, int dim)
 {
+    KOKSMA__REQUIRE_OR(NAN, pattern, measure);
+    if (!pattern->pattern) {
+        return NAN;
+    }
     const bool narrow = columns_are_given(pattern);
     const unsigned claims = pattern->pattern->claims & ~(narrow ? KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_GRID : 0u);
     const unsigned more = KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_LATTICE;

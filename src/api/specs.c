@@ -47,6 +47,7 @@ KOKSMA__NAME_AT(koksma_measure)
 
 koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 {
+    KOKSMA__REQUIRE(text, spec);
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};
@@ -78,6 +79,7 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
 
 koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)
 {
+    KOKSMA__REQUIRE(text, spec);
     char name[64];
     const char *rest = "";
     *spec = (koksma_spec){0};

@@ -146,10 +146,9 @@ static koksma_status evaluate(const koksma_warp *warp, const koksma_spec *spec, 
 koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *measure, const koksma_points *points,
                                    const koksma_run *run, koksma_value *out)
 {
-    *out = (koksma_value){.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
-    if (!warp) {
-        return koksma__fail(KOKSMA_ARGUMENT, "koksma_warp_evaluate: it takes a warp");
-    }
+    KOKSMA__REQUIRE(warp, measure, points, out);
+    KOKSMA__REQUIRE_RUN(run);
+    koksma_value value = {.value = NAN, .square = NAN, .lower = NAN, .upper = NAN, .exact = true};
     const koksma_status checked = koksma__evaluate_check("koksma_warp_evaluate", measure, points);
     if (checked) {
         return checked;
@@ -164,7 +163,10 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     for (size_t i = 0; i < points->n; i++) {
         warp->map(points->xs + 2 * i, mapped + i * (size_t)warp->dim);
     }
-    const koksma_status status = evaluate(warp, measure, points->n, mapped, run, out);
+    const koksma_status status = evaluate(warp, measure, points->n, mapped, run, &value);
+    if (!status) {
+        *out = value;
+    }
     if (!status && out->exact) {
         out->lower = out->upper = out->value;
     }

@@ -17,6 +17,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "core/status.h"
+
 #define KOKSMA__LOOKUP(type, table)                                                                                  \
     const type *type##_at(size_t i)                                                                                  \
     {                                                                                                                \
@@ -24,6 +26,7 @@
     }                                                                                                                \
     const type *type##_find(const char *name)                                                                        \
     {                                                                                                                \
+        KOKSMA__REQUIRE_OR(NULL, name);                                                                              \
         for (size_t i = 0; i < sizeof(table) / sizeof *(table); i++) {                                               \
             if (!strcmp((table)[i]->name, name)) {                                                                   \
                 return (table)[i];                                                                                   \

@@ -35,6 +35,7 @@ koksma_status koksma__points_check(const koksma_points *points)
 
 koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
 {
+    KOKSMA__REQUIRE(points);
     *points = (koksma_points){0};
     if (n == 0) {
         return koksma__fail(KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");

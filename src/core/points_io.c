@@ -30,6 +30,7 @@ koksma_status koksma__points_read(const char *path, koksma__named by, koksma_poi
 
 koksma_status koksma_points_read(const char *path, koksma_points *points)
 {
+    KOKSMA__REQUIRE(path, points);
     return koksma__points_read(path, KOKSMA__BY_USER, points);
 }
 
@@ -42,6 +43,8 @@ static bool ends_with(const char *text, const char *end)
 koksma_status koksma_points_write(const char *path, const koksma_points *points, const char *comment,
                                   const koksma_run *run)
 {
+    KOKSMA__REQUIRE(path, points);
+    KOKSMA__REQUIRE_RUN(run);
     const koksma_status status = koksma__points_check(points);
     return status ? status : koksma__numbers_write(path, points, comment, run);
 }
@@ -49,8 +52,14 @@ koksma_status koksma_points_write(const char *path, const koksma_points *points,
 koksma_status koksma_points_write_mapped(const char *path, const koksma_points *points, const char *comment,
                                          const koksma_run *run)
 {
-    if (!points || !points->xs || points->n == 0 || points->dim < 1) {
+    KOKSMA__REQUIRE(path, points);
+    KOKSMA__REQUIRE_RUN(run);
+    if (!points->xs || points->n == 0) {
         return koksma__fail(KOKSMA_ARGUMENT, "there are no points to write");
+    }
+    const koksma_status status = koksma__points_fit(points->n, points->dim);
+    if (status) {
+        return status;
     }
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
         if (!isfinite(points->xs[i])) {

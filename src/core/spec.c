@@ -161,6 +161,7 @@ void koksma__params_text(const koksma_param *params, const double *values, char 
 
 void koksma_spec_text(const koksma_spec *spec, char *text)
 {
+    KOKSMA__REQUIRE_OR(, spec, text);
     const bool is_pattern = spec->pattern != NULL;
     if (!is_pattern && !spec->measure) {
         *text = '\0';

@@ -7,6 +7,7 @@
 #include "core/c_locale.h"
 
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -108,4 +109,38 @@ koksma_status koksma__fail_memory(size_t bytes)
 koksma_status koksma__fail_in(koksma_status status, const char *name)
 {
     return koksma__fail(status, "%s: %s", name, error_text);
+}
+
+bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n)
+{
+    for (size_t i = 0; i < n; i++, names += strcspn(names, ",")) {
+        names += strspn(names, ", ");
+        if (!pointers[i]) {
+            koksma__fail(KOKSMA_ARGUMENT, "%s: %.*s is NULL", function, (int)strcspn(names, ","), names);
+            return true;
+        }
+    }
+    return false;
+}
+
+koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes)
+{
+    if (!array && n) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s is NULL, and n = %zu", what, n);
+    }
+    return n <= PTRDIFF_MAX / bytes ? KOKSMA_OK
+                                    : koksma__fail(KOKSMA_ARGUMENT, "%s: n = %zu is more than memory has", what, n);
+}
+
+koksma_status koksma__run_check(const char *function, const koksma_run *run)
+{
+    if (run && run->threads < 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: run->threads = %d: it is 0, for all, or more", function,
+                            run->threads);
+    }
+    if (run && !(run->time_limit_s >= 0)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%s: run->time_limit_s = %g: it is 0, for none, or a number of seconds",
+                            function, run->time_limit_s);
+    }
+    return KOKSMA_OK;
 }

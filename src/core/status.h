@@ -20,4 +20,32 @@ KOKSMA__LAB koksma_status koksma__fail_memory(size_t bytes);
 /* Puts a name in front of the text of the last failure ("PATH: reason") and returns status. */
 KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name);
 
+/* The checks that a public function begins with: KOKSMA__REQUIRE(points, out) returns ARGUMENT with a text that names the
+   first pointer that is NULL; KOKSMA__REQUIRE_OR(result, ...) returns another result, or nothing, as in
+   KOKSMA__REQUIRE_OR(, text); KOKSMA__REQUIRE_RUN(run) is for a run, which may be NULL but not of nonsense. */
+#define KOKSMA__REQUIRE_OR(result, ...)                                                                              \
+    do {                                                                                                             \
+        const void *const required_[] = {__VA_ARGS__};                                                               \
+        if (koksma__missing(__func__, #__VA_ARGS__, required_, sizeof required_ / sizeof *required_)) {              \
+            return result;                                                                                           \
+        }                                                                                                            \
+    } while (0)
+#define KOKSMA__REQUIRE(...) KOKSMA__REQUIRE_OR(KOKSMA_ARGUMENT, __VA_ARGS__)
+#define KOKSMA__REQUIRE_RUN(run)                                                                                     \
+    do {                                                                                                             \
+        if (koksma__run_check(__func__, run)) {                                                                      \
+            return KOKSMA_ARGUMENT;                                                                                  \
+        }                                                                                                            \
+    } while (0)
+
+/* Whether one of n pointers is NULL; its name, of those that commas separate, is then in the error's text. */
+KOKSMA__LAB bool koksma__missing(const char *function, const char *names, const void *const *pointers, size_t n);
+
+/* Whether an array of n items of so many bytes can be: `array` is there, unless n is 0, and no array is so long that a
+   number of bytes can't say it. what: its name. Errors: ARGUMENT. */
+KOKSMA__LAB koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes);
+
+/* Errors: ARGUMENT (a negative number of threads, a time limit that is negative or NaN). */
+KOKSMA__LAB koksma_status koksma__run_check(const char *function, const koksma_run *run);
+
 #endif

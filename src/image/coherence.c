@@ -34,6 +34,7 @@
 #include "image/coherence_law.h"
 #include "image/formats.h"
 #include "image/fourier.h"
+#include "image/usable.h"
 
 enum { MAX_RINGS = 16, RING_FREQUENCIES = 64, ROUNDS = 4 };
 
@@ -47,8 +48,16 @@ static size_t powers_of(const koksma_coherence *c)
     return koksma__fourier_columns(c->width) * (size_t)c->height;
 }
 
+static koksma_status check_open(const koksma_coherence *c)
+{
+    return c->error && c->power && c->squares && !koksma__image_check_shape(c->width, c->height, 1)
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "coherence: koksma_coherence_init comes first");
+}
+
 koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int height)
 {
+    KOKSMA__REQUIRE(coherence);
     *coherence = (koksma_coherence){0};
     const koksma_status status = koksma__image_check_shape(width, height, 1);
     if (status) {
@@ -183,11 +192,16 @@ koksma_status koksma__coherence_add_errors(koksma_coherence *coherence, double *
 koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_image *image,
                                    const koksma_image *reference)
 {
-    if (!coherence->error) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a coherence without koksma_coherence_init takes no image");
+    KOKSMA__REQUIRE(coherence, image, reference);
+    koksma_status status = check_open(coherence);
+    if (status) {
+        return status;
     }
     const koksma_image *const both[] = {image, reference};
     for (int i = 0; i < 2; i++) {
+        if ((status = koksma__image_usable(both[i]))) {
+            return status;
+        }
         if (both[i]->width != coherence->width || both[i]->height != coherence->height) {
             return koksma__fail(KOKSMA_ARGUMENT, "%s of %d x %d pixels does not fit a coherence of %d x %d",
                                 i ? "a reference" : "an image", both[i]->width, both[i]->height, coherence->width,
@@ -202,7 +216,7 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
     for (size_t i = 0; i < n; i++) {
         errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
     }
-    const koksma_status status = koksma__coherence_add_errors(coherence, errors);
+    status = koksma__coherence_add_errors(coherence, errors);
     free(errors);
     return status;
 }
@@ -326,6 +340,7 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
 
 void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out)
 {
+    KOKSMA__REQUIRE_OR(, coherence, out);
     *out = (koksma_coherence_values){.coherence = NAN,
                                      .low = NAN,
                                      .high = NAN,
@@ -336,7 +351,7 @@ void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_v
                                      .noise_high = NAN,
                                      .p = NAN};
     rings r;
-    if (coherence->images == 0) {
+    if (coherence->images == 0 || check_open(coherence)) {
         return;
     }
     count_frequencies(coherence, &r);

@@ -12,6 +12,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "image/formats.h"
+#include "image/usable.h"
 
 double koksma__luminance(const koksma_image *image, size_t pixel)
 {
@@ -22,6 +23,11 @@ double koksma__luminance(const koksma_image *image, size_t pixel)
 
 static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
 {
+    koksma_status status = koksma__image_usable(a);
+    status = status ? status : koksma__image_usable(b);
+    if (status) {
+        return status;
+    }
     if (a->width != b->width || a->height != b->height) {
         return koksma__fail(KOKSMA_ARGUMENT, "an image of %d x %d pixels can't be compared with one of %d x %d",
                             a->width, a->height, b->width, b->height);
@@ -36,6 +42,7 @@ static double absolute_error(const koksma_image *image, const koksma_image *refe
 
 koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference, koksma_image_error *out)
 {
+    KOKSMA__REQUIRE(image, reference, out);
     const koksma_status status = check_sizes(image, reference);
     if (status) {
         return status;
@@ -65,6 +72,7 @@ koksma_status koksma_image_compare(const koksma_image *image, const koksma_image
 
 koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference, koksma_image *out)
 {
+    KOKSMA__REQUIRE(image, reference, out);
     *out = (koksma_image){0};
     koksma_status status = check_sizes(image, reference);
     if (!status) {

@@ -33,8 +33,11 @@ size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wan
 
 static koksma_status check_layer(const koksma_layer *layer, const koksma_image *first)
 {
-    if (!layer->name || !layer->image || !layer->image->pixels) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels, or a layer without a name");
+    if (!layer->name || !layer->image) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a layer without %s", layer->name ? "an image" : "a name");
+    }
+    if (!layer->image->pixels) {
+        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
     }
     const koksma_status status =
         koksma__image_check_shape(layer->image->width, layer->image->height, layer->image->channels);
@@ -53,7 +56,8 @@ static koksma_status check_layer(const koksma_layer *layer, const koksma_image *
 koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
 {
     char name[KOKSMA__CHANNEL_NAME];
-    koksma_status status = n ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "no image to write");
+    koksma_status status = n ? koksma__array_check("layers", layers, n, sizeof *layers)
+                             : koksma__fail(KOKSMA_ARGUMENT, "no image to write");
     for (size_t l = 0; !status && l < n; l++) {
         status = check_layer(&layers[l], layers->image);
     }

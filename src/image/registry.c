@@ -57,6 +57,7 @@ koksma_status koksma__image_check_shape(int width, int height, int channels)
 
 koksma_status koksma_image_init(koksma_image *image, int width, int height, int channels)
 {
+    KOKSMA__REQUIRE(image);
     *image = (koksma_image){0};
     const koksma_status status = koksma__image_check_shape(width, height, channels);
     if (status) {
@@ -99,6 +100,7 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
 
 const char *koksma_image_format(size_t i, const char **left_out)
 {
+    KOKSMA__REQUIRE_OR(NULL, left_out);
     const koksma__image_format *format = koksma__image_format_at(i);
     *left_out = format ? format->left_out : NULL;
     return format ? format->name : NULL;
@@ -160,6 +162,7 @@ koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, 
 
 koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksma__named by, koksma_image *out)
 {
+    KOKSMA__REQUIRE(path, out);
     unsigned char *bytes;
     size_t size;
     *out = (koksma_image){0};
@@ -201,12 +204,17 @@ koksma_status koksma__image_check(const koksma_image *image, const char *name)
 
 koksma_status koksma_image_check_finite(const koksma_image *image, const char *name)
 {
-    for (size_t i = 0; i < count_numbers(image); i++) {
+    KOKSMA__REQUIRE(image, name);
+    if (!image->pixels) {
+        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
+    }
+    const koksma_status status = koksma__image_check_shape(image->width, image->height, image->channels);
+    for (size_t i = 0; !status && i < count_numbers(image); i++) {
         if (!isfinite(image->pixels[i])) {
             return refuse_number(image, i, name);
         }
     }
-    return KOKSMA_OK;
+    return status;
 }
 
 static const koksma__image_format *format_of_name(const char *path)
@@ -222,6 +230,7 @@ static const koksma__image_format *format_of_name(const char *path)
 
 koksma_status koksma_image_check_path(const char *path)
 {
+    KOKSMA__REQUIRE(path);
     const koksma__image_format *format = format_of_name(path);
     if (!format) {
         char names[128];
@@ -233,6 +242,7 @@ koksma_status koksma_image_check_path(const char *path)
 
 bool koksma_image_has_layers(const char *path)
 {
+    KOKSMA__REQUIRE_OR(false, path);
     const koksma__image_format *format = format_of_name(path);
     return format && format->has_layers;
 }
@@ -240,6 +250,7 @@ bool koksma_image_has_layers(const char *path)
 static koksma_status write_file(const char *folder, const char *path, const koksma_layer *layers, size_t n,
                                 const char *metadata)
 {
+    KOKSMA__REQUIRE(path, layers);
     koksma__bytes bytes = {0};
     koksma_status status = koksma_image_check_path(path);
     if (status) {
@@ -266,12 +277,14 @@ koksma_status koksma__image_write_in(const char *folder, const char *name, const
 
 koksma_status koksma_image_write(const char *path, const koksma_image *image, const char *metadata)
 {
+    KOKSMA__REQUIRE(path, image);
     const koksma_layer only = {"", image};
     return koksma_image_write_layers(path, &only, 1, metadata);
 }
 
 koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **bytes, size_t *size)
 {
+    KOKSMA__REQUIRE(image, bytes, size);
     koksma__bytes out = {0};
     const koksma_layer only = {"", image};
     koksma_status status = koksma__layers_check(&only, 1);

@@ -43,6 +43,17 @@ static void widen(axis *a, double value)
     }
 }
 
+static koksma_status check_curves(const koksma_chart *c)
+{
+    koksma_status status = koksma__array_check("chart->curves", c->curves, c->n_curves, sizeof *c->curves);
+    for (size_t i = 0; i < c->n_curves && !status; i++) {
+        const koksma_curve *k = &c->curves[i];
+        status = koksma__array_check("curves->xs", k->xs, k->n, sizeof *k->xs);
+        status = status ? status : koksma__array_check("curves->ys", k->ys, k->n, sizeof *k->ys);
+    }
+    return status;
+}
+
 static void find_ranges(const koksma_chart *c, axis *x, axis *y)
 {
     for (size_t i = 0; i < c->n_curves; i++) {
@@ -181,41 +192,43 @@ static void draw_legend(koksma__canvas *canvas, const koksma_chart *c, double le
     }
 }
 
-koksma_status koksma_plot_chart(const koksma_chart *c, koksma_plot_format format, unsigned char **bytes,
+koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format, unsigned char **bytes,
                                 size_t *n_bytes)
 {
+    KOKSMA__REQUIRE(chart, bytes, n_bytes);
     double width;
-    const koksma_status sized = koksma__canvas_size(format, c->size, 480, &width);
+    koksma_status sized = koksma__canvas_size(format, chart->size, 480, &width);
+    sized = sized ? sized : check_curves(chart);
     if (sized) {
         return sized;
     }
     const double height = fmax(0.62 * width, TOP + BOTTOM + 40);
-    axis x = {HUGE_VAL, -HUGE_VAL, c->log_x, LEFT, fmax(width - RIGHT, LEFT + 40)};
-    axis y = {HUGE_VAL, -HUGE_VAL, c->log_y, height - BOTTOM, TOP};
-    find_ranges(c, &x, &y);
-    if (!settle(&x, c->log_x ? 0.04 : 0.01) || !settle(&y, 0.05)) {
+    axis x = {HUGE_VAL, -HUGE_VAL, chart->log_x, LEFT, fmax(width - RIGHT, LEFT + 40)};
+    axis y = {HUGE_VAL, -HUGE_VAL, chart->log_y, height - BOTTOM, TOP};
+    find_ranges(chart, &x, &y);
+    if (!settle(&x, chart->log_x ? 0.04 : 0.01) || !settle(&y, 0.05)) {
         return koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn",
-                            c->y_label ? c->y_label : "chart");
+                            chart->y_label ? chart->y_label : "chart");
     }
-    const size_t lines = legend_lines(c);
+    const size_t lines = legend_lines(chart);
     koksma__canvas *canvas;
     const koksma_status opened = koksma__canvas_open(format, fmax(width, LEFT + 40 + RIGHT),
                                                      height + (double)lines * LINE + (lines ? 8 : 0), &canvas);
     if (opened) {
         return opened;
     }
-    draw_axes(canvas, c, &x, &y);
+    draw_axes(canvas, chart, &x, &y);
     koksma__canvas_clip(canvas, x.from, y.to, x.to - x.from, y.from - y.to);
-    if (c->has_level) {
-        const double at = place(&y, c->level);
+    if (chart->has_level) {
+        const double at = place(&y, chart->level);
         koksma__canvas_dash(canvas, KOKSMA__DASH_GUIDE, 0);
         koksma__canvas_line(canvas, x.from, at, x.to, at, 1, guide);
         koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
     }
-    for (size_t i = 0; i < c->n_curves; i++) {
-        draw_curve(canvas, &c->curves[i], &x, &y);
+    for (size_t i = 0; i < chart->n_curves; i++) {
+        draw_curve(canvas, &chart->curves[i], &x, &y);
     }
     koksma__canvas_clip(canvas, 0, 0, width, height + (double)lines * LINE + 8);
-    draw_legend(canvas, c, LEFT, height + 6);
+    draw_legend(canvas, chart, LEFT, height + 6);
     return koksma__canvas_close(canvas, bytes, n_bytes);
 }

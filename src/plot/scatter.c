@@ -10,6 +10,7 @@
 #include "core/c_locale.h"
 #include "core/points_io.h"
 #include "core/status.h"
+#include "measures/shared/spectrum.h"
 #include "plot/canvas.h"
 
 static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, guide = {0.5, 0.58, 0.74, 1},
@@ -229,9 +230,8 @@ static koksma_status check_panel(const koksma_panel *panel)
 {
     const koksma_scatter_options *o = &panel->scatter;
     if (!panel->points) {
-        return panel->spectrum && panel->spectrum->power
-                   ? KOKSMA_OK
-                   : koksma__fail(KOKSMA_ARGUMENT, "a panel has neither points nor a spectrum");
+        return panel->spectrum ? koksma__spectrum_check(panel->spectrum)
+                               : koksma__fail(KOKSMA_ARGUMENT, "a panel has neither points nor a spectrum");
     }
     if (panel->points->dim < 2) {
         return koksma__fail(KOKSMA_DIM, "a scatter plot takes points of 2 or more dimensions");
@@ -245,6 +245,9 @@ static koksma_status check_panel(const koksma_panel *panel)
     }
     if (o->warp && o->witness) {
         return koksma__fail(KOKSMA_ARGUMENT, "a witness is drawn in the square, not through a map");
+    }
+    if (o->witness && (unsigned)o->witness->kind > KOKSMA_WITNESS_DISK) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%d is no kind of witness", (int)o->witness->kind);
     }
     for (int k = 0; o->witness && k < 2; k++) {
         if (!(fabs(o->witness->lo[k]) <= FAR && fabs(o->witness->hi[k]) <= FAR)) {
@@ -269,11 +272,16 @@ koksma_status koksma__canvas_size(koksma_plot_format format, double asked, doubl
 koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size, koksma_plot_format format,
                                  unsigned char **bytes, size_t *n_bytes)
 {
+    KOKSMA__REQUIRE(panels, bytes, n_bytes);
     bool captions = false, scales = false;
     double side = 0; /* gcc does not see that a failure leaves before it is used */
     const koksma_status sized = koksma__canvas_size(format, size, 320, &side);
     if (sized) {
         return sized;
+    }
+    if (n == 0 || side * (double)n > KOKSMA_PLOT_MAX_SIZE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side,
+                            KOKSMA_PLOT_MAX_SIZE);
     }
     for (size_t i = 0; i < n; i++) {
         const koksma_status checked = check_panel(&panels[i]);
@@ -282,10 +290,6 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
         }
         captions = captions || panels[i].caption;
         scales = scales || !panels[i].points || panels[i].scatter.local_discrepancy;
-    }
-    if (n == 0 || side * (double)n > KOKSMA_PLOT_MAX_SIZE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side,
-                            KOKSMA_PLOT_MAX_SIZE);
     }
     koksma__canvas *canvas;
     const koksma_status opened =
@@ -307,6 +311,7 @@ koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double si
 koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                   koksma_plot_format format, unsigned char **bytes, size_t *size)
 {
+    KOKSMA__REQUIRE(points, bytes, size);
     static const koksma_scatter_options plain = {0};
     options = options ? options : &plain;
     const koksma_panel panel = {.points = points, .scatter = *options, .caption = options->caption};
@@ -315,6 +320,7 @@ koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scat
 
 koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format)
 {
+    KOKSMA__REQUIRE(path, format);
     static const char *const endings[] = {".svg", ".pdf", ".png"};
     const size_t length = strlen(path);
     for (int i = 0; i < 3; i++) {
@@ -328,5 +334,7 @@ koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format
 
 koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size)
 {
-    return koksma__atomic_put(NULL, path, bytes, size);
+    KOKSMA__REQUIRE(path, bytes);
+    const koksma_status status = koksma__array_check("bytes", bytes, size, 1);
+    return status ? status : koksma__atomic_put(NULL, path, bytes, size);
 }

@@ -86,20 +86,48 @@ static void add_panel(const square *q, const koksma_strata_panel *panel)
     }
 }
 
+static bool is_in_square(double x, double y, double width, double height)
+{
+    return x >= 0 && y >= 0 && width >= 0 && height >= 0 && x + width <= 1 && y + height <= 1;
+}
+
+static koksma_status check_panel(const koksma_strata_panel *panel)
+{
+    koksma_status status = koksma__array_check("panels->strata", panel->strata, panel->n, sizeof *panel->strata);
+    status = status ? status
+                    : koksma__array_check("panels->splits", panel->splits, panel->n_splits, sizeof *panel->splits);
+    for (size_t i = 0; i < panel->n && !status; i++) {
+        const koksma_stratum *s = &panel->strata[i];
+        if (!is_in_square(s->x, s->y, s->width, s->height) || !is_in_square(s->at[0], s->at[1], 0, 0)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "panels->strata[%zu], or its sample, is not in the square", i);
+        }
+    }
+    for (size_t i = 0; i < panel->n_splits && !status; i++) {
+        const koksma_split *s = &panel->splits[i];
+        if (!is_in_square(s->x, s->y, s->width, s->height)) {
+            status = koksma__fail(KOKSMA_ARGUMENT, "panels->splits[%zu] is not in the square", i);
+        }
+    }
+    return status;
+}
+
 koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, double size, koksma_plot_format format,
                                  unsigned char **bytes, size_t *n_bytes)
 {
+    KOKSMA__REQUIRE(panels, bytes, n_bytes);
     double whole;
     bool captions = false;
     koksma_status status = koksma__canvas_size(format, size, 320, &whole);
-    if (!status && n < 1) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "no strata to draw");
+    if (!status && (n < 1 || whole * (double)n > KOKSMA_PLOT_MAX_SIZE)) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, whole,
+                              KOKSMA_PLOT_MAX_SIZE);
+    }
+    for (size_t p = 0; p < n && !status; p++) {
+        captions = captions || panels[p].caption;
+        status = check_panel(&panels[p]);
     }
     if (status) {
         return status;
-    }
-    for (size_t p = 0; p < n; p++) {
-        captions = captions || panels[p].caption;
     }
     square q = {.x = MARGIN, .y = MARGIN, .side = whole - 2 * MARGIN};
     status = koksma__canvas_open(format, (double)n * whole, whole + (captions ? CAPTION : 0), &q.canvas);

@@ -11,6 +11,7 @@
  */
 #include <math.h>
 
+#include "core/status.h"
 #include "render/filters/filters.h"
 
 enum { CELLS = 4096, BANDS = 64 };
@@ -42,12 +43,14 @@ static sums integrate(const koksma_filter *filter, double frequency)
 
 double koksma_filter_response(const koksma_filter *filter, double frequency)
 {
+    KOKSMA__REQUIRE_OR(NAN, filter);
     const sums s = integrate(filter, frequency);
     return s.wave / s.f;
 }
 
 double koksma_filter_leakage(const koksma_filter *filter)
 {
+    KOKSMA__REQUIRE_OR(NAN, filter);
     const sums s = integrate(filter, 0);
     const double all = s.square / (2 * s.f * s.f); /* over both halves: 2 square / (2 f)^2 */
     double passed = 0;

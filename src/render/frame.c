@@ -83,6 +83,8 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
 
 bool koksma_use_is_spent(const koksma_scene *scene, const koksma_render_options *options, size_t i)
 {
+    KOKSMA__REQUIRE_OR(false, scene, options);
+    KOKSMA__REQUIRE_OR(false, options->integrator);
     const koksma__use_list uses = koksma__frame_uses(scene, options);
     return i < KOKSMA_N_USES && koksma__use_is_there(&uses, (int)i);
 }

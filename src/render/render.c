@@ -136,6 +136,7 @@ static koksma_status render_image(job *j, const koksma_run *run, bool all_layers
 
 void koksma_render_options_init(koksma_render_options *options, const koksma_scene *scene)
 {
+    KOKSMA__REQUIRE_OR(, options, scene);
     *options = (koksma_render_options){.spp = 16,
                                        .width = scene->width,
                                        .height = scene->height,
@@ -148,6 +149,8 @@ void koksma_render_options_init(koksma_render_options *options, const koksma_sce
 bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i, char *text,
                            size_t size)
 {
+    KOKSMA__REQUIRE_OR(false, scene, options, text);
+    KOKSMA__REQUIRE_OR(false, options->integrator);
     const koksma__integrator_flags *flags = options->integrator->flags;
     return koksma__scene_warning(scene, (flags->followed & KOKSMA__LOBE_DIFFUSE) != 0, i, text, size);
 }
@@ -171,18 +174,24 @@ static koksma_status render(const koksma_scene *scene, const koksma_render_optio
 koksma_status koksma_render_layers(const koksma_scene *scene, const koksma_render_options *options,
                                    const koksma_run *run, koksma_layers *out)
 {
+    KOKSMA__REQUIRE(scene, options, out);
+    KOKSMA__REQUIRE_RUN(run);
     return render(scene, options, run, true, out);
 }
 
 koksma_status koksma_render_only(const koksma_scene *scene, const koksma_render_options *options,
                                  const koksma_run *run, koksma_layers *out)
 {
+    KOKSMA__REQUIRE(scene, options, out);
+    KOKSMA__REQUIRE_RUN(run);
     return render(scene, options, run, false, out);
 }
 
 koksma_status koksma_render(const koksma_scene *scene, const koksma_render_options *options, const koksma_run *run,
                             koksma_image *out)
 {
+    KOKSMA__REQUIRE(scene, options, out);
+    KOKSMA__REQUIRE_RUN(run);
     koksma_layers layers;
     const koksma_status status = render(scene, options, run, false, &layers);
     *out = (koksma_image){0};

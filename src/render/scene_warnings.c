@@ -206,11 +206,13 @@ bool koksma__scene_warning(const koksma_scene *scene, bool by_paths, size_t i, c
 
 bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_t size)
 {
+    KOKSMA__REQUIRE_OR(false, scene, text);
     return koksma__scene_warning(scene, true, i, text, size);
 }
 
 koksma_scene_counts koksma_scene_count(const koksma_scene *scene)
 {
+    KOKSMA__REQUIRE_OR((koksma_scene_counts){0}, scene);
     koksma_scene_counts counts = {.shapes = scene->n_shapes,
                                   .meshes = scene->n_meshes,
                                   .placements = scene->n_placements,

@@ -77,6 +77,7 @@ static bool is_path(const char *text)
 
 koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, koksma_scene **out)
 {
+    KOKSMA__REQUIRE(name_or_path, out);
     *out = NULL;
     if (!name_or_path) {
         return koksma__fail(KOKSMA_ARGUMENT, "there is no name of a scene");
@@ -143,11 +144,13 @@ void koksma_scene_close(koksma_scene *scene)
 
 const char *koksma_scene_title(const koksma_scene *scene)
 {
+    KOKSMA__REQUIRE_OR(NULL, scene);
     return scene->title;
 }
 
 uint64_t koksma_scene_hash(const koksma_scene *scene)
 {
+    KOKSMA__REQUIRE_OR(0, scene);
     return scene->hash;
 }
 
@@ -160,5 +163,6 @@ const koksma_warp *koksma__lens_map(const char *name)
 
 int koksma_scene_rays_per_sample(const koksma_scene *scene)
 {
+    KOKSMA__REQUIRE_OR(0, scene);
     return 1 + (int)scene->n_lights;
 }

@@ -6,32 +6,37 @@
 
 #include <koksma/series.h>
 
+#include "core/status.h"
 #include "stats/least_squares.h"
 #include "stats/quantiles.h"
 
-void koksma_tally_add(koksma_tally *t, double value)
+void koksma_tally_add(koksma_tally *tally, double value)
 {
-    t->count++;
-    const double off = value - t->mean;
-    t->mean += off / t->count;
-    t->spread += off * (value - t->mean);
-    t->min = t->count == 1 ? value : fmin(t->min, value);
-    t->max = t->count == 1 ? value : fmax(t->max, value);
+    KOKSMA__REQUIRE_OR(, tally);
+    tally->count++;
+    const double off = value - tally->mean;
+    tally->mean += off / tally->count;
+    tally->spread += off * (value - tally->mean);
+    tally->min = tally->count == 1 ? value : fmin(tally->min, value);
+    tally->max = tally->count == 1 ? value : fmax(tally->max, value);
 }
 
-double koksma_tally_sd(const koksma_tally *t)
+double koksma_tally_sd(const koksma_tally *tally)
 {
-    return t->count > 1 ? sqrt(t->spread / (t->count - 1)) : (double)NAN;
+    KOKSMA__REQUIRE_OR(NAN, tally);
+    return tally->count > 1 ? sqrt(tally->spread / (tally->count - 1)) : (double)NAN;
 }
 
-double koksma_tally_error(const koksma_tally *t)
+double koksma_tally_error(const koksma_tally *tally)
 {
-    return koksma_tally_sd(t) / sqrt(t->count);
+    KOKSMA__REQUIRE_OR(NAN, tally);
+    return koksma_tally_sd(tally) / sqrt(tally->count);
 }
 
-double koksma_tally_interval(const koksma_tally *t)
+double koksma_tally_interval(const koksma_tally *tally)
 {
-    return t->count > 1 ? koksma_student_975((size_t)t->count - 1) * koksma_tally_error(t) : (double)NAN;
+    KOKSMA__REQUIRE_OR(NAN, tally);
+    return tally->count > 1 ? koksma_student_975((size_t)tally->count - 1) * koksma_tally_error(tally) : (double)NAN;
 }
 
 double koksma_student_975(size_t degrees)
@@ -41,6 +46,10 @@ double koksma_student_975(size_t degrees)
 
 bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *line)
 {
+    KOKSMA__REQUIRE_OR(false, xs, ys, line);
+    if (koksma__array_check("xs", xs, n, sizeof *xs)) {
+        return false;
+    }
     koksma__fit fit = {0};
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < n; i++) {

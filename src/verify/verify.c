@@ -48,6 +48,8 @@ void koksma_findings_fini(koksma_findings *findings)
 
 koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, koksma_findings *findings)
 {
+    KOKSMA__REQUIRE(points, findings);
+    KOKSMA__REQUIRE_RUN(run);
     *findings = (koksma_findings){0};
     koksma_status status = koksma__points_check(points);
     if (status) {

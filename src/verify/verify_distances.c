@@ -96,6 +96,8 @@ static point *sort_points(const koksma_points *points)
 koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, const koksma_run *run,
                                        double *distance)
 {
+    KOKSMA__REQUIRE(points, distance);
+    KOKSMA__REQUIRE_RUN(run);
     koksma_status status = koksma__points_check(points);
     if (status) {
         return status;

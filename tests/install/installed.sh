@@ -50,4 +50,5 @@ print('%.9g' % koksma.measure(koksma.generate('jittered', 16, seed=7), 'star').v
       /usr/bin/python3 "$source/tests/docs/fences.py" "$program" "$source/docs/install.md" || fail "docs/install.md"
   fi ;;
 esac
+case $flags in *-fsanitize*) ;; *) "$source/tests/lint/elf.py" "$compiler" "$work/moved" || fail "not hardened" ;; esac
 echo "installed, moved, found, equal"

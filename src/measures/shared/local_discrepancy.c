@@ -13,6 +13,7 @@
 
 koksma_status koksma_local_discrepancy(const koksma_points *points, const double *x, double *out)
 {
+    KOKSMA__REQUIRE(points, x, out);
     double volume = 1;
     size_t inside = 0;
     if (!points || !x || !out) {
@@ -54,6 +55,7 @@ static size_t first_corner(double coordinate, size_t side)
 
 koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out)
 {
+    KOKSMA__REQUIRE(points, out);
     if (!points || !out || side < 1 || side > KOKSMA_MAX_LOCAL_GRID) {
         return koksma__fail(KOKSMA_ARGUMENT, "a grid of local discrepancies has a side of 1 to %d",
                             KOKSMA_MAX_LOCAL_GRID);

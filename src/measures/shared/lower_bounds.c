@@ -11,6 +11,8 @@
 
 #include <koksma/series.h>
 
+#include "core/status.h"
+
 static const struct {
     const char *measure, *source;
     int max_dim; /* from 2 on */
@@ -23,6 +25,7 @@ static const struct {
 
 double koksma_best_rate(const koksma_measure *measure, int dim)
 {
+    KOKSMA__REQUIRE_OR(NAN, measure);
     switch (measure->family) {
     case KOKSMA_FAMILY_BOXES:
         return 1;

@@ -192,6 +192,8 @@ static bool count_pair(void *context, double d2)
 koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, const koksma_run *run,
                                       double *values)
 {
+    KOKSMA__REQUIRE(points, values);
+    KOKSMA__REQUIRE_RUN(run);
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2", points->dim);
     }
@@ -199,7 +201,8 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
         return koksma__fail(KOKSMA_ARGUMENT, "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins",
                             r_max);
     }
-    const koksma_status checked = koksma__points_check(points);
+    koksma_status checked = koksma__points_check(points);
+    checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);
     if (checked) {
         return checked;
     }

@@ -2,10 +2,10 @@
 /* Power spectra and what is read from them. Definitions: Ulichney 1987 for the radial mean and the anisotropy; Heck,
    Schlomer and Deussen 2013 for the effective Nyquist frequency and the oscillation, as koksma/spectrum.h words them.
    Means over sets and their errors are updated set by set (Welford 1962), so that equal sets have no error. */
+#include "measures/shared/spectrum.h"
+
 #include <math.h>
 #include <stdlib.h>
-
-#include <koksma/spectrum.h>
 
 #include "core/points_io.h"
 #include "core/status.h"
@@ -24,6 +24,7 @@ static size_t side_of(int half)
 
 koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half)
 {
+    KOKSMA__REQUIRE(spectrum);
     *spectrum = (koksma_spectrum){0};
     if (half < 1 || half > KOKSMA_SPECTRUM_MAX_HALF) {
         return koksma__fail(KOKSMA_ARGUMENT, "spectrum: half = %d: it takes 1 to %d", half, KOKSMA_SPECTRUM_MAX_HALF);
@@ -71,23 +72,30 @@ static void find_means(int half, const double *power, double *means, double *cou
     }
 }
 
-static koksma_status check_open(const koksma_spectrum *spectrum)
+koksma_status koksma__spectrum_check(const koksma_spectrum *spectrum)
 {
-    return spectrum->power ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
+    return spectrum->power && spectrum->rings && spectrum->half >= 1 && spectrum->half <= KOKSMA_SPECTRUM_MAX_HALF
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_ARGUMENT, "spectrum: koksma_spectrum_init comes first");
 }
 
 koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points *points,
                                   koksma_spectrum_method method, const koksma_run *run)
 {
-    const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
+    KOKSMA__REQUIRE(spectrum, points);
+    KOKSMA__REQUIRE_RUN(run);
     if (points->dim != 2) {
         return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
     }
-    koksma_status status = check_open(spectrum);
+    koksma_status status = koksma__spectrum_check(spectrum);
     status = status ? status : koksma__points_check(points);
+    if (!status && method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "spectrum: %d is no method", (int)method);
+    }
     if (status) {
         return status;
     }
+    const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     if (!power) {
         return koksma__fail_memory((count + 2 * rows) * sizeof *power);
@@ -112,8 +120,9 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
 
 double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
 {
+    KOKSMA__REQUIRE_OR(NAN, spectrum);
     const int half = spectrum->half;
-    if (!spectrum->power || kx < -half || kx > half || ky < -half || ky > half) {
+    if (koksma__spectrum_check(spectrum) || kx < -half || kx > half || ky < -half || ky > half) {
         return NAN;
     }
     return power_at(half, spectrum->power, ky < 0 ? -kx : kx, abs(ky));
@@ -121,9 +130,10 @@ double koksma_spectrum_power(const koksma_spectrum *spectrum, int kx, int ky)
 
 koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spectrum)
 {
+    KOKSMA__REQUIRE(path, spectrum);
     const int half = spectrum->half;
     const size_t side = side_of(half);
-    const koksma_status status = check_open(spectrum);
+    const koksma_status status = koksma__spectrum_check(spectrum);
     if (status) {
         return status;
     }
@@ -157,6 +167,11 @@ static double anisotropy_db(double points, double power, double variance)
 
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
 {
+    KOKSMA__REQUIRE(spectrum, rings);
+    const koksma_status status = koksma__spectrum_check(spectrum);
+    if (status) {
+        return status;
+    }
     const int half = spectrum->half;
     const size_t rows = (size_t)half + 1;
     double *means = calloc(3 * rows, sizeof *means), *counts = means + rows, *spreads = counts + rows;
@@ -197,13 +212,17 @@ static double oscillation(const koksma_spectrum *s)
     return to <= s->half ? 10 * sqrt(waves / area) : (double)NAN;
 }
 
-void koksma_spectrum_quality(const koksma_spectrum *s, koksma_spectrum_quality_values *out)
+void koksma_spectrum_quality(const koksma_spectrum *spectrum, koksma_spectrum_quality_values *out)
 {
-    const double lattice = sqrt(s->points) / 2;
+    KOKSMA__REQUIRE_OR(, spectrum, out);
+    if (koksma__spectrum_check(spectrum)) {
+        return;
+    }
+    const double lattice = sqrt(spectrum->points) / 2;
     double energy = 0, area = 0;
     int last = 0;
-    for (int ring = 1; ring <= s->half; ring++) {
-        energy += ring * s->rings[ring].mean;
+    for (int ring = 1; ring <= spectrum->half; ring++) {
+        energy += ring * spectrum->rings[ring].mean;
         area += ring;
         if (energy <= NYQUIST_SHARE * area) {
             last = ring;
@@ -211,5 +230,5 @@ void koksma_spectrum_quality(const koksma_spectrum *s, koksma_spectrum_quality_v
             break;
         }
     }
-    *out = (koksma_spectrum_quality_values){last / 2.0, last / 2.0 / lattice, oscillation(s)};
+    *out = (koksma_spectrum_quality_values){last / 2.0, last / 2.0 / lattice, oscillation(spectrum)};
 }

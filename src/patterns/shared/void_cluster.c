@@ -229,6 +229,8 @@ static koksma_status make_room(mask *m)
 
 koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma_run *run, uint32_t *ranks)
 {
+    KOKSMA__REQUIRE(ranks);
+    KOKSMA__REQUIRE_RUN(run);
     if (size < KOKSMA_MASK_MIN || size > KOKSMA_MASK_MAX) {
         return koksma__fail(KOKSMA_ARGUMENT, "void-and-cluster: a mask of size %d; sizes are %d to %d", size,
                             KOKSMA_MASK_MIN, KOKSMA_MASK_MAX);

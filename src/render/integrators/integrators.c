@@ -7,6 +7,7 @@
  */
 #include <string.h>
 
+#include "core/status.h"
 #include "render/integrators/irradiance_cache.h"
 
 /*
@@ -85,6 +86,7 @@ const koksma_integrator *koksma_integrator_at(size_t i)
 
 const koksma_integrator *koksma_integrator_find(const char *name)
 {
+    KOKSMA__REQUIRE_OR(NULL, name);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (!strcmp(rows[i].name, name)) {
             return &rows[i];

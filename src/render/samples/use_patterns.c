@@ -23,6 +23,7 @@ static int dimensions(const koksma_use_group *group)
 
 void koksma_use_group_text(const koksma_use_group *group, char *text)
 {
+    KOKSMA__REQUIRE_OR(, group, text);
     size_t used = 0;
     *text = '\0';
     for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
@@ -79,7 +80,7 @@ static int patterns_of(const koksma_render_options *options, int u)
 {
     int n = options->patterns[u].pattern != NULL;
     for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
-        for (int i = 0; i < options->groups[g].n_uses; i++) {
+        for (int i = 0; i < options->groups[g].n_uses && i < KOKSMA_N_USES; i++) {
             n += options->groups[g].uses[i] == u;
         }
     }
@@ -270,10 +271,8 @@ static koksma_status parse_part(const char *part, koksma_render_options *options
 
 koksma_status koksma_render_patterns(const char *text, koksma_render_options *options)
 {
+    KOKSMA__REQUIRE(text, options);
     koksma_render_options changed = *options;
-    if (!text) {
-        return koksma__fail(KOKSMA_ARGUMENT, "there is no text of patterns, such as random;pixel+time=scan-time");
-    }
     for (bool first = true; first || *text; first = false) {
         char part[2 * KOKSMA_MAX_SPEC];
         const char *end = end_of_part(text);
@@ -308,6 +307,7 @@ static void append(char *text, const char *name, const koksma_spec *spec)
 
 void koksma_render_patterns_text(const koksma_render_options *options, char *text)
 {
+    KOKSMA__REQUIRE_OR(, options, text);
     bool done[KOKSMA_MAX_USE_GROUPS] = {false};
     koksma_spec_text(&options->pattern, text);
     for (int u = 0; u < KOKSMA_N_USES; u++) {

@@ -61,8 +61,11 @@ koksma__place_of_use koksma__place_of_use_at(const koksma_render_options *option
     for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
         const koksma_use_group *group = &options->groups[g];
         koksma__place_of_use place = {.group = -1, .lead = UINT32_MAX};
-        for (int i = 0; i < group->n_uses; i++) {
+        for (int i = 0; i < group->n_uses && i < KOKSMA_N_USES; i++) {
             const int other = group->uses[i];
+            if (other < 0 || other >= KOKSMA_N_USES) {
+                continue; /* koksma__check_use_patterns has not seen these options */
+            }
             if (other == u) {
                 place.group = g;
                 place.first = place.dim;

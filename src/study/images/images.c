@@ -174,6 +174,8 @@ static koksma_status add_coherence(const pictures *all, const koksma_run *run, k
 koksma_status koksma_study_images(const char *places, const char *reference, const koksma_run *run,
                                   koksma_images_row **rows, size_t *n)
 {
+    KOKSMA__REQUIRE(places, reference, rows, n);
+    KOKSMA__REQUIRE_RUN(run);
     char pattern[KOKSMA__PATH];
     glob_t found = {0};
     pictures all = {0};

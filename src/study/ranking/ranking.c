@@ -20,6 +20,7 @@
 
 #include "core/clock.h"
 #include "core/status.h"
+#include "image/formats.h"
 #include "study/ranking/ranking_contest.h"
 
 #define ALPHA 0.04
@@ -400,22 +401,50 @@ static void set_sizes(const koksma_rank_options *options, koksma__study_scene *s
     out->checks[1] = (koksma_rank_check){.width = 2 * scene->width, .height = 2 * scene->height};
 }
 
-koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
-                                   koksma_ranking *out)
+static koksma_status check(const koksma_rank_options *options)
 {
-    ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
-    koksma__run_control_begin(run, options->time_limit_s, &r.control);
-    *out = (koksma_ranking){.reference_error = NAN};
-    if (!options->n_patterns) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a ranking has at least one pattern");
+    koksma_status status =
+        koksma__array_check("options->patterns", options->patterns, options->n_patterns, sizeof(koksma_rank_row));
+    for (size_t i = 0; i < options->n_patterns && !status; i++) {
+        status =
+            options->patterns[i] ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "options->patterns[%zu] is NULL", i);
     }
-    if (options->max_trials &&
+    if (!status && !options->n_patterns) {
+        return koksma__fail(KOKSMA_ARGUMENT, "n_patterns = 0: a ranking has at least one pattern");
+    }
+    if (!status && (options->spp < 1 || options->spp > KOKSMA_MAX_SPP)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
+    }
+    if (!status && options->width) {
+        status = koksma__image_check_shape(options->width, options->height, 1);
+    }
+    if (!status && !(options->time_limit_s >= 0)) {
+        return koksma__fail(KOKSMA_ARGUMENT, "time_limit_s = %g: it is 0, for none, or a number of seconds",
+                            options->time_limit_s);
+    }
+    if (!status && options->max_trials &&
         (options->max_trials < KOKSMA__RANK_FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS)) {
         return koksma__fail(KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0",
                             options->max_trials, KOKSMA__RANK_FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
     }
+    return status;
+}
+
+koksma_status koksma_rank_patterns(const koksma_rank_options *options, const koksma_run *run, koksma_rank_row *rows,
+                                   koksma_ranking *out)
+{
+    KOKSMA__REQUIRE(options, rows, out);
+    KOKSMA__REQUIRE(options->scene, options->patterns);
+    KOKSMA__REQUIRE_RUN(run);
+    koksma_status status = check(options);
+    if (status) {
+        return status;
+    }
+    ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
+    koksma__run_control_begin(run, options->time_limit_s, &r.control);
+    *out = (koksma_ranking){.reference_error = NAN};
     koksma__variant_text(options->integrator, options->filter, r.variant);
-    koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
+    status = koksma_scene_open(options->scene, &r.scene.scene);
     if (!status) {
         set_sizes(options, &r.scene, out);
         snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));
@@ -423,5 +452,8 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
         koksma_scene_close(r.scene.scene);
     }
     out->seconds = koksma__now_s() - r.start_s;
+    if (status) {
+        *out = (koksma_ranking){0};
+    }
     return status;
 }

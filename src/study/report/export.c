@@ -206,6 +206,7 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
 
 koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path)
 {
+    KOKSMA__REQUIRE(folder, path);
     char results[KOKSMA__PATH];
     koksma__store *store;
     koksma__atomic_file file;

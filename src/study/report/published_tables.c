@@ -107,6 +107,7 @@ koksma_status koksma__table_image(koksma_study *study, const koksma__table *tabl
 
 const char *koksma_study_table_at(const koksma_study *study, size_t i)
 {
+    KOKSMA__REQUIRE_OR(NULL, study);
     return i < study->plan.n_tables ? study->plan.tables[i].id : NULL;
 }
 
@@ -197,6 +198,7 @@ static void publish(const koksma__table *table, const koksma__table_row *from, s
 koksma_status koksma_study_table_row(koksma_study *study, const char *id, size_t i, koksma_study_row *row,
                                      bool *found)
 {
+    KOKSMA__REQUIRE(study, id, row, found);
     const koksma__table *table = NULL;
     *found = false;
     if (!study->store) {

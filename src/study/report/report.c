@@ -101,6 +101,8 @@ static koksma_status write_file(const koksma_study *study, const char *name, con
 
 koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
 {
+    KOKSMA__REQUIRE(study);
+    KOKSMA__REQUIRE_RUN(run);
     koksma__document d = {0};
     if (!study->store) {
         return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder has no report");

@@ -257,6 +257,8 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
 
 koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out)
 {
+    KOKSMA__REQUIRE(study, out);
+    KOKSMA__REQUIRE_RUN(run);
     const double start_s = koksma__now_s(), budget_s = run && run->time_limit_s > 0 ? run->time_limit_s : 5;
     const bool both = study->plan.n_discrepancies && study->plan.n_images;
     *out = (koksma_study_cost){0};

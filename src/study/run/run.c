@@ -94,6 +94,8 @@ static koksma_status run_kind(koksma_study *study, bool images, koksma__run_cont
 
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
 {
+    KOKSMA__REQUIRE(study);
+    KOKSMA__REQUIRE_RUN(run);
     koksma_study_summary unused;
     char started[24];
     const time_t now = time(NULL);

@@ -215,17 +215,36 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     return status ? status : open_scenes(study);
 }
 
-koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
+static koksma_status check_options(const koksma_study_options *options)
 {
-    *out = NULL;
     if (!options->n_plans && !options->folder) {
         return koksma__fail(KOKSMA_ARGUMENT, "a study has a plan, or a folder with results");
+    }
+    if (options->trials < 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "trials = %lld: it is 0, for those of the plan, or more",
+                            options->trials);
+    }
+    koksma_status status =
+        koksma__array_check("options->plans", options->plans, options->n_plans, sizeof *options->plans);
+    for (size_t i = 0; i < options->n_plans && !status; i++) {
+        status = options->plans[i] ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "options->plans[%zu] is NULL", i);
+    }
+    return status;
+}
+
+koksma_status koksma_study_open(const koksma_study_options *options, koksma_study **out)
+{
+    KOKSMA__REQUIRE(options, out);
+    *out = NULL;
+    koksma_status status = check_options(options);
+    if (status) {
+        return status;
     }
     koksma_study *study = calloc(1, sizeof *study);
     if (!study) {
         return koksma__fail_memory(sizeof *study);
     }
-    koksma_status status = koksma__mpi_check();
+    status = koksma__mpi_check();
     status = status             ? status
              : options->n_plans ? open_with_plans(study, options)
                                 : open_folder(study, options->folder);

@@ -287,6 +287,8 @@ static koksma_status open_run(koksma__adaptive *run)
 
 uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
+    KOKSMA__REQUIRE_OR(0, options, adaptive);
+    KOKSMA__REQUIRE_OR(0, adaptive->method);
     const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
     const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
     const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
@@ -305,6 +307,8 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
                                      const koksma_adaptive_options *adaptive, const koksma_run *how,
                                      koksma_layers *out, koksma_adaptive_report *report)
 {
+    KOKSMA__REQUIRE(scene, options, adaptive, out);
+    KOKSMA__REQUIRE_RUN(how);
     *out = (koksma_layers){0};
     koksma_status status = check(options, adaptive);
     if (status) {

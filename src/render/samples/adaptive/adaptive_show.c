@@ -183,11 +183,12 @@ koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, kok
 
 void koksma_strata_fini(koksma_strata *strata)
 {
-    for (size_t i = 0; i < strata->n_spaces; i++) {
+    for (size_t i = 0; strata && i < strata->n_spaces; i++) {
         free(strata->spaces[i].strata);
         free(strata->spaces[i].splits);
     }
-    free(strata->spaces);
-    strata->spaces = NULL;
-    strata->n_spaces = 0;
+    if (strata) {
+        free(strata->spaces);
+        *strata = (koksma_strata){0};
+    }
 }

@@ -20,11 +20,9 @@ KOKSMA__NAME_AT(koksma_adaptive)
 
 koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
 {
+    KOKSMA__REQUIRE(text, out);
     char name[64];
     *out = (koksma_adaptive_options){0};
-    if (!text) {
-        return koksma__fail(KOKSMA_ARGUMENT, "there is no name of an adaptive method");
-    }
     const size_t length = strcspn(text, ":");
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
     out->method = koksma_adaptive_find(name);
@@ -37,6 +35,8 @@ koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *o
 
 void koksma_adaptive_text(const koksma_adaptive_options *options, char *text)
 {
+    KOKSMA__REQUIRE_OR(, options, text);
+    KOKSMA__REQUIRE_OR(, options->method);
     snprintf(text, KOKSMA_MAX_SPEC, "%s", options->method->name);
     koksma__params_text(options->method->params, options->params, text, KOKSMA_MAX_SPEC);
 }
