@@ -198,7 +198,7 @@ static const char *ending_of(const char *path)
 
 static int export_rows(const cli_arguments *arguments)
 {
-    static const char *const formats[] = {"csv", "json", "npy", NULL};
+    static const char *const formats[] = {"csv", "json", "npy", "sha256", NULL};
     const char *path = cli_text(arguments, "output", "-");
     const char *given = cli_text(arguments, "format", NULL), *name = given ? given : ending_of(path);
     int format = 0;
@@ -209,7 +209,7 @@ static int export_rows(const cli_arguments *arguments)
         format++;
     }
     if (!formats[format] && given) {
-        return cli_usage_error(arguments, "--format %s: it takes csv, json or npy", name);
+        return cli_usage_error(arguments, "--format %s: it takes csv, json, npy or sha256", name);
     }
     format = formats[format] ? format : 0;
     const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
@@ -331,7 +331,7 @@ static const cli_option options[] = {
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
     {0, "reference", "FILE", "images: the reference image"},
-    {0, "format", "csv|json|npy", "export (default: by the file's ending, else csv)"},
+    {0, "format", "csv|json|npy|sha256", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -343,7 +343,7 @@ const cli_command cli_command_study = {
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
                 "new [FILE]\n"
                 "estimate PLAN... [--json]\n"
-                "export DIR [--format csv|json|npy] [-o FILE]\n"
+                "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
                 "report DIR\n"
                 "images 'PLACES' --reference FILE [--json]",
     .details =
@@ -354,7 +354,8 @@ const cli_command cli_command_study = {
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: measures samples and prints what the study would cost on one thread.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
-        "'export' and 'report' fail while a run uses DIR, and if DIR cannot be written.\n"
+        "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
+        "results, fail while a run uses DIR, and refuse results that something else than a run has changed.\n"
         "report: writes DIR/report.html.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces. 'koksma compare --help' explains coherence.\n",

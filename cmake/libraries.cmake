@@ -10,7 +10,7 @@ if(NOT KOKSMA_LAB)
   return()
 endif()
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
-pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
+pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3>=3.37) # STRICT tables
 
 # koksma_switch(NAME WHAT): the switch KOKSMA_<NAME>: AUTO takes what is there, ON insists, OFF leaves it out. Whatever
 # CMake takes for true or false is ON or OFF from here on. What is in has <NAME>_IN: a <NAME>_FOUND may be of an earlier

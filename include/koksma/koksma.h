@@ -223,6 +223,7 @@ struct koksma_pattern {
     /* Allocates all points of a pattern whose parameters decide how many there are (koksma_generate_whole). out->dim
        is set by the caller; 0: any. Returns N where the parameters leave the number open. NULL for other patterns. */
     koksma_status (*whole)(uint64_t seed, const koksma_args *args, koksma_points *out);
+    int revision; /* 0, and one more with every change of any bit of its points: studies keep it with their rows */
 };
 
 /* Returns pattern i of the table, or the pattern with this name; NULL if there is none. */
@@ -305,6 +306,7 @@ struct koksma_measure {
     koksma_status (*eval)(const koksma_points *points, const koksma_args *args, koksma_value *out);
     koksma_answer answer;
     bool larger_is_better; /* a distance; for all other measures smaller means more even */
+    int revision;          /* 0, and one more with every change of any bit of its values, as of a pattern */
 };
 
 /* Returns measure i of the table, or the measure with this name; NULL if there is none. */

@@ -46,7 +46,7 @@ typedef struct koksma_study_options {
     const char *const
         *plans;         /* names of plans in the library, or JSON files if the text has a '/' or ends in ".json".
                                  Several are joined to one plan called "a+b" */
-    size_t n_plans;     /* 0: use the plan stored in the folder */
+    size_t n_plans;     /* 0: use the plan stored in the folder, which is only read */
     const char *folder; /* created if it does not exist; NULL: only koksma_study_estimate can be called */
     long long trials;   /* replaces the numbers of trials in the plan; 0: does not */
     bool quick;         /* use the `quick` number of trials of each block that has one */
@@ -97,12 +97,20 @@ typedef struct koksma_study_cost {
 KOKSMA_API koksma_status koksma_study_estimate(koksma_study *study, const koksma_run *run, koksma_study_cost *out);
 
 /* Formats of exported results. */
-typedef enum koksma_export_format { KOKSMA_EXPORT_CSV, KOKSMA_EXPORT_JSON, KOKSMA_EXPORT_NPY } koksma_export_format;
+typedef enum koksma_export_format {
+    KOKSMA_EXPORT_CSV,
+    KOKSMA_EXPORT_JSON,
+    KOKSMA_EXPORT_NPY,
+    KOKSMA_EXPORT_SHA256
+} koksma_export_format;
 
-/* Writes all results of a study's folder, sorted by key; equal results give equal bytes, however they were made.
-     format  CSV; JSON with one object a line; NPY with one record a row, whose texts are byte strings
+/* Writes all results of a study's folder, sorted by key; equal results give equal bytes, however they were made. The
+   folder is only read.
+     format  CSV; JSON with one object a line; NPY with one record a row, whose texts are byte strings; SHA256: one line,
+             the hash of the CSV
      path    "-" is standard output
-   Errors: MISSING, IO (also while a run uses the folder), MEMORY. */
+   Errors: MISSING, MALFORMED (no results of a study; damaged or changed by hand), IO (also while a run uses the
+   folder), MEMORY. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
 /* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, which shows it: one

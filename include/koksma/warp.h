@@ -29,6 +29,7 @@ typedef struct koksma_warp {
     int dim; /* coordinates of a mapped point: 2 or 3 */
     void (*map)(const double in[2],
                 double *out); /* maps one point; out may equal in if it has room for dim numbers */
+    int revision;             /* as of a pattern (koksma.h) */
 } koksma_warp;
 
 /* Returns warp i of the table, or the warp with this name; NULL if there is none. */

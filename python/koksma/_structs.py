@@ -30,12 +30,13 @@ class Run(Structure):
 class Pattern(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min_dim", c_int), ("max_dim", c_int),
                 ("claims", c_uint), ("params", POINTER(Param)), ("generate", c_void_p), ("takes_path", c_bool),
-                ("alias_of", c_char_p), ("whole", c_void_p)]
+                ("alias_of", c_char_p), ("whole", c_void_p), ("revision", c_int)]
 
 
 class Measure(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
-                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("answer", c_int), ("larger_is_better", c_bool)]
+                ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("answer", c_int), ("larger_is_better", c_bool),
+                ("revision", c_int)]
 
 
 class Spec(Structure):

@@ -15,6 +15,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin" "$work/run"
 ln -s "$program" "$work/bin/koksma"
 ln -s "$(dirname "$test")/../study/report/text.py" "$work/bin/report-text" # the report of a study as lines of text
+ln -s "$(dirname "$test")/../study/reseal.py" "$work/bin/reseal" # makes a store's rows, changed by hand, its rows
 PATH="$work/bin:$PATH"
 KOKSMA_TESTS=$(dirname "$(dirname "$test")")
 export PATH KOKSMA_TESTS

@@ -109,6 +109,9 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     if (!status && strlen(r->name) > MAX_NAME) {
         return koksma__json_fail(node, "its name has more than %d letters", MAX_NAME);
     }
+    if (!status && strchr(r->name, ':')) { /* which ends it in the key of rows: made_by.h */
+        return koksma__json_fail(node, "its name has a ':'");
+    }
     return status ? status : koksma__plan_check_reference(node, r);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rows of a store in formats that others read, sorted by their keys. */
+/* The rows of a store in formats that others read, sorted by their keys; and the SHA-256 of their CSV. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,15 @@
 #include "core/json_writer.h"
 #include "core/npy.h"
 #include "core/status.h"
+#include "study/report/export.h"
 #include "study/run/study.h"
 #include "study/store/store.h"
 
-enum { N_TEXTS = 6, N_WHOLES = 4, N_VALUES = 7 };
+/* The first texts stand before the numbers, the others behind. */
+enum { N_FIRST = 6, N_TEXTS = 8, N_WHOLES = 4, N_VALUES = 7 };
 
-static const char *const text_names[N_TEXTS] = {"kind", "scene", "scene_hash", "options", "pattern", "what"};
+static const char *const text_names[N_TEXTS] = {"kind",    "scene", "scene_hash", "options",
+                                                "pattern", "what",  "made_by",    "measured_by"};
 static const char *const whole_names[N_WHOLES] = {"n", "dim", "width", "height"};
 static const char *const value_names[N_VALUES] = {"value", "sd", "max", "rmse", "p", "frequency_x", "frequency_y"};
 
@@ -28,7 +31,8 @@ typedef struct writer {
 
 static const char *text_of(const koksma__series *s, int k)
 {
-    const char *const texts[N_TEXTS] = {s->kind, s->scene, s->scene_hash, s->options, s->pattern, s->what};
+    const char *const texts[N_TEXTS] = {s->kind,    s->scene, s->scene_hash, s->options,
+                                        s->pattern, s->what,  s->made_by,    s->measured_by};
     return texts[k];
 }
 
@@ -56,7 +60,7 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
     FILE *f = ((writer *)context)->stream;
     double values[N_VALUES];
     values_of(series, result, values);
-    for (int k = 0; k < N_TEXTS; k++) {
+    for (int k = 0; k < N_FIRST; k++) {
         koksma__csv_put(f, text_of(series, k));
         putc(',', f);
     }
@@ -70,13 +74,17 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
             koksma__fprintf(f, "%.17g", values[k]);
         }
     }
+    for (int k = N_FIRST; k < N_TEXTS; k++) {
+        putc(',', f);
+        koksma__csv_put(f, text_of(series, k));
+    }
     putc('\n', f);
     return KOKSMA_OK;
 }
 
 static void put_csv_header(FILE *f)
 {
-    for (int k = 0; k < N_TEXTS; k++) {
+    for (int k = 0; k < N_FIRST; k++) {
         fprintf(f, "%s,", text_names[k]);
     }
     for (int k = 0; k < N_WHOLES; k++) {
@@ -85,6 +93,9 @@ static void put_csv_header(FILE *f)
     fputs("trial,seed", f);
     for (int k = 0; k < N_VALUES; k++) {
         fprintf(f, ",%s", value_names[k]);
+    }
+    for (int k = N_FIRST; k < N_TEXTS; k++) {
+        fprintf(f, ",%s", text_names[k]);
     }
     putc('\n', f);
 }
@@ -100,7 +111,7 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     values_of(series, result, values);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)result->seed);
     koksma__json_begin_object(&w->json, NULL);
-    for (int k = 0; k < N_TEXTS; k++) {
+    for (int k = 0; k < N_FIRST; k++) {
         koksma__json_write_text(&w->json, text_names[k], text_of(series, k));
     }
     for (int k = 0; k < N_WHOLES; k++) {
@@ -110,6 +121,9 @@ static koksma_status put_json(void *context, const koksma__series *series, const
     koksma__json_write_text(&w->json, "seed", seed);
     for (int k = 0; k < N_VALUES; k++) {
         koksma__json_write_number(&w->json, value_names[k], values[k]);
+    }
+    for (int k = N_FIRST; k < N_TEXTS; k++) {
+        koksma__json_write_text(&w->json, text_names[k], text_of(series, k));
     }
     koksma__json_end(&w->json);
     return koksma__json_line(&w->json, w->stream);
@@ -129,13 +143,18 @@ static koksma_status measure_npy(void *context, const koksma__series *series, co
     return KOKSMA_OK;
 }
 
+static size_t width_of(const writer *w, int k)
+{
+    return w->widths[k] ? w->widths[k] : 1;
+}
+
 static void put_npy_header(const writer *w)
 {
     char descr[KOKSMA__NPY_HEADER - 64] = "[", shape[32];
     size_t size = 1;
-    for (int k = 0; k < N_TEXTS; k++) {
-        size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '|S%zu'), ", text_names[k],
-                                 w->widths[k] ? w->widths[k] : 1);
+    for (int k = 0; k < N_FIRST; k++) {
+        size +=
+            (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '|S%zu'), ", text_names[k], width_of(w, k));
     }
     for (int k = 0; k < N_WHOLES; k++) {
         size += (size_t)snprintf(descr + size, sizeof descr - size, "('%s', '<i8'), ", whole_names[k]);
@@ -143,6 +162,10 @@ static void put_npy_header(const writer *w)
     size += (size_t)snprintf(descr + size, sizeof descr - size, "('trial', '<i8'), ('seed', '<u8')");
     for (int k = 0; k < N_VALUES; k++) {
         size += (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '<f8')", value_names[k]);
+    }
+    for (int k = N_FIRST; k < N_TEXTS; k++) {
+        size +=
+            (size_t)snprintf(descr + size, sizeof descr - size, ", ('%s', '|S%zu')", text_names[k], width_of(w, k));
     }
     snprintf(descr + size, sizeof descr - size, "]");
     snprintf(shape, sizeof shape, "(%zu,)", w->rows);
@@ -156,19 +179,24 @@ static void put_word(FILE *f, uint64_t word)
     fwrite(bytes, 1, sizeof bytes, f);
 }
 
+static void put_npy_texts(const writer *w, const koksma__series *series, int first, int end)
+{
+    for (int k = first; k < end; k++) {
+        const char *text = text_of(series, k);
+        const size_t length = strlen(text);
+        fwrite(text, 1, length, w->stream);
+        for (size_t i = length; i < width_of(w, k); i++) {
+            putc(0, w->stream);
+        }
+    }
+}
+
 static koksma_status put_npy(void *context, const koksma__series *series, const koksma__result *result)
 {
     const writer *w = context;
     double values[N_VALUES];
     values_of(series, result, values);
-    for (int k = 0; k < N_TEXTS; k++) {
-        const char *text = text_of(series, k);
-        const size_t length = strlen(text), width = w->widths[k] ? w->widths[k] : 1;
-        fwrite(text, 1, length, w->stream);
-        for (size_t i = length; i < width; i++) {
-            putc(0, w->stream);
-        }
-    }
+    put_npy_texts(w, series, 0, N_FIRST);
     for (int k = 0; k < N_WHOLES; k++) {
         put_word(w->stream, (uint64_t)whole_of(series, k));
     }
@@ -179,13 +207,58 @@ static koksma_status put_npy(void *context, const koksma__series *series, const 
         memcpy(&word, &values[k], sizeof word);
         put_word(w->stream, isnan(values[k]) ? UINT64_C(0x7ff8000000000000) : word);
     }
+    put_npy_texts(w, series, N_FIRST, N_TEXTS);
     return KOKSMA_OK;
+}
+
+/* ---- SHA-256 of the CSV -------------------------------------------------------------------------------- */
+
+typedef struct hasher {
+    koksma__sha256 hash;
+    char *text; /* of the stream: one row */
+    size_t size;
+    writer writer;
+} hasher;
+
+static koksma_status hash_text(hasher *h)
+{
+    if (fflush(h->writer.stream) || ferror(h->writer.stream)) {
+        return koksma__fail_memory(h->size);
+    }
+    koksma__sha256_add(&h->hash, h->text, h->size);
+    rewind(h->writer.stream);
+    return KOKSMA_OK;
+}
+
+static koksma_status hash_row(void *context, const koksma__series *series, const koksma__result *result)
+{
+    hasher *h = context;
+    put_csv(&h->writer, series, result);
+    return hash_text(h);
+}
+
+koksma_status koksma__rows_sha256(koksma__store *store, char text[KOKSMA__SHA256_TEXT])
+{
+    hasher h = {.size = 0};
+    koksma__sha256_init(&h.hash);
+    h.writer.stream = open_memstream(&h.text, &h.size);
+    if (!h.writer.stream) {
+        return koksma__fail_memory(1);
+    }
+    put_csv_header(h.writer.stream);
+    koksma_status status = hash_text(&h);
+    status = status ? status : koksma__store_visit(store, hash_row, &h);
+    fclose(h.writer.stream);
+    free(h.text);
+    koksma__sha256_finish(&h.hash, text);
+    return status;
 }
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
 
 static koksma_status write_rows(koksma__store *store, koksma_export_format format, writer *w)
 {
+    char hash[KOKSMA__SHA256_TEXT];
     koksma_status status = KOKSMA_OK;
     switch (format) {
     case KOKSMA_EXPORT_CSV:
@@ -198,6 +271,12 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
         if (!status) {
             put_npy_header(w);
             status = koksma__store_visit(store, put_npy, w);
+        }
+        return status;
+    case KOKSMA_EXPORT_SHA256:
+        status = koksma__rows_sha256(store, hash);
+        if (!status) {
+            fprintf(w->stream, "%s\n", hash);
         }
         return status;
     }

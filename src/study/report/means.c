@@ -94,14 +94,15 @@ koksma_status koksma__reference_error(koksma_study *study, const koksma__image_b
 {
     size_t index;
     char name[KOKSMA__REFERENCE_NAME];
-    const koksma_status status = koksma__reference_index(study, block, koksma__study_scene_of(study, scene), variant,
-                                                         block->n_references - 1, &index);
-    *error = NAN;
-    if (status) {
-        return status;
+    koksma__reference_row row = {.standard_error = NAN};
+    koksma_status status = koksma__reference_index(study, block, koksma__study_scene_of(study, scene), variant,
+                                                   block->n_references - 1, &index);
+    if (!status) {
+        const koksma__series key = koksma__reference_key(&study->references[index], name);
+        status = koksma__store_reference(study->store, &key, &row);
     }
-    const koksma__series key = koksma__reference_key(&study->references[index], name);
-    return koksma__store_reference(study->store, &key, error);
+    *error = row.standard_error;
+    return status;
 }
 
 koksma_status koksma__say_reference(koksma_study *study, koksma__document *d, const koksma__image_block *block,

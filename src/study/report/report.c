@@ -10,6 +10,7 @@
 
 #include "core/atomic_file.h"
 #include "core/status.h"
+#include "study/report/export.h"
 #include "study/report/page_text.h"
 #include "study/report/report.h"
 
@@ -65,8 +66,8 @@ static koksma_status add_plan(const koksma__report_scope *scope, koksma__documen
 static koksma_status build(koksma_study *study, const koksma_run *run, koksma__document *d)
 {
     const koksma__plan *plan = &study->plan;
-    koksma__report_scope scope = {study, run, 0};
-    koksma_status status = KOKSMA_OK;
+    koksma__report_scope scope = {.study = study, .run = run};
+    koksma_status status = koksma__rows_sha256(study->store, scope.rows);
     d->json.in_html = true;
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "format", "koksma-report");
@@ -75,6 +76,7 @@ static koksma_status build(koksma_study *study, const koksma_run *run, koksma__d
     koksma__json_write_text(&d->json, "about", plan->n_parts == 1 && plan->about ? plan->about : "");
     koksma__json_write_text(&d->json, "plan", plan->name);
     koksma__json_write_text(&d->json, "koksma", koksma_version());
+    koksma__json_write_text(&d->json, "rows_sha256", scope.rows);
     koksma__json_begin_array(&d->json, "content");
     for (; !status && scope.plan < plan->n_parts; scope.plan++) {
         status = add_plan(&scope, d);

@@ -9,8 +9,9 @@
 /* What a section is written from. */
 typedef struct koksma__report_scope {
     koksma_study *study;
-    const koksma_run *run; /* deadline and cancellation of what has to be rendered again; may be NULL */
-    size_t plan;           /* the number of the plan that a section of one plan is about */
+    const koksma_run *run;          /* deadline and cancellation of what has to be rendered again; may be NULL */
+    char rows[KOKSMA__SHA256_TEXT]; /* their fingerprint (export.h) */
+    size_t plan;                    /* the number of the plan that a section of one plan is about */
 } koksma__report_scope;
 
 typedef struct koksma__section {

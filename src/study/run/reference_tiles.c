@@ -43,15 +43,15 @@ static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)
     return status;
 }
 
-/* The picture, and the row with its own error: where the database was moved away, both are made anew. */
+/* The picture, and the row with its hash and own error: where the database was moved away, or is from before there
+   were hashes, both are made anew. */
 static bool is_kept(const koksma_study *study, const koksma__reference_image *reference)
 {
     char name[KOKSMA__REFERENCE_NAME];
     const koksma__series key = koksma__reference_key(reference, name);
-    double error;
-    return koksma__reference_exists(study, reference) &&
-           (reference->reference->replicates < 2 ||
-            (!koksma__store_reference(study->store, &key, &error) && !isnan(error)));
+    koksma__reference_row row;
+    return koksma__reference_exists(study, reference) && !koksma__store_reference(study->store, &key, &row) &&
+           row.pixels[0];
 }
 
 koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_tiles *tiles)

@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/sha256.h"
 #include "core/status.h"
 #include "image/registry.h"
 #include "render/rows.h"
@@ -115,6 +116,35 @@ bool koksma__reference_exists(const koksma_study *study, const koksma__reference
     return !stat(path, &info);
 }
 
+void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT])
+{
+    const uint32_t shape[3] = {(uint32_t)image->width, (uint32_t)image->height, (uint32_t)image->channels};
+    const size_t n = (size_t)shape[0] * shape[1] * shape[2];
+    koksma__sha256 hash;
+    koksma__sha256_init(&hash);
+    for (size_t i = 0; i < 3 + n; i++) {
+        uint32_t word;
+        memcpy(&word, i < 3 ? (const void *)&shape[i] : &image->pixels[i - 3], sizeof word);
+        const unsigned char bytes[4] = {(unsigned char)word, (unsigned char)(word >> 8), (unsigned char)(word >> 16),
+                                        (unsigned char)(word >> 24)};
+        koksma__sha256_add(&hash, bytes, sizeof bytes);
+    }
+    koksma__sha256_finish(&hash, text);
+}
+
+koksma_status koksma__replicates_done(koksma__replicates *s, koksma__reference_image *reference,
+                                      koksma__reference_row *row)
+{
+    const koksma_status status =
+        koksma__replicates_mean(s, reference->width, reference->height, &reference->image, &row->standard_error);
+    if (!status) {
+        koksma__reference_pixels(&reference->image, row->pixels);
+    }
+    free(s->sum);
+    *s = (koksma__replicates){0};
+    return status;
+}
+
 /* The picture last: where it is, the row is. */
 koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *study,
                                         koksma__reference_image *reference)
@@ -125,27 +155,38 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
     if (mkdir(path, 0777) && errno != EEXIST) {
         status = koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     }
-    double error;
-    status =
-        status ? status : koksma__replicates_mean(s, reference->width, reference->height, &reference->image, &error);
+    koksma__reference_row row;
+    status = status ? status : koksma__replicates_done(s, reference, &row);
     const koksma__series key = koksma__reference_key(reference, name);
-    status = status ? status : koksma__store_put_reference(study->store, &key, error);
+    status = status ? status : koksma__store_put_reference(study->store, &key, &row);
     status = status ? status : koksma__store_commit(study->store);
     koksma__reference_path(study, reference, path, sizeof path);
-    status = status
-                 ? status
-                 : koksma__image_write_in(study->folder, path + strlen(study->folder) + 1, &reference->image, name);
-    free(s->sum);
-    *s = (koksma__replicates){0};
-    return status;
+    return status ? status
+                  : koksma__image_write_in(study->folder, path + strlen(study->folder) + 1, &reference->image, name);
 }
 
 koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference)
 {
-    char path[KOKSMA__PATH];
+    char path[KOKSMA__PATH], name[KOKSMA__REFERENCE_NAME], pixels[KOKSMA__SHA256_TEXT];
+    koksma__reference_row row;
     if (reference->image.pixels) {
         return KOKSMA_OK;
     }
+    const koksma__series key = koksma__reference_key(reference, name);
     koksma__reference_path(study, reference, path, sizeof path);
-    return koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &reference->image);
+    koksma_status status = koksma__store_reference(study->store, &key, &row);
+    status = status ? status : koksma__image_read(path, KOKSMA__FILE_IMAGE, KOKSMA__BY_FILE, &reference->image);
+    if (status || !row.pixels[0]) {
+        return status;
+    }
+    koksma__reference_pixels(&reference->image, pixels);
+    if (strcmp(pixels, row.pixels) != 0) {
+        koksma_image_fini(&reference->image);
+        reference->image = (koksma_image){0};
+        status = koksma__fail(KOKSMA_MALFORMED,
+                              "%s: not the picture that the study made, by the hash of its pixels; "
+                              "remove it, and a run makes it again",
+                              path);
+    }
+    return status;
 }

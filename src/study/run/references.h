@@ -31,11 +31,20 @@ koksma_status koksma__reference_rows_stand_alone(const koksma__reference_image *
 koksma_status koksma__reference_replicate(const koksma__reference_image *reference, long long replicate,
                                           int first_row, int rows, const koksma_run *run, koksma_image *out);
 
-/* The mean of all replicates becomes the reference's pixels, its file, and a row of the store. Frees the sums. */
+/* SHA-256 of width, height, channels and the bits of all pixels, row by row from the top: words of 32 bits, lowest byte
+   first. */
+void koksma__reference_pixels(const koksma_image *image, char text[KOKSMA__SHA256_TEXT]);
+
+/* The mean of all replicates becomes the reference's pixels; *row is what the store has of it. Frees the sums. */
+koksma_status koksma__replicates_done(koksma__replicates *sums, koksma__reference_image *reference,
+                                      koksma__reference_row *row);
+
+/* The same, with its file and its row in the store. */
 koksma_status koksma__replicates_finish(koksma__replicates *sums, koksma_study *study,
                                         koksma__reference_image *reference);
 
-/* Reads DIR/references/…, unless the pixels are there. */
+/* Reads DIR/references/…, unless the pixels are there. Errors: MALFORMED (also: other pixels than the store's hash
+   says), those of koksma_image_read. */
 koksma_status koksma__reference_read(const koksma_study *study, koksma__reference_image *reference);
 
 /* Whether the file is there already. */

@@ -109,6 +109,9 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     if (!study->store) {
         return koksma__mpi_work(study, &control.job);
     }
+    if (!study->is_written) {
+        return koksma__fail(KOKSMA_ARGUMENT, "a study that was opened without its plan is for reading");
+    }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};

@@ -189,6 +189,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
     koksma_status status = load_plans(study, options, texts);
     status = status ? status : open_scenes(study);
     if (!status && options->folder) {
+        study->is_written = true;
         status = make_folder(study, options->folder);
         snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);

@@ -12,6 +12,7 @@ struct koksma_study {
     koksma__plan plan;
     char *folder;
     koksma__store *store;
+    bool is_written; /* the store was opened for a run */
     size_t n_scenes;
     koksma__study_scene *scenes;
     size_t n_references;

@@ -1,80 +1,318 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns error
-   codes into a status and a text. No other file includes sqlite3.h. */
+/*
+ * SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns error
+ * codes into a status and a text. No other file includes sqlite3.h.
+ *
+ * A file may come from a stranger. Its header is read before SQLite sees it; every connection is "defensive", trusts
+ * nothing in the schema, and has triggers and views switched off (https://sqlite.org/security.html).
+ *
+ * To read, the file is locked as SQLite's readers do, by a handle that only locks. Then it can't change, and is opened
+ * as an immutable file: without locks, without a log of its own, from a folder that can't be written. Where a killed
+ * run has left a write-ahead log, this needs an index: in memory, which SQLite does in exclusive mode, for which it
+ * would lock the file to write; it doesn't, as the VFS "unix-none" has no locks, and ours holds.
+ */
 #include "study/store/database.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <sqlite3.h>
 
 #include "core/status.h"
 
+enum { MAX_PATH = 4096, HEADER = 100 };
+
 struct koksma__database {
     sqlite3 *file;
-    char *path;
+    sqlite3_file *lock;          /* to read: holds SQLite's shared lock */
+    char *path;                  /* for errors */
+    char real[MAX_PATH];         /* absolute: no name begins as a URI does */
+    char uri[3 * MAX_PATH + 64]; /* by which it is read */
 };
 
 /* A lock dies with its process, but a process that was killed holds it until the system has found time to end it. */
-enum { LAST_BREATH_MS = 1500 };
+enum { LAST_BREATH_MS = 1500, LOOK_AGAIN_MS = 10 };
+
+static koksma_status fail_busy(const char *path)
+{
+    return koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+}
 
 static koksma_status fail(koksma__database *database)
 {
-    const char *path = database->path;
-    const int code = sqlite3_errcode(database->file);
-    if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
-        return koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
-    }
-    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", path,
-                            sqlite3_errmsg(database->file));
-    }
-    if (code == SQLITE_READONLY || code == SQLITE_CANTOPEN) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be written; its folder must be writable, too", path);
-    }
-    if (code == SQLITE_NOMEM) {
+    const char *path = database->path, *reason = sqlite3_errmsg(database->file);
+    const int code = sqlite3_errcode(database->file), system = sqlite3_system_errno(database->file);
+    switch (code) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        return fail_busy(path);
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+        return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", path, reason);
+    case SQLITE_CONSTRAINT:
+        return koksma__fail(KOKSMA_MALFORMED, "%s: %s", path, reason);
+    case SQLITE_NOMEM:
         return koksma__fail(KOKSMA_MEMORY, "%s: out of memory", path);
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+        if (system == 0 || system == EACCES || system == EROFS || system == EPERM || system == ENOENT) {
+            return koksma__fail(KOKSMA_IO, "%s: can't be written; its folder must be writable, too", path);
+        }
+        break;
+    case SQLITE_FULL:
+        return koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(ENOSPC));
+    default:
+        break;
     }
-    return koksma__fail(KOKSMA_IO, "%s: %s", path, sqlite3_errmsg(database->file));
+    const bool of_system = system && (code == SQLITE_IOERR || code == SQLITE_CANTOPEN);
+    return koksma__fail(KOKSMA_IO, "%s: %s", path, of_system ? strerror(system) : reason);
 }
 
-koksma_status koksma__database_open(const char *path, bool create, koksma__database **out)
+/* ---- The file before SQLite ---------------------------------------------------------------------------- */
+
+/* A file by SQLite's own system layer, which knows what else this process has open: closing a second descriptor of a
+   file would end its locks (POSIX). */
+static koksma_status open_file(const char *path, sqlite3_file **out)
+{
+    sqlite3_vfs *vfs = sqlite3_vfs_find(NULL);
+    int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB;
+    sqlite3_file *file = sqlite3_malloc64((sqlite3_uint64)vfs->szOsFile);
+    const char *name = sqlite3_create_filename(path, "", "", 0, NULL);
+    *out = NULL;
+    if (!file || !name) {
+        sqlite3_free(file);
+        sqlite3_free_filename((char *)name);
+        return koksma__fail_memory((size_t)vfs->szOsFile);
+    }
+    memset(file, 0, (size_t)vfs->szOsFile);
+    errno = 0;
+    const int code = vfs->xOpen(vfs, name, file, flags, &flags);
+    const int reason = errno;
+    sqlite3_free_filename((char *)name);
+    if (code != SQLITE_OK) {
+        if (file->pMethods) {
+            file->pMethods->xClose(file);
+        }
+        sqlite3_free(file);
+        return koksma__fail(KOKSMA_IO, "%s: can't be read: %s", path, strerror(reason ? reason : EIO));
+    }
+    *out = file;
+    return KOKSMA_OK;
+}
+
+static void close_file(sqlite3_file *file)
+{
+    if (file) {
+        file->pMethods->xClose(file);
+        sqlite3_free(file);
+    }
+}
+
+/* Whether there is such a file, and how large it is; what is no plain file is refused, as a pipe would never end. */
+static koksma_status look_at(const char *path, bool *exists, long long *size)
+{
+    struct stat info;
+    *exists = !stat(path, &info);
+    *size = *exists ? (long long)info.st_size : 0;
+    if (!*exists && errno != ENOENT) {
+        return koksma__fail(errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
+    }
+    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: it is no plain file", path)
+                                             : KOKSMA_OK;
+}
+
+/* The file that SQLite has beside another: "-wal", "-journal". */
+static koksma_status look_beside(const char *path, const char *ending, long long *size)
+{
+    char beside[MAX_PATH + 16];
+    bool exists;
+    strcpy(stpcpy(beside, path), ending);
+    return look_at(beside, &exists, size);
+}
+
+static uint32_t word_at(const unsigned char *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+koksma_status koksma__database_look(const char *path, koksma__database_header *header)
+{
+    unsigned char bytes[HEADER];
+    long long size;
+    sqlite3_file *file;
+    *header = (koksma__database_header){0};
+    koksma_status status = look_at(path, &header->exists, &size);
+    header->is_empty = header->exists && size == 0;
+    if (status || !size) {
+        return status;
+    }
+    status = open_file(path, &file);
+    if (status) {
+        return status;
+    }
+    const int code = file->pMethods->xRead(file, bytes, HEADER, 0);
+    close_file(file);
+    if (code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ) {
+        return koksma__fail(KOKSMA_IO, "%s: can't be read: %s", path, strerror(EIO));
+    }
+    if (code != SQLITE_OK || memcmp(bytes, "SQLite format 3", 16) != 0) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: file is not a database; move it away to begin anew", path);
+    }
+    header->version = word_at(bytes + 60);
+    header->application_id = word_at(bytes + 68);
+    return KOKSMA_OK;
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------------- */
+
+static koksma_status lock_to_read(koksma__database *database)
+{
+    koksma_status status = open_file(database->real, &database->lock);
+    for (int waited = 0; !status; waited += LOOK_AGAIN_MS) {
+        const int code = database->lock->pMethods->xLock(database->lock, SQLITE_LOCK_SHARED);
+        if (code == SQLITE_OK) {
+            return KOKSMA_OK;
+        }
+        if (code != SQLITE_BUSY || waited >= LAST_BREATH_MS) {
+            status = code == SQLITE_BUSY ? fail_busy(database->path)
+                                         : koksma__fail(KOKSMA_IO, "%s: can't be locked", database->path);
+        }
+        sqlite3_sleep(LOOK_AGAIN_MS);
+    }
+    return status;
+}
+
+/* "file:/a%3fb?…": the absolute path, as SQLite's URIs want it. */
+static void write_uri(koksma__database *database, const char *query)
+{
+    char *to = stpcpy(database->uri, "file:");
+    for (const char *from = database->real; *from; from++) {
+        static const char digits[] = "0123456789abcdef";
+        const unsigned char c = (unsigned char)*from;
+        if (strchr("%?#", c)) {
+            *to++ = '%';
+            *to++ = digits[c >> 4];
+            *to++ = digits[c & 15];
+        } else {
+            *to++ = *from;
+        }
+    }
+    strcpy(to, query);
+}
+
+static koksma_status prepare_to_read(koksma__database *database)
+{
+    long long log, journal;
+    koksma_status status = lock_to_read(database);
+    status = status ? status : look_beside(database->real, "-journal", &journal);
+    status = status ? status : look_beside(database->real, "-wal", &log);
+    if (!status && journal) {
+        status = koksma__fail(KOKSMA_MALFORMED,
+                              "%s-journal: another program was at work on the database, and has to "
+                              "end it first",
+                              database->path);
+    }
+    if (!status && log) {
+        write_uri(database, "?mode=ro&vfs=unix-none");
+    }
+    return status;
+}
+
+static koksma_status harden(koksma__database *database)
+{
+    static const struct {
+        int what, on;
+    } settings[] = {{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                    {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                    {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                    {SQLITE_DBCONFIG_ENABLE_VIEW, 0}};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        sqlite3_db_config(database->file, settings[i].what, settings[i].on, NULL);
+    }
+    return koksma__database_execute(database, "PRAGMA cell_size_check=ON");
+}
+
+static koksma_status open_as(koksma__database *database, koksma__database_mode mode)
+{
+    static const char *const settings[] = {
+        [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
+        [KOKSMA__DATABASE_WRITE] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
+                                   "PRAGMA synchronous=NORMAL; PRAGMA cache_size=-32768",
+        [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF"};
+    const bool read = mode == KOKSMA__DATABASE_READ;
+    const char *path = read ? database->uri : *database->real ? database->real : ":memory:";
+    const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_URI | (read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
+    write_uri(database, "?mode=ro&immutable=1");
+    koksma_status status = read ? prepare_to_read(database) : KOKSMA_OK;
+    if (!status && sqlite3_open_v2(path, &database->file, flags, NULL) != SQLITE_OK) {
+        return fail(database);
+    }
+    if (!status) {
+        sqlite3_busy_timeout(database->file, LAST_BREATH_MS);
+        sqlite3_db_config(database->file, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, mode != KOKSMA__DATABASE_WRITE, NULL);
+        status = harden(database);
+    }
+    return status ? status : koksma__database_execute(database, settings[mode]);
+}
+
+koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out)
 {
     koksma__database *database = calloc(1, sizeof *database);
+    char *whole = NULL;
+    koksma_status status = KOKSMA_OK;
     *out = NULL;
     if (!database || !(database->path = strdup(path))) {
-        free(database);
-        return koksma__fail_memory(sizeof *database);
+        status = koksma__fail_memory(sizeof *database);
+    } else if (!(whole = *path ? realpath(path, NULL) : strdup(""))) {
+        status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
+    } else if (strlen(whole) >= MAX_PATH) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "%s: its path is too long", path);
     }
-    koksma_status status = KOKSMA_OK;
-    if (!create && access(path, F_OK)) {
-        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, strerror(errno));
-    } else if (access(path, W_OK) && errno != ENOENT) { /* SQLite's own words for it mislead; also readers lock */
-        status = koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
+    if (!status) {
+        strcpy(database->real, whole);
+        status = open_as(database, mode);
     }
-    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX | (create ? SQLITE_OPEN_CREATE : 0);
-    if (!status && sqlite3_open_v2(path, &database->file, flags, NULL) != SQLITE_OK) {
-        status = fail(database);
-    }
+    free(whole);
     if (status) {
         koksma__database_close(database);
         return status;
     }
-    sqlite3_busy_timeout(database->file, LAST_BREATH_MS);
     *out = database;
     return KOKSMA_OK;
+}
+
+koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old)
+{
+    koksma__statement *s;
+    int column = 1;
+    koksma_status status = koksma__statement_open(database, "ATTACH ? AS old", &s);
+    if (!status) {
+        koksma__bind_text(s, &column, old->uri);
+        status = koksma__statement_run(database, s);
+        koksma__statement_close(s);
+    }
+    return status ? status : koksma__database_execute(database, "PRAGMA old.locking_mode=EXCLUSIVE");
 }
 
 void koksma__database_close(koksma__database *database)
 {
     if (database) {
         sqlite3_close(database->file);
+        close_file(database->lock);
         free(database->path);
         free(database);
     }
+}
+
+bool koksma__database_has_moved(koksma__database *database)
+{
+    int moved = 0;
+    sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_HAS_MOVED, &moved);
+    return moved;
 }
 
 const char *koksma__database_path(const koksma__database *database)
@@ -90,6 +328,12 @@ koksma_status koksma__database_execute(koksma__database *database, const char *s
 int koksma__database_changes(koksma__database *database)
 {
     return sqlite3_changes(database->file);
+}
+
+bool koksma__database_had_conflict(koksma__database *database)
+{
+    const int code = sqlite3_extended_errcode(database->file);
+    return code == SQLITE_CONSTRAINT_ROWID || code == SQLITE_CONSTRAINT_PRIMARYKEY;
 }
 
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out)
@@ -160,4 +404,20 @@ double koksma__column_number(koksma__statement *s, int column)
 bool koksma__column_is_null(koksma__statement *s, int column)
 {
     return sqlite3_column_type(s, column) == SQLITE_NULL;
+}
+
+bool koksma__column_has_number(koksma__statement *s, int column)
+{
+    const int type = sqlite3_column_type(s, column);
+    return type == SQLITE_NULL || (type == SQLITE_FLOAT && isfinite(sqlite3_column_double(s, column)));
+}
+
+bool koksma__column_has_whole(koksma__statement *s, int column)
+{
+    return sqlite3_column_type(s, column) == SQLITE_INTEGER;
+}
+
+bool koksma__column_has_text(koksma__statement *s, int column)
+{
+    return sqlite3_column_type(s, column) == SQLITE_TEXT;
 }

@@ -10,18 +10,40 @@
 typedef struct koksma__database koksma__database;
 typedef struct sqlite3_stmt koksma__statement;
 
-/* create: where there is none, it is made; else MISSING. */
-koksma_status koksma__database_open(const char *path, bool create, koksma__database **out);
+/* What a file says of itself in its first 100 bytes, before SQLite has looked at it. */
+typedef struct koksma__database_header {
+    bool exists, is_empty;
+    uint32_t application_id, version; /* PRAGMA application_id and user_version */
+} koksma__database_header;
+
+/* Errors: MALFORMED (neither empty nor a database; no plain file), IO (can't be read). */
+koksma_status koksma__database_look(const char *path, koksma__database_header *header);
+
+typedef enum koksma__database_mode {
+    KOKSMA__DATABASE_READ,  /* changes no byte of the file and of its folder, which need not be writable; a run can't
+                               begin until it is closed */
+    KOKSMA__DATABASE_WRITE, /* of a file that exists: by itself, with a write-ahead log */
+    KOKSMA__DATABASE_BUILD  /* of an empty file that nobody else knows; "": in memory */
+} koksma__database_mode;
+
+koksma_status koksma__database_open(const char *path, koksma__database_mode mode, koksma__database **out);
 void koksma__database_close(koksma__database *database); /* after its statements; what was not committed is lost */
+
+/* The file `old`, which must stay open, as it is now: its tables are old.NAME. */
+koksma_status koksma__database_attach(koksma__database *database, const koksma__database *old);
+
+/* Whether another file has the name since this one was opened. */
+bool koksma__database_has_moved(koksma__database *database);
 
 /* For errors. */
 const char *koksma__database_path(const koksma__database *database);
 
-/* One statement or several, without values and without rows. */
+/* One statement or several, without values; their rows are passed over. */
 koksma_status koksma__database_execute(koksma__database *database, const char *sql);
 
-/* How many rows the last statement inserted. */
+/* How many rows the last statement inserted, also one that failed; whether it failed because there is such a row. */
 int koksma__database_changes(koksma__database *database);
+bool koksma__database_had_conflict(koksma__database *database);
 
 /* A statement that is carried out often, with a value for each '?'. */
 koksma_status koksma__statement_open(koksma__database *database, const char *sql, koksma__statement **out);
@@ -47,5 +69,10 @@ const char *koksma__column_text(koksma__statement *statement, int column);
 long long koksma__column_whole(koksma__statement *statement, int column);
 double koksma__column_number(koksma__statement *statement, int column);
 bool koksma__column_is_null(koksma__statement *statement, int column);
+
+/* Whether a column is what the schema says: a finite number or NULL; a whole number; a text. */
+bool koksma__column_has_number(koksma__statement *statement, int column);
+bool koksma__column_has_whole(koksma__statement *statement, int column);
+bool koksma__column_has_text(koksma__statement *statement, int column);
 
 #endif

@@ -1,30 +1,5 @@
--- From schema 3, which had a row for each series and trial, in tables that are called series_3 and result_3 now: the
--- same results, four in a row.
+-- From schemas 4 and 5, attached as `old`: the same results. What made them is put in by store_upgrade.c.
 
-CREATE TEMP TABLE number AS -- the new id of a series: those of the same point sets side by side
-  WITH placed AS (
-    SELECT *, kind = 'image' AS image, CASE kind WHEN 'image' THEN what END AS own,
-           row_number() OVER (PARTITION BY kind, scene, scene_hash, options, pattern, n, dim, width, height,
-                              CASE kind WHEN 'image' THEN what END ORDER BY id) - 1 AS place
-    FROM series_3)
-  SELECT id AS old, image, place % 4 AS place, 4 * dense_rank() OVER (
-           ORDER BY kind, scene, scene_hash, options, pattern, n, dim, width, height, own, place / 4) AS first
-  FROM placed;
-CREATE UNIQUE INDEX temp.number_by_old ON number (old);
-
-INSERT INTO series (id, kind, scene, scene_hash, options, pattern, n, dim, width, height, what)
-  SELECT first + place, kind, scene, scene_hash, options, pattern, n, dim, width, height, what
-  FROM series_3 JOIN number ON old = id;
-
-INSERT INTO result
-  SELECT (id >> 32 << 32) + first, seed,
-         max(CASE place WHEN 0 THEN value END),
-         max(CASE WHEN image THEN sd WHEN place = 1 THEN value END),
-         max(CASE WHEN image THEN max WHEN place = 2 THEN value END),
-         max(CASE WHEN image THEN rmse WHEN place = 3 THEN value END)
-  FROM result_3 JOIN number ON old = id & 4294967295
-  GROUP BY 1;
-
-DROP TABLE series_3;
-DROP TABLE result_3;
-DROP TABLE number;
+INSERT INTO series SELECT id, kind, scene, scene_hash, options, pattern, n, dim, width, height, what, '', ''
+  FROM old.series;
+INSERT INTO result SELECT * FROM old.result;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The store's lock and transactions; texts, references and runs. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,6 +35,9 @@ double koksma__store_seconds(koksma__store *store)
 
 koksma_status koksma__store_begin(koksma__store *store)
 {
+    if (store->failed) {
+        return koksma__fail(KOKSMA_IO, "%s: writing failed before", koksma__database_path(store->database));
+    }
     if (store->in_transaction) {
         return KOKSMA_OK;
     }
@@ -43,19 +47,44 @@ koksma_status koksma__store_begin(koksma__store *store)
     return status;
 }
 
+/* Writes the seal to meta, in the transaction that is open. */
+static koksma_status write_seal(koksma__store *store)
+{
+    koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
+    char text[64];
+    int column = 1;
+    if (store->seal.rows == store->sealed.rows && store->seal.sum == store->sealed.sum) {
+        return KOKSMA_OK;
+    }
+    snprintf(text, sizeof text, "%lld %" PRIu64, store->seal.rows, store->seal.sum);
+    koksma__bind_text(s, &column, "seal");
+    koksma__bind_text(s, &column, text);
+    store->sealed = store->seal;
+    return koksma__statement_run(store->database, s);
+}
+
 koksma_status koksma__store_end(koksma__store *store)
 {
     if (!store->in_transaction) {
         return KOKSMA_OK;
     }
     store->in_transaction = false;
-    return koksma__database_execute(store->database, "COMMIT");
+    const koksma_status status = koksma__store_wrote(store, write_seal(store));
+    return status ? status : koksma__store_wrote(store, koksma__database_execute(store->database, "COMMIT"));
+}
+
+koksma_status koksma__store_wrote(koksma__store *store, koksma_status status)
+{
+    store->failed |= status != KOKSMA_OK;
+    return status;
 }
 
 koksma_status koksma__store_write(koksma__store *store, koksma__query query)
 {
     koksma_status status = koksma__store_begin(store);
-    status = status ? status : koksma__statement_run(store->database, store->queries[query]);
+    if (!status) {
+        status = koksma__store_wrote(store, koksma__statement_run(store->database, store->queries[query]));
+    }
     if (!status && koksma__now_s() - store->began_s > KOKSMA__WRITE_AFTER_S) {
         status = koksma__store_end(store);
     }
@@ -67,7 +96,17 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query)
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_TEXT];
+    char *old;
     int column = 1;
+    koksma_status status = koksma__store_find_text(store, key, &old);
+    if (!status && old) {
+        koksma__seal_add(&store->seal, -1, koksma__checksum_of_text(key, old));
+    }
+    free(old);
+    if (status) {
+        return status;
+    }
+    koksma__seal_add(&store->seal, 1, koksma__checksum_of_text(key, value));
     koksma__bind_text(s, &column, key);
     koksma__bind_text(s, &column, value);
     return koksma__store_write(store, KOKSMA__PUT_TEXT);
@@ -100,45 +139,97 @@ koksma_status koksma__store_get_text(koksma__store *store, const char *key, char
     return koksma__store_leave(store, koksma__store_find_text(store, key, value));
 }
 
+/* ---- The seal ------------------------------------------------------------------------------------------ */
+
+koksma_status koksma__seal_read(koksma__store *store)
+{
+    char *text;
+    int end = 0;
+    koksma_status status = koksma__store_find_text(store, "seal", &text);
+    if (!status &&
+        (!text || sscanf(text, "%lld %" SCNu64 "%n", &store->seal.rows, &store->seal.sum, &end) != 2 || text[end])) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: it has no seal; move it away to begin anew",
+                              koksma__database_path(store->database));
+    }
+    store->sealed = store->seal;
+    free(text);
+    return status;
+}
+
 /* ---- References and runs ------------------------------------------------------------------------------- */
 
-void koksma__store_bind_hash(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
-                             const char *spec)
+void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key)
 {
-    koksma__hash_with_points(&store->files, series->scene_hash, spec, store->hash);
-    koksma__bind_text(s, column, store->hash);
+    const char *of = strcmp(series->pattern, "") ? series->pattern : series->what; /* of a reference */
+    *key = *series;
+    koksma__hash_with_points(&store->files, series->scene_hash, of, store->hash);
+    koksma__find_made_by(strcmp(series->kind, "discrepancy") != 0, series->pattern, series->options, series->what,
+                         false, &store->made_by);
+    key->scene_hash = store->hash;
+    key->made_by = store->made_by.points;
+    key->measured_by = store->made_by.value;
 }
 
-static void bind_reference(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series)
+static void bind_reference(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
+                           koksma__series *key)
 {
-    koksma__bind_text(s, column, series->scene);
-    koksma__store_bind_hash(store, s, column, series, series->what);
-    koksma__bind_text(s, column, series->options);
-    koksma__bind_whole(s, column, series->width);
-    koksma__bind_whole(s, column, series->height);
-    koksma__bind_text(s, column, series->what);
+    koksma__store_bind_key(store, series, key);
+    key->made_by = key->measured_by; /* what is said of a reference beside an image is said of the image here */
+    koksma__bind_text(s, column, key->scene);
+    koksma__bind_text(s, column, key->scene_hash);
+    koksma__bind_text(s, column, key->options);
+    koksma__bind_whole(s, column, key->width);
+    koksma__bind_whole(s, column, key->height);
+    koksma__bind_text(s, column, key->what);
+    koksma__bind_text(s, column, key->made_by);
 }
 
-koksma_status koksma__store_put_reference(koksma__store *store, const koksma__series *series, double standard_error)
-{
-    koksma__statement *s = store->queries[KOKSMA__PUT_REFERENCE];
-    int column = 1;
-    koksma__store_enter(store);
-    bind_reference(store, s, &column, series);
-    koksma__bind_number(s, &column, standard_error);
-    return koksma__store_leave(store, koksma__store_write(store, KOKSMA__PUT_REFERENCE));
-}
-
-koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, double *standard_error)
+static koksma_status find_reference(koksma__store *store, const koksma__series *series, koksma__series *key,
+                                    koksma__reference_row *row, bool *found)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_REFERENCE];
     koksma_status status = KOKSMA_OK;
     int column = 1;
-    koksma__store_enter(store);
-    bind_reference(store, s, &column, series);
-    *standard_error = koksma__next_row(store->database, s, &status) ? koksma__column_number(s, 0) : (double)NAN;
+    bind_reference(store, s, &column, series, key);
+    *row = (koksma__reference_row){.standard_error = NAN};
+    *found = koksma__next_row(store->database, s, &status);
+    if (*found) {
+        row->standard_error = koksma__column_number(s, 0);
+        snprintf(row->pixels, sizeof row->pixels, "%s", koksma__column_text(s, 1));
+    }
     koksma__statement_reset(s);
+    return status;
+}
+
+koksma_status koksma__store_put_reference(koksma__store *store, const koksma__series *series,
+                                          const koksma__reference_row *row)
+{
+    koksma__statement *s = store->queries[KOKSMA__PUT_REFERENCE];
+    koksma__series key;
+    koksma__reference_row old;
+    bool found;
+    int column = 1;
+    koksma__store_enter(store);
+    koksma_status status = find_reference(store, series, &key, &old, &found);
+    if (!status && found) {
+        koksma__seal_add(&store->seal, -1, koksma__checksum_of_reference(&key, old.standard_error, old.pixels));
+    }
+    if (!status) {
+        koksma__seal_add(&store->seal, 1, koksma__checksum_of_reference(&key, row->standard_error, row->pixels));
+        bind_reference(store, s, &column, series, &key);
+        koksma__bind_number(s, &column, row->standard_error);
+        koksma__bind_text(s, &column, row->pixels);
+        status = koksma__store_write(store, KOKSMA__PUT_REFERENCE);
+    }
     return koksma__store_leave(store, status);
+}
+
+koksma_status koksma__store_reference(koksma__store *store, const koksma__series *series, koksma__reference_row *row)
+{
+    koksma__series key;
+    bool found;
+    koksma__store_enter(store);
+    return koksma__store_leave(store, find_reference(store, series, &key, row, &found));
 }
 
 koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_record *record)

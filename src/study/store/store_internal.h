@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The store from inside: store_open.c makes and upgrades it, store_series.c knows its series, store_rows.c writes
-   their results, store_results.c reads them; store.c has the rest. */
+/* The store from inside: store_open.c makes and opens it, store_schema.c knows its tables, store_upgrade.c brings old
+   ones up, store_tables.c reads their rows, store_series.c knows its series, store_rows.c writes their results,
+   store_results.c reads them; store.c has the rest. */
 #ifndef KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 #define KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 
 #include <pthread.h>
 
+#include "study/plan/made_by.h"
 #include "study/plan/point_files.h"
 #include "study/store/database.h"
+#include "study/store/seal.h"
 #include "study/store/store.h"
 
 /* The statements of store_open.c. */
@@ -17,21 +20,24 @@ typedef enum koksma__query {
     KOKSMA__ADD_SERIES,
     KOKSMA__PUT_ROW,
     KOKSMA__PUT_ROWS,
+    KOKSMA__GET_ROW,
     KOKSMA__GET_RESULTS,
     KOKSMA__GET_IDS,
     KOKSMA__GET_SERIES,
     KOKSMA__LAST_SERIES,
     KOKSMA__PUT_REFERENCE,
     KOKSMA__GET_REFERENCE,
+    KOKSMA__GET_REFERENCES,
     KOKSMA__PUT_TEXT,
     KOKSMA__GET_TEXT,
+    KOKSMA__GET_TEXTS,
     KOKSMA__PUT_RUN,
     KOKSMA__GET_RUN,
     KOKSMA__N_QUERIES
 } koksma__query;
 
 /* Rows that PUT_ROWS takes; columns of GET_SERIES before the id. */
-enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 10 };
+enum { KOKSMA__ROWS_AT_ONCE = 32, KOKSMA__SERIES_COLUMNS = 12, KOKSMA__SCHEMA = 6 };
 
 /* Rows are gathered in memory and written together: a statement a row would take most of the time of small jobs. A
    killed run loses what was gathered in this time, or in one job if that takes longer. */
@@ -48,12 +54,6 @@ static inline long long koksma__group_of(long long series)
     return series - series % KOKSMA__GROUP;
 }
 
-typedef struct koksma__row {
-    long long id;
-    uint64_t seed;
-    double values[KOKSMA__RESULT_VALUES];
-} koksma__row;
-
 typedef struct koksma__rows {
     size_t n;
     koksma__row *at;
@@ -67,8 +67,11 @@ typedef struct koksma__known_series {
 struct koksma__store {
     koksma__database *database;
     koksma__statement *queries[KOKSMA__N_QUERIES];
-    pthread_mutex_t lock; /* guards the database, and what follows */
-    bool in_transaction;
+    pthread_mutex_t lock;        /* guards the database, and what follows */
+    bool in_transaction, failed; /* failed: a write did, and nothing is written any more */
+    koksma__seal seal, sealed;   /* of what was written; as meta has it */
+    koksma__seal found;          /* of what the last scan has read */
+    bool for_audit;              /* where these two differ, it is no error */
     double began_s, entered_s, seconds;
     koksma__rows spare;
     size_t n_known;              /* of `known`, by the id of a series */
@@ -78,7 +81,8 @@ struct koksma__store {
     koksma__rows gathered;
     double written_s; /* when something was last written */
     koksma__point_files files;
-    char hash[KOKSMA__HASH_TEXT]; /* the one that is bound */
+    char hash[KOKSMA__HASH_TEXT]; /* these two are bound */
+    koksma__made_by made_by;
 };
 
 /* ---- store.c: all of it but enter with the lock held ----------------------------------------------------------- */
@@ -87,9 +91,16 @@ struct koksma__store {
 void koksma__store_enter(koksma__store *store);
 koksma_status koksma__store_leave(koksma__store *store, koksma_status status);
 
-/* Binds the series' hash, with that of the points' file where `spec`, its pattern or its reference, names one. */
-void koksma__store_bind_hash(koksma__store *store, koksma__statement *s, int *column, const koksma__series *series,
-                             const char *spec);
+/* The key of the series' row: with the hash of a points' file where its pattern, or its reference, names one, and
+   with the revisions of this program; until the next call. */
+void koksma__store_bind_key(koksma__store *store, const koksma__series *series, koksma__series *key);
+
+/* What a statement that writes has come to: after a failure nothing is written any more, as what is in the seal may
+   not be in the file. */
+koksma_status koksma__store_wrote(koksma__store *store, koksma_status status);
+
+/* Reads the seal from meta. */
+koksma_status koksma__seal_read(koksma__store *store);
 
 /* A transaction, unless there is one; its end, if there is one. */
 koksma_status koksma__store_begin(koksma__store *store);
@@ -100,6 +111,35 @@ koksma_status koksma__store_write(koksma__store *store, koksma__query query);
 
 koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value);
 koksma_status koksma__store_find_text(koksma__store *store, const char *key, char **value);
+
+/* ---- store_schema.c ------------------------------------------------------------------------------------------- */
+
+/* Whether the database has the tables of a schema of ours and nothing else: KOKSMA__SCHEMA, or an older one that
+   can be upgraded. Errors: MALFORMED (another program's, or a newer schema). */
+koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema);
+
+/* Makes the tables of KOKSMA__SCHEMA in an empty database. */
+koksma_status koksma__schema_make(koksma__database *database);
+
+/* ---- store_upgrade.c ------------------------------------------------------------------------------------------ */
+
+/* The rows of `old`, which is of that schema and attached, into a new store. */
+koksma_status koksma__store_upgrade(int schema, koksma__store *store);
+
+/* ---- store_tables.c ------------------------------------------------------------------------------------------- */
+
+/* Adds the rows of all tables but result. */
+koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal);
+
+/* MALFORMED: what is there is not what was written. */
+koksma_status koksma__seal_fail(const koksma__store *store);
+
+/* The row of table series that a statement is at (GET_SERIES). */
+koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
+                                        long long *id);
+
+/* The row of table result from a column on: seed, values. The id is set. */
+koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row);
 
 /* ---- store_series.c ---------------------------------------------------------------------------------------------
  */

@@ -1,42 +1,47 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Making, opening and upgrading a store; and its statements. */
+/* Making and opening a store; and its statements. What is there is first looked at without a byte being written
+   (database.h), and refused if it is not a store; a new store, or an old one's copy, is made under a name of its own
+   and renamed when it is whole. */
+#include <errno.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "core/atomic_file.h"
 #include "core/status.h"
-#include "study/store/schema.h"
-#include "study/store/schema_upgrade.h"
 #include "study/store/store_internal.h"
 
-#define SCHEMA_VERSION "5"
-#define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height"
-#define SERIES_KEY GROUP_KEY ", what"
+#define GROUP_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, made_by"
+#define SERIES_KEY GROUP_KEY ", what, measured_by"
+#define SORT_KEY "kind, scene, scene_hash, options, pattern, n, dim, width, height, what, made_by, measured_by"
 
 #define ROW "(?,?,?,?,?,?)"
 #define TIMES_8(row) row "," row "," row "," row "," row "," row "," row "," row
 #define TIMES_32(row) TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row) "," TIMES_8(row)
 
 static const char *const queries[KOKSMA__N_QUERIES] = {
-    [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?)",
+    [KOKSMA__FIND_SERIES] = "SELECT id FROM series WHERE (" SERIES_KEY ") = (?,?,?,?,?,?,?,?,?,?,?,?)",
     [KOKSMA__NEXT_SERIES] = "SELECT max(id), (SELECT max(id) FROM series) FROM series WHERE (" GROUP_KEY ") = "
-                            "(?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
-    [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?)",
-    [KOKSMA__PUT_ROW] =
-        "INSERT INTO result VALUES " ROW " ON CONFLICT (id) DO UPDATE SET v0 = coalesce(v0, excluded.v0), "
-        "v1 = coalesce(v1, excluded.v1), v2 = coalesce(v2, excluded.v2), v3 = coalesce(v3, excluded.v3)",
-    [KOKSMA__PUT_ROWS] = "INSERT OR IGNORE INTO result VALUES " TIMES_32(ROW),
+                            "(?,?,?,?,?,?,?,?,?,?) AND kind = 'discrepancy'",
+    [KOKSMA__ADD_SERIES] = "INSERT INTO series (" SERIES_KEY ", id) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    [KOKSMA__PUT_ROW] = "INSERT OR REPLACE INTO result VALUES " ROW,
+    [KOKSMA__PUT_ROWS] = "INSERT OR FAIL INTO result VALUES " TIMES_32(ROW),
+    [KOKSMA__GET_ROW] = "SELECT seed, v0, v1, v2, v3 FROM result WHERE id = ?",
     [KOKSMA__GET_RESULTS] =
         "WITH RECURSIVE trials(trial) AS (VALUES (0) UNION ALL SELECT trial + 1 FROM trials WHERE trial + 1 < ?2) "
         "SELECT trial, seed, v0, v1, v2, v3 FROM trials CROSS JOIN result ON id = trial << 32 | ?1",
-    [KOKSMA__GET_IDS] = "SELECT id, v0, v1, v2, v3 FROM result",
-    [KOKSMA__GET_SERIES] = "SELECT " SERIES_KEY ", id FROM series ORDER BY " SERIES_KEY,
+    [KOKSMA__GET_IDS] = "SELECT id, seed, v0, v1, v2, v3 FROM result",
+    [KOKSMA__GET_SERIES] = "SELECT " SORT_KEY ", id FROM series ORDER BY " SORT_KEY,
     [KOKSMA__LAST_SERIES] = "SELECT max(id) FROM series",
-    [KOKSMA__PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?)",
-    [KOKSMA__GET_REFERENCE] = "SELECT standard_error FROM reference WHERE scene=? AND scene_hash=? AND options=? AND "
-                              "width=? AND height=? AND reference=?",
+    [KOKSMA__PUT_REFERENCE] = "INSERT OR REPLACE INTO reference VALUES (?,?,?,?,?,?,?,?,?)",
+    [KOKSMA__GET_REFERENCE] = "SELECT standard_error, pixels FROM reference WHERE scene=? AND scene_hash=? AND "
+                              "options=? AND width=? AND height=? AND reference=? AND made_by=?",
+    [KOKSMA__GET_REFERENCES] = "SELECT * FROM reference",
     [KOKSMA__PUT_TEXT] = "INSERT OR REPLACE INTO meta VALUES (?,?)",
     [KOKSMA__GET_TEXT] = "SELECT value FROM meta WHERE key=?",
+    [KOKSMA__GET_TEXTS] = "SELECT key, value FROM meta WHERE key <> 'seal'",
     [KOKSMA__PUT_RUN] = "INSERT INTO run (started, machine, version, workers, jobs, seconds, idle_seconds, "
                         "processor_seconds, store_seconds) VALUES (?,?,?,?,?,?,?,?,?)",
     [KOKSMA__GET_RUN] = "SELECT started, machine, version, workers, jobs, seconds, idle_seconds, processor_seconds, "
@@ -45,105 +50,222 @@ static const char *const queries[KOKSMA__N_QUERIES] = {
 
 _Static_assert(KOKSMA__ROWS_AT_ONCE == 32, "as PUT_ROWS has it");
 
-static koksma_status open_query(koksma__store *store, koksma__query i)
+/* ---- The object ---------------------------------------------------------------------------------------- */
+
+static koksma_status make_store(koksma__database *database, koksma__store **out)
 {
-    return koksma__statement_open(store->database, queries[i], &store->queries[i]);
+    koksma__store *store = calloc(1, sizeof *store);
+    *out = store;
+    if (!store) {
+        koksma__database_close(database);
+        return koksma__fail_memory(sizeof *store);
+    }
+    store->database = database;
+    store->sealed.rows = -1;
+    pthread_mutex_init(&store->lock, NULL);
+    return koksma__store_rows_init(store);
 }
 
-/* What the file says of itself must be this; a new file is told. */
-static koksma_status check_text(koksma__store *store, const char *key, const char *value, bool write)
+static koksma_status open_queries(koksma__store *store)
 {
-    char *found;
-    koksma_status status = koksma__store_find_text(store, key, &found);
-    if (!status && !found && write) {
-        status = koksma__store_put_text(store, key, value);
-    } else if (!status && (!found || strcmp(found, value) != 0)) {
-        status = koksma__fail(KOKSMA_MALFORMED, "%s: its %s is '%s' and this run's is '%s'; choose another folder",
-                              koksma__database_path(store->database), key, found ? found : "", value);
-    }
-    free(found);
-    return status;
-}
-
-/* A store of schema 3 or 4 is made one of this. Schema 4 had no coherence of errors and a view without it: its trials
-   of images lack one, so that the next run renders them again. */
-static koksma_status upgrade(koksma__store *store)
-{
-    char *found;
-    koksma_status status = koksma__store_find_text(store, "schema", &found);
-    const bool is_3 = found && !strcmp(found, "3"), is_4 = found && !strcmp(found, "4");
-    if (!status && (is_3 || is_4)) {
-        koksma__database *database = store->database;
-        status = koksma__database_execute(database, "DROP VIEW IF EXISTS rows");
-        if (!status && is_3) {
-            status = koksma__database_execute(
-                database, "ALTER TABLE series RENAME TO series_3; ALTER TABLE result RENAME TO result_3");
-        }
-        status = status ? status : koksma__database_execute(database, koksma__schema_sql);
-        if (!status && is_3) {
-            status = koksma__database_execute(database, koksma__schema_upgrade_sql);
-        }
-        status = status ? status : koksma__store_put_text(store, "schema", SCHEMA_VERSION);
-    }
-    free(found);
-    return status;
-}
-
-/* One run at a time: a second one on the same folder is told so instead of doing the same work. A store of an older
-   schema is known by its `meta`, before anything is made in it. */
-static koksma_status prepare(koksma__store *store, bool write, const char *plan_name)
-{
-    koksma__database *database = store->database;
-    koksma_status status = koksma__database_execute(
-        database,
-        "PRAGMA page_size=16384; PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; "
-        "PRAGMA cache_size=-32768;");
-    status = status ? status : koksma__store_begin(store);
-    if (!status && write) {
-        status = koksma__database_execute(database, "CREATE TABLE IF NOT EXISTS meta (key TEXT PRIMARY KEY, value "
-                                                    "TEXT NOT NULL) WITHOUT ROWID");
-    }
-    status = status ? status : open_query(store, KOKSMA__PUT_TEXT);
-    status = status ? status : open_query(store, KOKSMA__GET_TEXT);
-    status = status ? status : upgrade(store);
-    status = status ? status : check_text(store, "schema", SCHEMA_VERSION, write);
-    if (!status && write) { /* another version's results can be read, not added to */
-        status = check_text(store, "version", koksma_version(), write);
-    }
-    if (!status && plan_name) {
-        status = check_text(store, "plan", plan_name, write);
-    }
-    if (!status && write) {
-        status = koksma__database_execute(database, koksma__schema_sql);
-    }
-    status = status ? status : koksma__store_end(store);
+    koksma_status status = KOKSMA_OK;
     for (koksma__query i = 0; !status && i < KOKSMA__N_QUERIES; i++) {
-        if (!store->queries[i]) {
-            status = open_query(store, i);
-        }
+        status = koksma__statement_open(store->database, queries[i], &store->queries[i]);
     }
     return status;
+}
+
+/* ---- New ones ------------------------------------------------------------------------------------------ */
+
+/* A whole store in an empty file that nobody else knows (path ""), or in memory: of no rows, or of those of `old`. */
+static koksma_status build(const char *path, const koksma__database *old, int schema, koksma__store **out)
+{
+    koksma__database *database;
+    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_BUILD, &database);
+    *out = NULL;
+    status = status ? status : make_store(database, out);
+    if (!status && old) {
+        status = koksma__database_attach(database, old);
+    }
+    status = status ? status : koksma__store_begin(*out);
+    status = status ? status : koksma__schema_make(database);
+    status = status ? status : open_queries(*out);
+    if (!status && old) {
+        status = koksma__store_upgrade(schema, *out);
+    }
+    status = status ? status : koksma__store_begin(*out);
+    status = status ? status : koksma__store_end(*out);
+    if (!status && old) {
+        status = koksma__database_execute(database, "DETACH old");
+    }
+    return status;
+}
+
+/* Says in the header that the file has a write-ahead log, which SQLite would do in place, with a journal that a kill
+   may leave behind: bytes 18 and 19 (https://sqlite.org/fileformat.html). */
+static koksma_status mark_as_logged(FILE *stream, const char *path)
+{
+    const bool done = !fseek(stream, 18, SEEK_SET) && fwrite("\2\2", 1, 2, stream) == 2 && !fflush(stream) &&
+                      !fsync(fileno(stream));
+    return done ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: writing failed: %s", path, strerror(errno));
+}
+
+/* A store comes under its name when it is whole: a new one, unless another run was faster; or in the place of `old`. */
+static koksma_status put_in_place(const char *path, const koksma__database *old, int schema)
+{
+    koksma__atomic_file file;
+    koksma__store *store;
+    koksma_status status = koksma__atomic_open(path, &file);
+    if (status) {
+        return status;
+    }
+    status = build(file.temporary, old, schema, &store);
+    const koksma_status closed = koksma__store_close(store);
+    status = status ? status : closed;
+    status = status ? status : mark_as_logged(file.stream, path);
+    bool keep = !status;
+    if (keep && !old && (!link(file.temporary, path) || errno == EEXIST)) { /* else there are no links: a rename */
+        keep = false;
+    }
+    const koksma_status placed = koksma__atomic_close(&file, keep);
+    return status ? status : placed;
+}
+
+/* What an older run that was killed has in its log goes into the file, and from then on the file is ours alone. */
+static koksma_status upgrade_file(const char *path, int schema)
+{
+    koksma__database *old;
+    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_WRITE, &old);
+    status = status ? status
+                    : koksma__database_execute(old, "BEGIN EXCLUSIVE; COMMIT; "
+                                                    "PRAGMA wal_checkpoint(TRUNCATE)");
+    if (!status && koksma__database_has_moved(old)) {
+        status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+    }
+    status = status ? status : put_in_place(path, old, schema);
+    koksma__database_close(old);
+    return status;
+}
+
+/* ---- Those that are there ------------------------------------------------------------------------------ */
+
+/* The plan by whose name the file goes; a new file is told. */
+static koksma_status check_plan(koksma__store *store, const char *name)
+{
+    char *found;
+    koksma_status status = koksma__store_find_text(store, "plan", &found);
+    if (!status && !found) {
+        status = koksma__store_put_text(store, "plan", name);
+    } else if (!status && strcmp(found, name) != 0) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: its plan is '%s' and this run's is '%s'; choose another folder",
+                              koksma__database_path(store->database), found, name);
+    }
+    free(found);
+    return status;
+}
+
+/* A store by its header and tables, before anything could write to it; *exists is false for an empty file, too. */
+static koksma_status look(const char *path, bool *exists, int *schema, koksma__database **out)
+{
+    koksma__database_header header;
+    koksma_status status = koksma__database_look(path, &header);
+    *out = NULL;
+    *exists = header.exists && !header.is_empty;
+    if (!status && *exists) {
+        status = koksma__database_open(path, KOKSMA__DATABASE_READ, out);
+        status = status ? status : koksma__schema_of(*out, &header, schema);
+    }
+    if (status) {
+        koksma__database_close(*out);
+        *out = NULL;
+    }
+    return status;
+}
+
+static koksma_status open_to_read(const char *path, koksma__store **out)
+{
+    koksma__database *database;
+    bool exists;
+    int schema;
+    koksma_status status = look(path, &exists, &schema, &database);
+    if (!status && !exists) {
+        status = koksma__fail(KOKSMA_MISSING, "%s: %s", path, access(path, F_OK) ? strerror(errno) : "it is empty");
+    }
+    if (status) {
+        return status;
+    }
+    if (schema != KOKSMA__SCHEMA) {
+        status = build("", database, schema, out);
+        koksma__database_close(database);
+        return status;
+    }
+    status = make_store(database, out);
+    status = status ? status : open_queries(*out);
+    return status ? status : koksma__seal_read(*out);
+}
+
+/* The log of a file that was taken away: a new file must not get what is in it. */
+static void remove_log(const char *path)
+{
+    static const char *const endings[] = {"-wal", "-shm", "-journal"};
+    char beside[4096];
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        snprintf(beside, sizeof beside, "%s%s", path, endings[i]);
+        remove(beside);
+    }
+}
+
+/* One run at a time: a second one on the same folder is told so instead of doing the same work. */
+static koksma_status open_to_write(const char *path, const char *plan_name, koksma__store **out)
+{
+    koksma__database *database;
+    koksma__database_header header;
+    bool exists;
+    int schema = KOKSMA__SCHEMA;
+    if (access(path, W_OK) && errno != ENOENT) {
+        return koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
+    }
+    koksma_status status = look(path, &exists, &schema, &database);
+    koksma__database_close(database);
+    if (!status && !exists) {
+        remove_log(path);
+        status = put_in_place(path, NULL, KOKSMA__SCHEMA);
+    } else if (!status && schema != KOKSMA__SCHEMA) {
+        status = upgrade_file(path, schema);
+    }
+    status = status ? status : koksma__database_open(path, KOKSMA__DATABASE_WRITE, &database);
+    status = status ? status : make_store(database, out);
+    status = status ? status : koksma__store_begin(*out);
+    if (!status && koksma__database_has_moved(database)) {
+        status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
+    }
+    status = status ? status : koksma__database_look(path, &header); /* again, as nobody else can write now */
+    status = status ? status : koksma__schema_of(database, &header, &schema);
+    status = status ? status : open_queries(*out);
+    status = status ? status : koksma__seal_read(*out);
+    if (!status && plan_name) {
+        status = check_plan(*out, plan_name);
+    }
+    return status ? status : koksma__store_end(*out);
 }
 
 koksma_status koksma__store_open(const char *path, koksma__store_mode mode, const char *plan_name,
                                  koksma__store **out)
 {
-    const bool write = mode == KOKSMA__STORE_WRITE;
-    koksma__store *store = calloc(1, sizeof *store);
-    *out = NULL;
-    if (!store) {
-        return koksma__fail_memory(sizeof *store);
-    }
-    pthread_mutex_init(&store->lock, NULL);
-    koksma_status status = koksma__store_rows_init(store);
-    status = status ? status : koksma__database_open(path, write, &store->database);
-    status = status ? status : prepare(store, write, plan_name);
+    koksma__store *store = NULL;
+    const koksma_status status =
+        mode == KOKSMA__STORE_WRITE ? open_to_write(path, plan_name, &store) : open_to_read(path, &store);
+    *out = store;
     if (status) {
-        store->in_transaction = false; /* closing rolls back */
+        if (store) {
+            store->in_transaction = false; /* closing rolls back */
+            store->failed = true;
+        }
         koksma__store_close(store);
+        *out = NULL;
         return status;
     }
-    *out = store;
+    store->for_audit = mode == KOKSMA__STORE_AUDIT;
     return KOKSMA_OK;
 }
 

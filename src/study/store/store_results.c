@@ -6,23 +6,29 @@
 #include "core/status.h"
 #include "study/store/store_internal.h"
 
-/* Reads all rows, in the order of their ids. */
+/* Reads all rows, in the order of their ids, and compares them with the store's seal. */
 static koksma_status scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
                           void *context)
 {
     koksma__statement *s = store->queries[KOKSMA__GET_IDS];
+    koksma__seal found = {0};
     koksma_status status = koksma__store_write_rows(store);
     status = status ? status : koksma__store_know_series(store);
     while (koksma__next_row(store->database, s, &status)) {
-        const long long id = koksma__column_whole(s, 0), first = id & 0xffffffff;
-        for (int k = 0; id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
-            if (!koksma__column_is_null(s, 1 + k) && (k == 0 || !store->known[first].alone)) {
-                see(context, first + k, id >> 32);
+        koksma__row row = {.id = koksma__column_whole(s, 0)};
+        const long long first = row.id & 0xffffffff;
+        status = koksma__store_read_row(store, s, 1, &row);
+        koksma__seal_add(&found, 1, koksma__checksum_of_row(&row));
+        for (int k = 0; !status && row.id >= 0 && k < KOKSMA__GROUP && (size_t)(first + k) < store->n_known; k++) {
+            if (!isnan(row.values[k]) && (k == 0 || !store->known[first].alone)) {
+                see(context, first + k, row.id >> 32);
             }
         }
     }
     koksma__statement_reset(s);
-    return status;
+    status = status ? status : koksma__seal_rest(store, &found);
+    store->found = found;
+    return status || store->for_audit || koksma__store_is_sealed(store) ? status : koksma__seal_fail(store);
 }
 
 koksma_status koksma__store_scan(koksma__store *store, void (*see)(void *context, long long series, long long trial),
@@ -135,21 +141,16 @@ koksma_status koksma__store_visit(koksma__store *store, koksma__row_visitor visi
     koksma__store_enter(store);
     koksma_status status = find_ends(store);
     while (koksma__next_row(store->database, s, &status)) {
-        const koksma__series series = {
-            .kind = koksma__column_text(s, 0),
-            .scene = koksma__column_text(s, 1),
-            .scene_hash = koksma__column_text(s, 2),
-            .options = koksma__column_text(s, 3),
-            .pattern = koksma__column_text(s, 4),
-            .what = koksma__column_text(s, 9),
-            .n = koksma__column_whole(s, 5),
-            .dim = koksma__column_whole(s, 6),
-            .width = koksma__column_whole(s, 7),
-            .height = koksma__column_whole(s, 8),
-        };
-        const long long id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
-        status = each_result(store, id, end_of(store, id), &series, visit, context);
+        koksma__series series;
+        long long id;
+        status = koksma__store_read_series(store, s, &series, &id);
+        status = status ? status : each_result(store, id, end_of(store, id), &series, visit, context);
     }
     koksma__statement_reset(s);
     return koksma__store_leave(store, status);
+}
+
+bool koksma__store_is_sealed(const koksma__store *store)
+{
+    return store->found.rows == store->seal.rows && store->found.sum == store->seal.sum;
 }

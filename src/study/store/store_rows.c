@@ -2,6 +2,7 @@
 /* Results on their way into the store. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/processor_clock.h"
 #include "core/status.h"
@@ -34,15 +35,51 @@ static void bind_row(koksma__statement *s, int *column, const koksma__row *from)
     }
 }
 
+static void add_checksum(koksma__store *store, int sign, const koksma__row *row)
+{
+    koksma__seal_add(&store->seal, sign, koksma__checksum_of_row(row));
+}
+
+static koksma_status find_row(koksma__store *store, koksma__row *row, bool *found)
+{
+    koksma__statement *s = store->queries[KOKSMA__GET_ROW];
+    koksma_status status = KOKSMA_OK;
+    int column = 1;
+    koksma__bind_whole(s, &column, row->id);
+    *found = koksma__next_row(store->database, s, &status);
+    if (*found) {
+        status = koksma__store_read_row(store, s, 0, row);
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+/* What a row has already stays; where it has no value, what others of its group have made goes in. */
 static koksma_status put_one(koksma__store *store, const koksma__row *from)
 {
+    koksma__row row = {.id = from->id};
+    bool found;
     int column = 1;
-    bind_row(store->queries[KOKSMA__PUT_ROW], &column, from);
+    koksma_status status = find_row(store, &row, &found);
+    if (status) {
+        return status;
+    }
+    if (found) {
+        add_checksum(store, -1, &row);
+    } else {
+        row = *from;
+    }
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        row.values[k] = isnan(row.values[k]) ? from->values[k] : row.values[k];
+    }
+    add_checksum(store, 1, &row);
+    bind_row(store->queries[KOKSMA__PUT_ROW], &column, &row);
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
 
-/* A row that exists may have room for what others of its group have: that is seldom, and looked at one by one. */
-static koksma_status put_many(koksma__store *store, const koksma__row *from)
+/* Writes up to ROWS_AT_ONCE rows; *done: how many. A row that exists may have room for what others of its group have:
+   that is seldom, ends the statement there, and is looked at by itself. */
+static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];
     int column = 1;
@@ -50,12 +87,15 @@ static koksma_status put_many(koksma__store *store, const koksma__row *from)
         bind_row(s, &column, &from[k]);
     }
     koksma_status status = koksma__statement_run(store->database, s);
-    if (!status && koksma__database_changes(store->database) < KOKSMA__ROWS_AT_ONCE) {
-        for (int k = 0; !status && k < KOKSMA__ROWS_AT_ONCE; k++) {
-            status = put_one(store, &from[k]);
-        }
+    const bool conflict = status && koksma__database_had_conflict(store->database);
+    if (status && !conflict) {
+        return status;
     }
-    return status;
+    *done = (size_t)koksma__database_changes(store->database);
+    for (size_t k = 0; k < *done; k++) {
+        add_checksum(store, 1, &from[k]);
+    }
+    return conflict ? put_one(store, &from[(*done)++]) : KOKSMA_OK;
 }
 
 /* The lock is held, so that the spare room is free. */
@@ -70,13 +110,11 @@ koksma_status koksma__store_write_rows(koksma__store *store)
     if (taken.n) { /* what is known of the rows is known no more */
         koksma__store_forget(store);
     }
-    size_t i = 0;
     koksma_status status = taken.n || store->in_transaction ? koksma__store_begin(store) : KOKSMA_OK;
-    for (; !status && taken.n - i >= KOKSMA__ROWS_AT_ONCE; i += KOKSMA__ROWS_AT_ONCE) {
-        status = put_many(store, &taken.at[i]);
-    }
-    for (; !status && i < taken.n; i++) {
-        status = put_one(store, &taken.at[i]);
+    for (size_t i = 0, done = 1; !status && i < taken.n; i += done, done = 1) {
+        status =
+            taken.n - i >= KOKSMA__ROWS_AT_ONCE ? put_many(store, &taken.at[i], &done) : put_one(store, &taken.at[i]);
+        koksma__store_wrote(store, status);
     }
     return status ? status : koksma__store_end(store);
 }
@@ -118,6 +156,17 @@ koksma_status koksma__store_put(koksma__store *store, const long long *series, c
         }
     }
     return status;
+}
+
+koksma_status koksma__store_row(koksma__store *store, long long group, long long trial, uint64_t *seed,
+                                double values[KOKSMA__RESULT_VALUES], bool *found)
+{
+    koksma__row row = {.id = row_id(group, trial)};
+    koksma__store_enter(store);
+    const koksma_status status = find_row(store, &row, found);
+    *seed = row.seed;
+    memcpy(values, row.values, sizeof row.values);
+    return koksma__store_leave(store, status);
 }
 
 koksma_status koksma__store_commit(koksma__store *store)

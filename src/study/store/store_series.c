@@ -9,24 +9,26 @@
 /* A plan's tasks are in memory, too, and each is far more than a number. */
 static const long long MOST_SERIES = 1 << 26;
 
-/* All that the series of a group have in common. */
-static void bind_group(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
+/* All that the series of a group have in common: the key up to the height, and what made the points. */
+static void bind_group(koksma__statement *s, int *column, const koksma__series *key)
 {
     koksma__bind_text(s, column, key->kind);
     koksma__bind_text(s, column, key->scene);
-    koksma__store_bind_hash(store, s, column, key, key->pattern);
+    koksma__bind_text(s, column, key->scene_hash);
     koksma__bind_text(s, column, key->options);
     koksma__bind_text(s, column, key->pattern);
     koksma__bind_whole(s, column, key->n);
     koksma__bind_whole(s, column, key->dim);
     koksma__bind_whole(s, column, key->width);
     koksma__bind_whole(s, column, key->height);
+    koksma__bind_text(s, column, key->made_by);
 }
 
-static void bind_series(koksma__store *store, koksma__statement *s, int *column, const koksma__series *key)
+static void bind_series(koksma__statement *s, int *column, const koksma__series *key)
 {
-    bind_group(store, s, column, key);
+    bind_group(s, column, key);
     koksma__bind_text(s, column, key->what);
+    koksma__bind_text(s, column, key->measured_by);
 }
 
 /* Numbers are small, unless the file is damaged. */
@@ -39,12 +41,12 @@ static koksma_status check_number(const koksma__store *store, long long number)
 }
 
 /* The id for a new series: the next of its group, or the first of a new one. */
-static koksma_status next_series(koksma__store *store, const koksma__series *series, long long *id)
+static koksma_status next_series(koksma__store *store, const koksma__series *key, long long *id)
 {
     koksma__statement *s = store->queries[KOKSMA__NEXT_SERIES];
     koksma_status status = KOKSMA_OK;
     int column = 1;
-    bind_group(store, s, &column, series);
+    bind_group(s, &column, key);
     const bool found = koksma__next_row(store->database, s, &status);
     const long long last = found ? koksma__column_whole(s, 0) : 0,
                     last_of_all = found ? koksma__column_whole(s, 1) : 0;
@@ -57,16 +59,17 @@ static koksma_status next_series(koksma__store *store, const koksma__series *ser
     return status;
 }
 
-static koksma_status add_series(koksma__store *store, const koksma__series *series, long long *id)
+static koksma_status add_series(koksma__store *store, const koksma__series *key, long long *id)
 {
     koksma__statement *s = store->queries[KOKSMA__ADD_SERIES];
     int column = 1;
-    koksma_status status = next_series(store, series, id);
+    koksma_status status = next_series(store, key, id);
     if (status) {
         return status;
     }
-    bind_series(store, s, &column, series);
+    bind_series(s, &column, key);
     koksma__bind_whole(s, &column, *id);
+    koksma__seal_add(&store->seal, 1, koksma__checksum_of_series(key, *id));
     status = koksma__store_write(store, KOKSMA__ADD_SERIES);
     koksma__store_forget(store);
     return status;
@@ -76,15 +79,17 @@ koksma_status koksma__store_series(koksma__store *store, const koksma__series *s
 {
     koksma__statement *s = store->queries[KOKSMA__FIND_SERIES];
     koksma_status status = KOKSMA_OK;
+    koksma__series key;
     int column = 1;
     koksma__store_enter(store);
-    bind_series(store, s, &column, series);
+    koksma__store_bind_key(store, series, &key);
+    bind_series(s, &column, &key);
     const bool found = koksma__next_row(store->database, s, &status);
     *id = found ? koksma__column_whole(s, 0) : 0;
     koksma__statement_reset(s);
     status = status ? status : check_number(store, *id);
     if (!status && !found && add) {
-        status = add_series(store, series, id);
+        status = add_series(store, &key, id);
     }
     return koksma__store_leave(store, status);
 }

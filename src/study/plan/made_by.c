@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Writes down the revisions of what makes a row: "random 0" for points, "renderer 0, n-rooks 0, sobol 0" for an image
+   with two patterns. Every generator of a row is in its text, once; a change of one of them changes the text, and with
+   it the key of the row. Options of the renderer (filters, integrators) go by the renderer's revision. */
+#include "study/plan/made_by.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/warp.h>
+
+#include "core/status.h"
+#include "study/plan/image_patterns.h"
+
+/* Appends "name revision", unless it is there. The text holds all uses of an image (KOKSMA_MAX_PATTERNS_TEXT). */
+static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
+{
+    char word[KOKSMA_MAX_SPEC + 16];
+    const size_t used = strlen(text), size = (size_t)snprintf(word, sizeof word, "%s %d", name, revision);
+    for (const char *at = text; (at = strstr(at, word)); at++) {
+        if ((at == text || at[-1] == ' ') && (!at[size] || at[size] == ',')) {
+            return;
+        }
+    }
+    snprintf(text + used, KOKSMA__MADE_BY - used, "%s%s", used ? ", " : "", word);
+}
+
+static void add_pattern(char text[KOKSMA__MADE_BY], const koksma_spec *spec, bool first)
+{
+    if (spec->pattern) {
+        add(text, spec->pattern->name, first ? 0 : spec->pattern->revision);
+    }
+}
+
+static koksma_status of_points(const char *pattern, const char *warp_name, const char *measure, bool first,
+                               koksma__made_by *out)
+{
+    koksma_spec spec;
+    koksma_status status = koksma_pattern_spec(pattern, &spec);
+    if (!status) {
+        add_pattern(out->points, &spec, first);
+        status = koksma_measure_spec(measure, &spec);
+    }
+    if (status) {
+        return status;
+    }
+    add(out->value, spec.measure->name, first ? 0 : spec.measure->revision);
+    const koksma_warp *warp = koksma_warp_find(warp_name);
+    if (warp) {
+        add(out->value, warp->name, first ? 0 : warp->revision);
+    }
+    return warp || !warp_name[0] ? KOKSMA_OK : koksma__fail(KOKSMA_UNKNOWN, "no warp '%s'", warp_name);
+}
+
+static koksma_status of_image(const char *pattern, bool first, char text[KOKSMA__MADE_BY])
+{
+    koksma_render_options options = {0};
+    const koksma_status status = koksma__image_pattern_set(pattern, &options);
+    if (status) {
+        return status;
+    }
+    add(text, "renderer", first ? 0 : KOKSMA__RENDERER_REVISION);
+    add_pattern(text, &options.pattern, first);
+    for (int u = 0; u < KOKSMA_N_USES; u++) {
+        add_pattern(text, &options.patterns[u], first);
+    }
+    for (int g = 0; g < KOKSMA_MAX_USE_GROUPS; g++) {
+        add_pattern(text, &options.groups[g].pattern, first);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__find_made_by(bool image, const char *pattern, const char *options, const char *what, bool first,
+                                   koksma__made_by *out)
+{
+    char name[KOKSMA_MAX_SPEC], of_reference[KOKSMA_MAX_SPEC];
+    long long spp, replicates;
+    *out = (koksma__made_by){0};
+    if (!image) {
+        return of_points(pattern, options, what, first, out);
+    }
+    koksma_status status = pattern[0] ? of_image(pattern, first, out->points) : KOKSMA_OK;
+    status = status ? status : koksma__reference_parse(what, name, of_reference, &spp, &replicates);
+    return status ? status : of_image(of_reference, first, out->value);
+}
+
+koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPEC], char pattern[KOKSMA_MAX_SPEC],
+                                      long long *spp, long long *replicates)
+{
+    const char *colon = strchr(text, ':'), *at = strrchr(text, '@');
+    int end = 0;
+    const bool fits = colon && at && at > colon && colon - text < KOKSMA_MAX_SPEC && at - colon - 1 < KOKSMA_MAX_SPEC;
+    if (!fits || sscanf(at, "@%18lldx%18lld%n", spp, replicates, &end) != 2 || at[end] || *spp < 1 ||
+        *replicates < 1) {
+        return koksma__fail(KOKSMA_MALFORMED, "'%.100s' names no reference", text);
+    }
+    snprintf(name, KOKSMA_MAX_SPEC, "%.*s", (int)(colon - text), text);
+    snprintf(pattern, KOKSMA_MAX_SPEC, "%.*s", (int)(at - colon - 1), colon + 1);
+    return KOKSMA_OK;
+}

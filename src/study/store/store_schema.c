@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Which tables a file may have. The text of every table and view in it, as SQLite keeps it, is compared with the
+   statements of schema.sql (of schema_past.sql for a file from before schema 6), without comments and with one blank
+   for white space: each statement stands there once, and there is nothing else. So a stranger's file has no triggers,
+   no views of its own, no virtual or foreign tables, no computed columns. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/store/schema.h"
+#include "study/store/schema_past.h"
+#include "study/store/store_internal.h"
+
+/* "Kksm", as SQLite's own list of ids has it for nobody else (magic.txt). */
+static const uint32_t APPLICATION = 0x4b6b736d;
+
+enum { OLDEST = 3, MAX_STATEMENTS = 16, STATEMENTS = 6 };
+
+/* A statement without comments, and with one blank for white space; ends at ';' outside of a text, or at the end.
+   Returns what follows. */
+static const char *normal_form(const char *sql, char *out)
+{
+    char *to = out;
+    for (char quote = 0; *sql && (quote || *sql != ';'); sql++) {
+        if (!quote && sql[0] == '-' && sql[1] == '-') {
+            sql += strcspn(sql, "\n") - 1;
+            continue;
+        }
+        if (quote || !isspace((unsigned char)*sql)) {
+            *to++ = *sql;
+        } else if (to > out && to[-1] != ' ') {
+            *to++ = ' ';
+        }
+        quote = quote ? (*sql == quote ? 0 : quote) : strchr("'\"`", *sql) ? *sql : 0;
+    }
+    to -= to > out && to[-1] == ' ';
+    *to = '\0';
+    return *sql ? sql + 1 : sql;
+}
+
+/* Which statement of `schema` is `sql`, whose normal form is made in `out`; -1: none. */
+static int find_statement(const char *schema, const char *sql, char *out, char *known)
+{
+    normal_form(sql, out);
+    for (int i = 0; *schema; i++) {
+        schema = normal_form(schema, known);
+        if (*known && !strcmp(known, out)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* Whether all entries of the file's schema are statements of `schema`, each once; *n: how many. */
+static koksma_status compare(koksma__database *database, const char *schema, int *n)
+{
+    koksma__statement *s;
+    bool seen[MAX_STATEMENTS] = {false};
+    char *out = NULL, *known = malloc(strlen(schema) + 1);
+    koksma_status status = koksma__statement_open(database, "SELECT sql, type, name FROM sqlite_schema", &s);
+    *n = 0;
+    while (koksma__next_row(database, s, &status)) {
+        const char *sql = koksma__column_text(s, 0), *type = koksma__column_text(s, 1);
+        const char *name = koksma__column_text(s, 2);
+        if (koksma__column_is_null(s, 0) && !strcmp(type, "index") && !strncmp(name, "sqlite_autoindex_", 17)) {
+            continue; /* what UNIQUE and PRIMARY KEY make */
+        }
+        free(out);
+        out = malloc(strlen(sql) + 1);
+        const int i = out && known ? find_statement(schema, sql, out, known) : -1;
+        if (!out || !known) {
+            status = koksma__fail_memory(strlen(sql));
+        } else if (i < 0 || i >= MAX_STATEMENTS || seen[i]) {
+            status = koksma__fail(KOKSMA_MALFORMED,
+                                  "%s: not results of koksma study: its %.20s '%.100s' is another "
+                                  "program's; choose another folder",
+                                  koksma__database_path(database), type, name);
+        } else {
+            seen[i] = true;
+            ++*n;
+        }
+    }
+    koksma__statement_close(s);
+    free(out);
+    free(known);
+    return status;
+}
+
+/* What the table meta of an old store says. */
+static koksma_status old_schema(koksma__database *database, int *schema)
+{
+    koksma__statement *s;
+    koksma_status status = koksma__statement_open(database, "SELECT value FROM meta WHERE key = 'schema'", &s);
+    *schema = koksma__next_row(database, s, &status) ? atoi(koksma__column_text(s, 0)) : 0;
+    koksma__statement_close(s);
+    return status;
+}
+
+koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema)
+{
+    const char *path = koksma__database_path(database);
+    const bool ours = header->application_id == APPLICATION;
+    int n = 0;
+    if (ours && header->version != KOKSMA__SCHEMA) {
+        return koksma__fail(KOKSMA_MALFORMED, "%s: its schema is %u and this program's is %d; choose another folder",
+                            path, (unsigned)header->version, KOKSMA__SCHEMA);
+    }
+    *schema = KOKSMA__SCHEMA;
+    koksma_status status = ours || !header->application_id
+                               ? compare(database, ours ? koksma__schema_sql : koksma__schema_past_sql, &n)
+                               : KOKSMA_OK;
+    if (!status && !ours && n == STATEMENTS) {
+        status = old_schema(database, schema);
+    }
+    if (!status && (n != STATEMENTS || *schema < OLDEST || (!ours && *schema >= KOKSMA__SCHEMA))) {
+        status = koksma__fail(KOKSMA_MALFORMED, "%s: not results of koksma study; choose another folder", path);
+    }
+    return status;
+}
+
+koksma_status koksma__schema_make(koksma__database *database)
+{
+    char header[96];
+    snprintf(header, sizeof header, "PRAGMA application_id=%u; PRAGMA user_version=%d", (unsigned)APPLICATION,
+             KOKSMA__SCHEMA);
+    const koksma_status status = koksma__database_execute(database, header);
+    return status ? status : koksma__database_execute(database, koksma__schema_sql);
+}

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Rows of the store's tables as they are read: every column must be of the kind that the schema says, whatever a
+   damaged file has there. */
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "core/status.h"
+#include "study/store/store_internal.h"
+
+static koksma_status fail_row(const koksma__store *store, const char *table, long long id)
+{
+    return koksma__fail(KOKSMA_MALFORMED,
+                        "%s: row %lld of table %s has a value of the wrong kind; move it away to begin anew",
+                        koksma__database_path(store->database), id, table);
+}
+
+koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, int column, koksma__row *row)
+{
+    bool right = koksma__column_has_whole(s, column);
+    row->seed = (uint64_t)koksma__column_whole(s, column);
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        right = right && koksma__column_has_number(s, column + 1 + k);
+        row->values[k] = koksma__column_number(s, column + 1 + k);
+    }
+    return right ? KOKSMA_OK : fail_row(store, "result", row->id);
+}
+
+/* Columns of GET_SERIES. */
+koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
+                                        long long *id)
+{
+    bool right = koksma__column_has_whole(s, KOKSMA__SERIES_COLUMNS);
+    for (int k = 0; k < KOKSMA__SERIES_COLUMNS; k++) {
+        right = right && (k >= 5 && k <= 8 ? koksma__column_has_whole : koksma__column_has_text)(s, k);
+    }
+    *id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
+    *key = (koksma__series){
+        .kind = koksma__column_text(s, 0),
+        .scene = koksma__column_text(s, 1),
+        .scene_hash = koksma__column_text(s, 2),
+        .options = koksma__column_text(s, 3),
+        .pattern = koksma__column_text(s, 4),
+        .what = koksma__column_text(s, 9),
+        .made_by = koksma__column_text(s, 10),
+        .measured_by = koksma__column_text(s, 11),
+        .n = koksma__column_whole(s, 5),
+        .dim = koksma__column_whole(s, 6),
+        .width = koksma__column_whole(s, 7),
+        .height = koksma__column_whole(s, 8),
+    };
+    return right ? KOKSMA_OK : fail_row(store, "series", *id);
+}
+
+koksma_status koksma__store_visit_series(koksma__store *store,
+                                         koksma_status (*visit)(void *context, const koksma__series *key,
+                                                                long long id),
+                                         void *context)
+{
+    koksma__statement *s = store->queries[KOKSMA__GET_SERIES];
+    koksma_status status = KOKSMA_OK;
+    koksma__series key;
+    long long id;
+    while (koksma__next_row(store->database, s, &status)) {
+        status = koksma__store_read_series(store, s, &key, &id);
+        status = status ? status : visit(context, &key, id);
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+koksma_status koksma__store_visit_references(koksma__store *store,
+                                             koksma_status (*visit)(void *context, const koksma__series *key,
+                                                                    const koksma__reference_row *row),
+                                             void *context)
+{
+    koksma__statement *s = store->queries[KOKSMA__GET_REFERENCES];
+    koksma_status status = KOKSMA_OK;
+    while (koksma__next_row(store->database, s, &status)) {
+        const koksma__series key = {.kind = "image",
+                                    .pattern = "",
+                                    .scene = koksma__column_text(s, 0),
+                                    .scene_hash = koksma__column_text(s, 1),
+                                    .options = koksma__column_text(s, 2),
+                                    .width = koksma__column_whole(s, 3),
+                                    .height = koksma__column_whole(s, 4),
+                                    .what = koksma__column_text(s, 5),
+                                    .made_by = koksma__column_text(s, 6)};
+        koksma__reference_row row = {.standard_error = koksma__column_number(s, 7)};
+        snprintf(row.pixels, sizeof row.pixels, "%s", koksma__column_text(s, 8));
+        status = koksma__column_has_number(s, 7) ? visit(context, &key, &row) : fail_row(store, "reference", 0);
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+static koksma_status add_series(void *context, const koksma__series *key, long long id)
+{
+    koksma__seal_add(context, 1, koksma__checksum_of_series(key, id));
+    return KOKSMA_OK;
+}
+
+static koksma_status add_reference(void *context, const koksma__series *key, const koksma__reference_row *row)
+{
+    koksma__seal_add(context, 1, koksma__checksum_of_reference(key, row->standard_error, row->pixels));
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__seal_rest(koksma__store *store, koksma__seal *seal)
+{
+    koksma__statement *s = store->queries[KOKSMA__GET_TEXTS];
+    koksma_status status = koksma__store_visit_series(store, add_series, seal);
+    status = status ? status : koksma__store_visit_references(store, add_reference, seal);
+    while (koksma__next_row(store->database, s, &status)) {
+        koksma__seal_add(seal, 1, koksma__checksum_of_text(koksma__column_text(s, 0), koksma__column_text(s, 1)));
+    }
+    koksma__statement_reset(s);
+    return status;
+}
+
+koksma_status koksma__seal_fail(const koksma__store *store)
+{
+    return koksma__fail(KOKSMA_MALFORMED,
+                        "%s: damaged or changed by hand: %lld rows with the checksum %016" PRIx64
+                        " where runs wrote %lld with %016" PRIx64 "; 'koksma study audit' names what differs; "
+                        "restore a copy, or move it away to begin anew",
+                        koksma__database_path(store->database), store->found.rows, store->found.sum, store->seal.rows,
+                        store->seal.sum);
+}

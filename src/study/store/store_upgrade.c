@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Stores of schemas 3 to 5, as rows of this one in a new database (schema_upgrade*.sql). They have no revisions: those
+   before the first change, as schema 6 had them when it came. Schemas 3 and 4 have no coherence of errors, so that the
+   next run renders their images again; no reference has a hash of its pixels, so that a run makes it again before it
+   compares anything with it. */
+#include <string.h>
+
+#include "core/status.h"
+#include "study/store/schema_upgrade.h"
+#include "study/store/schema_upgrade_3.h"
+#include "study/store/store_internal.h"
+
+/* The next series by its id, and what made it. */
+static koksma_status upgrade_series(koksma__store *store, koksma__statement *get, koksma__statement *put)
+{
+    koksma_status status = KOKSMA_OK;
+    for (long long id = 0; !status;) {
+        int column = 1;
+        koksma__bind_whole(get, &column, id);
+        if (!koksma__next_row(store->database, get, &status)) {
+            break;
+        }
+        id = koksma__column_whole(get, 0);
+        status =
+            koksma__find_made_by(strcmp(koksma__column_text(get, 1), "discrepancy") != 0, koksma__column_text(get, 2),
+                                 koksma__column_text(get, 3), koksma__column_text(get, 4), true, &store->made_by);
+        koksma__statement_reset(get);
+        column = 1;
+        koksma__bind_text(put, &column, store->made_by.points);
+        koksma__bind_text(put, &column, store->made_by.value);
+        koksma__bind_whole(put, &column, id);
+        status = status ? status : koksma__statement_run(store->database, put);
+    }
+    koksma__statement_reset(get);
+    return status;
+}
+
+static koksma_status upgrade_references(koksma__store *store, koksma__statement *get, koksma__statement *put)
+{
+    koksma_status status = KOKSMA_OK;
+    while (koksma__next_row(store->database, get, &status)) {
+        int column = 1;
+        status = koksma__find_made_by(true, "", "", koksma__column_text(get, 0), true, &store->made_by);
+        koksma__bind_text(put, &column, store->made_by.value);
+        koksma__bind_text(put, &column, koksma__column_text(get, 0));
+        status = status ? status : koksma__statement_run(store->database, put);
+    }
+    koksma__statement_reset(get);
+    return status;
+}
+
+static void pass(void *context, long long series, long long trial)
+{
+    (void)context;
+    (void)series;
+    (void)trial;
+}
+
+koksma_status koksma__store_upgrade(int schema, koksma__store *store)
+{
+    static const char *const queries[] = {
+        "SELECT id, kind, pattern, options, what FROM main.series WHERE id > ? ORDER BY id LIMIT 1",
+        "UPDATE main.series SET made_by = ?, measured_by = ? WHERE id = ?",
+        "SELECT DISTINCT reference FROM old.reference", "UPDATE main.reference SET made_by = ? WHERE reference = ?"};
+    enum { N = sizeof queries / sizeof *queries };
+    koksma__statement *s[N] = {NULL};
+    koksma_status status = koksma__database_execute(
+        store->database,
+        "INSERT INTO main.meta SELECT key, value FROM old.meta WHERE key NOT IN ('schema', 'version');"
+        "INSERT INTO main.run SELECT * FROM old.run;"
+        "INSERT INTO main.reference SELECT scene, scene_hash, options, width, height, reference, '', standard_error, "
+        "'' FROM old.reference;");
+    status = status ? status
+                    : koksma__database_execute(store->database, schema == 3 ? koksma__schema_upgrade_3_sql
+                                                                            : koksma__schema_upgrade_sql);
+    for (int i = 0; !status && i < N; i++) {
+        status = koksma__statement_open(store->database, queries[i], &s[i]);
+    }
+    status = status ? status : upgrade_series(store, s[0], s[1]);
+    status = status ? status : upgrade_references(store, s[2], s[3]);
+    for (int i = 0; i < N; i++) {
+        koksma__statement_close(s[i]);
+    }
+    if (status && status != KOKSMA_IO && status != KOKSMA_MEMORY) { /* a spec that isn't one */
+        return koksma__fail_in(KOKSMA_MALFORMED, koksma__database_path(store->database));
+    }
+    store->for_audit = true;
+    status = status ? status : koksma__store_scan(store, pass, NULL);
+    store->for_audit = false;
+    store->seal = store->found;
+    return status;
+}
