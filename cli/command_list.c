@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/optimise.h>
 #include <koksma/warp.h>
 
 #include "texts.h"
@@ -143,6 +144,17 @@ static void list_warps(cli_rows *rows)
     }
 }
 
+static void list_methods(cli_rows *rows)
+{
+    const koksma_method *m;
+    for (size_t i = 0; (m = koksma_method_at(i)); i++) {
+        cli_row_text(rows, "method", m->name);
+        cli_row_text(rows, "source", m->cite);
+        cli_row_text(rows, "what", m->title);
+        cli_row_end(rows);
+    }
+}
+
 static void put_range(cli_rows *rows, const koksma_param *p)
 {
     char text[256] = "";
@@ -206,7 +218,8 @@ static const struct {
 } lists[] = {
     {"patterns", list_patterns},       {"measures", list_measures}, {"scenes", list_scenes},
     {"integrators", list_integrators}, {"filters", list_filters},   {"uses", list_uses},
-    {"adaptive", list_adaptive},       {"warps", list_warps},       {"parameters", list_parameters},
+    {"adaptive", list_adaptive},       {"warps", list_warps},       {"methods", list_methods},
+    {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)
