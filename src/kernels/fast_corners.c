@@ -2,29 +2,40 @@
 /* Corners whose count and volume differ too much: most blocks have none, and are left after one comparison. */
 #include "kernels/kernels.h"
 
-enum { BLOCK = 32 };
+enum { BLOCK = 128, LANES = 32 };
 
-size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const double *xs, double y, double sign,
-                                double limit, uint32_t *out);
+size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float *xs, float sign, float y,
+                                float limit, uint32_t *out);
 
-size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const double *xs, double y, double sign,
-                                double limit, uint32_t *out)
+/* The largest difference of `count` corners, a multiple of LANES; at least 0. */
+static float largest(size_t count, const int16_t *restrict counts, const float *restrict xs, float sign, float y)
 {
-    size_t found = 0, k = 0;
-    for (; k + BLOCK <= count; k += BLOCK) {
-        double most = 0;
-        for (size_t l = 0; l < BLOCK; l++) {
-            const double d = sign * (counts[k + l] - xs[k + l] * y);
-            most = d > most ? d : most;
-        }
-        for (size_t l = 0; most > limit && l < BLOCK; l++) {
-            out[found] = (uint32_t)(k + l);
-            found += sign * (counts[k + l] - xs[k + l] * y) > limit;
+    float most[LANES] = {0}, largest = 0;
+    for (size_t k = 0; k < count; k += LANES) {
+        for (size_t l = 0; l < LANES; l++) {
+            const float d = sign * counts[k + l] - xs[k + l] * y;
+            most[l] = d > most[l] ? d : most[l];
         }
     }
-    for (; k < count; k++) {
-        if (sign * (counts[k] - xs[k] * y) > limit) {
-            out[found++] = (uint32_t)k;
+    for (size_t l = 0; l < LANES; l++) {
+        largest = most[l] > largest ? most[l] : largest;
+    }
+    return largest;
+}
+
+size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float *xs, float sign, float y,
+                                float limit, uint32_t *out)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < count;) {
+        const size_t left = count - k, whole = left / LANES * LANES;
+        const size_t some = left >= BLOCK ? BLOCK : whole ? whole : left, end = k + some;
+        if (whole && largest(some, counts + k, xs + k, sign, y) <= limit) {
+            k = end;
+        }
+        for (; k < end; k++) {
+            out[found] = (uint32_t)k;
+            found += sign * counts[k] - xs[k] * y > limit;
         }
     }
     return found;

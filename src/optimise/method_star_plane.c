@@ -31,10 +31,13 @@
 #include "measures/shared/order.h"
 #include "optimise/methods.h"
 
-enum { MAX_N = 4096, PATIENCE = 1500, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
+enum { MAX_N = 4096, PATIENCE = 3000, ACCEPTED = 8, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
 
-/* Corners looked at in one search: about a tenth of a second. */
-static const double WORK = 3e7;
+/* Corners looked at in one search: some tenths of a second. */
+static double budget_of(size_t n)
+{
+    return 1e8 + 1e6 * (double)n;
+}
 
 /* Violations below this many points are rounding. */
 static const double TOLERANCE = 1e-10;
@@ -60,7 +63,8 @@ typedef struct plane {
     size_t n, side, stride;   /* side: n + 1 nodes for each axis */
     uint32_t *rank, *at;      /* p and its inverse, 1 .. n */
     int16_t *counts, *turned; /* c(i,j) at i stride + j, and at j stride + i, 0 .. n + 1 */
-    double *v, *saved, *kept; /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
+    double *v, *saved;        /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
+    float *rounded;           /* the same in floats */
     uint32_t *cause, *queue, *found, *stamps;
     uint8_t *queued;
     size_t first, waiting; /* of the queue, a ring of 2 side nodes */
@@ -68,25 +72,27 @@ typedef struct plane {
     cycle cycles[CYCLES];    /* those that were violated last in front */
     edge *traced, *critical; /* up to 2 side edges */
     size_t n_traced, n_critical;
-    double work;
+    double work, budget;
     koksma__stream random;
     void *memory;
 } plane;
 
 static koksma_status plane_init(plane *s, size_t n, uint64_t seed)
 {
-    *s = (plane){.n = n, .side = n + 1, .stride = (n + 2 + 31) / 32 * 32, .random = {.seed = seed}};
+    *s = (plane){
+        .n = n, .side = n + 1, .stride = (n + 2 + 31) / 32 * 32, .random = {.seed = seed}, .budget = budget_of(n)};
     const size_t nodes = 2 * s->side, matrix = (n + 2) * s->stride;
-    const size_t bytes = 3 * nodes * sizeof(double) + (4 * nodes + 2 * (n + 1)) * sizeof(uint32_t) +
-                         2 * nodes * sizeof(edge) + 2 * matrix * sizeof(int16_t) + nodes;
+    const size_t bytes = 2 * nodes * sizeof(double) + nodes * sizeof(float) +
+                         (4 * nodes + 2 * (n + 1)) * sizeof(uint32_t) + 2 * nodes * sizeof(edge) +
+                         2 * matrix * sizeof(int16_t) + nodes;
     s->memory = calloc(1, bytes);
     if (!s->memory) {
         return koksma__fail_memory(bytes);
     }
     s->v = s->memory;
     s->saved = s->v + nodes;
-    s->kept = s->saved + nodes;
-    s->cause = (uint32_t *)(s->kept + nodes);
+    s->rounded = (float *)(s->saved + nodes);
+    s->cause = (uint32_t *)(s->rounded + nodes);
     s->queue = s->cause + nodes;
     s->found = s->queue + nodes;
     s->stamps = s->found + nodes;
@@ -255,9 +261,18 @@ static bool set(plane *s, uint32_t from, uint32_t to, double value)
         return false;
     }
     s->v[to] = value;
+    s->rounded[to] = (float)value;
     s->cause[to] = from;
     push(s, to);
     return true;
+}
+
+/* Corners of a node and the nodes from `others` on, `count` of them, that may be violated at F. */
+static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
+{
+    const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
+    return koksma__kernels()->far_corners(count, counts, s->rounded + others, sign, sign * s->rounded[node],
+                                          (float)F - rounding, s->found);
 }
 
 /* Moves what a node violates; false when a cycle closes. */
@@ -282,11 +297,13 @@ static bool relax(plane *s, uint32_t node, double F)
         return false;
     }
     const int16_t *counts = x ? s->counts + at * s->stride : s->turned + (at + 1) * s->stride + 1;
-    const size_t found = koksma__kernels()->far_corners(side, counts, x ? s->v + side : s->v, value, x ? -1 : 1,
-                                                        F + TOLERANCE, s->found);
+    const uint32_t others = x ? (uint32_t)side : 0;
+    const size_t found = far(s, side, counts, others, node, F);
     for (size_t k = 0; k < found; k++) {
-        const uint32_t other = s->found[k];
-        if (!set(s, node, x ? other + (uint32_t)side : other, (counts[other] + (x ? F : -F)) / value)) {
+        const uint32_t other = others + s->found[k];
+        const double count = counts[s->found[k]], volume = s->v[other] * value;
+        if ((x ? volume - count : count - volume) > F + TOLERANCE &&
+            !set(s, node, other, (count + (x ? F : -F)) / value)) {
             return false;
         }
     }
@@ -315,21 +332,9 @@ static bool settle(plane *s, double *F, double limit)
     return true;
 }
 
-/* The least F of the permutation, from any coordinates; false if above limit. */
-static bool solve(plane *s, double *F, double limit)
+/* Settles all constraints at F; a cycle raises it. False if above limit. */
+static bool settle_all(plane *s, double *F, double limit)
 {
-    *F = 0.5; /* as for a coordinate alone */
-    for (size_t c = 0; c < CYCLES; c++) {
-        const cycle *kept = &s->cycles[c];
-        if (violated(s, kept->edges, kept->n, *F, NULL)) {
-            *F = closing(s, kept->edges, kept->n, *F);
-            memcpy(s->critical, kept->edges, kept->n * sizeof(edge));
-            s->n_critical = kept->n;
-        }
-    }
-    if (*F > limit) {
-        return false;
-    }
     clear(s);
     for (uint32_t node = 0; node < 2 * s->side; node++) {
         push(s, node);
@@ -337,15 +342,43 @@ static bool solve(plane *s, double *F, double limit)
     return settle(s, F, limit);
 }
 
-/* A whole number from 1 to most, about log-uniform. */
-static size_t log_uniform(koksma__stream *random, size_t most)
+/* The largest F at which a kept cycle closes, at most that of the permutation; the cycle becomes the critical one. */
+static double estimate(plane *s)
 {
-    int bits = 0;
-    while (most >> bits > 1) {
-        bits++;
+    double F = 0;
+    for (size_t c = 0; c < CYCLES; c++) {
+        const cycle *kept = &s->cycles[c];
+        if (violated(s, kept->edges, kept->n, F, NULL)) {
+            F = closing(s, kept->edges, kept->n, F);
+            memcpy(s->critical, kept->edges, kept->n * sizeof(edge));
+            s->n_critical = kept->n;
+        }
     }
-    const size_t d = 1 + koksma__next_below(random, (size_t)1 << koksma__next_below(random, (size_t)bits + 1));
-    return d < most ? d : most;
+    return F;
+}
+
+/* The least F of the permutation, from coordinates without violations at limit. */
+static bool solve(plane *s, double *F, double limit)
+{
+    *F = estimate(s);
+    for (double guess = 0.98 * limit; *F < guess; guess *= 0.96) {
+        double least = guess;
+        s->n_critical = 0;
+        if (!settle_all(s, &least, limit)) {
+            return false;
+        }
+        if (s->n_critical) {
+            *F = least;
+            return true;
+        }
+    }
+    return *F <= limit && settle_all(s, F, limit);
+}
+
+/* Whether a rank is within reach of a corner's, above it or up to it. */
+static bool beside(size_t rank, size_t j, size_t reach, bool above)
+{
+    return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
 }
 
 /* A swap that lowers the count of a corner with too many points of the critical cycle, or raises one with too few. */
@@ -357,15 +390,17 @@ static bool draw_swap(plane *s, swap *w)
         return false;
     }
     const bool many = e.sign > 0;
-    size_t a = i + 1 - log_uniform(&s->random, i), b = i + log_uniform(&s->random, n - i);
-    while (a > 0 && (s->rank[a] <= j) != many) {
+    const size_t reach = (size_t)sqrt((double)n) << koksma__next_below(&s->random, 2);
+    const size_t before = i < reach ? i : reach, after = n - i < reach ? n - i : reach;
+    size_t a = i - koksma__next_below(&s->random, before), b = i + 1 + koksma__next_below(&s->random, after);
+    for (size_t left = reach; left && a && !beside(s->rank[a], j, reach, !many); left--) {
         a--;
     }
-    while (b <= n && (s->rank[b] > j) != many) {
+    for (size_t left = reach; left && b <= n && !beside(s->rank[b], j, reach, many); left--) {
         b++;
     }
     *w = (swap){a, b};
-    return a > 0 && b <= n;
+    return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
 }
 
 /* Whether a kept cycle is violated at F after a swap. */
@@ -380,6 +415,13 @@ static bool refused(plane *s, double F, const swap *w)
     return false;
 }
 
+static void round_all(plane *s)
+{
+    for (size_t k = 0; k < 2 * s->side; k++) {
+        s->rounded[k] = (float)s->v[k];
+    }
+}
+
 /* Queues the nodes of what a swap that was applied violates at F. */
 static void push_violated(plane *s, swap w, double F)
 {
@@ -388,16 +430,15 @@ static void push_violated(plane *s, swap w, double F)
     const size_t low = fewer ? b : a, high = fewer ? a : b;
     for (size_t k = fewer ? w.a : low; k < (fewer ? w.b : high); k++) {
         const int16_t *counts = fewer ? s->counts + k * stride + low : s->turned + k * stride + w.a;
-        const double *v = fewer ? s->v + side + low : s->v + w.a - 1, value = s->v[fewer ? k : side + k - 1];
-        if (koksma__kernels()->far_corners(fewer ? high - low : w.b - w.a, counts, v, value, fewer ? -1 : 1,
-                                           F + TOLERANCE, s->found)) {
-            push(s, (uint32_t)(fewer ? k : side + k - 1));
+        const uint32_t node = (uint32_t)(fewer ? k : side + k - 1);
+        if (far(s, fewer ? high - low : w.b - w.a, counts, fewer ? side + low : w.a - 1, node, F)) {
+            push(s, node);
         }
     }
 }
 
-/* One or two swaps, if the new F does not get above limit. */
-static bool move(plane *s, double *F, double limit)
+/* One or two swaps, if F does not get above limit; the coordinates then are for limit, as they were before. */
+static bool move(plane *s, double limit)
 {
     swap w[2];
     const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
@@ -419,13 +460,14 @@ static bool move(plane *s, double *F, double limit)
     for (int k = 0; k < n; k++) {
         push_violated(s, w[k], limit);
     }
-    if (settle(s, &at_limit, limit) && solve(s, F, limit)) {
+    if (settle(s, &at_limit, limit)) {
         return true;
     }
     for (int k = n; k-- > 0;) {
         apply(s, w[k]);
     }
     memcpy(s->v, s->saved, bytes);
+    round_all(s);
     return false;
 }
 
@@ -439,25 +481,30 @@ static void write_points(const plane *s, koksma_points *points)
     }
 }
 
-/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. */
+/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. Between exact values,
+   which are found after each ACCEPTED moves and where *best may be beaten, the limit stays and the kept cycles lead. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
-    const size_t moves = PATIENCE;
     const double threshold = F * 0.03 * koksma__next_unit(&s->random);
-    for (size_t m = 0; m < moves && s->work < WORK; m++) {
-        double to = F;
-        const double limit = F + threshold * (1 - (double)m / (double)moves);
-        if (!move(s, &to, limit)) {
+    double limit = F + threshold;
+    size_t accepted = 0;
+    for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
+        if (!move(s, limit) || (estimate(s) >= *best && ++accepted % ACCEPTED)) {
             continue;
+        }
+        double to = limit;
+        if (!solve(s, &to, limit)) {
+            return; /* within rounding of the limit */
         }
         if (to < F) {
             m = 0;
+            F = to;
         }
-        F = to;
-        if (F < *best) {
-            *best = F;
+        if (to < *best) {
+            *best = to;
             write_points(s, points);
         }
+        limit = to + threshold * (1 - (double)m / PATIENCE);
     }
 }
 
@@ -485,6 +532,7 @@ static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
     for (size_t i = 1; i <= n; i++) {
         s->rank[i] = order[s->rank[i]];
     }
+    round_all(s);
     count_all(s);
     return KOKSMA_OK;
 }
@@ -496,7 +544,7 @@ static void draw_start(plane *s, double *xs)
     double a = koksma__next_unit(random);
     for (int k = 0; k < 24; k++) {
         double quotient = 1;
-        while (quotient < 20 && koksma__next_unit(random) > 0.62) {
+        while (quotient < 20 && koksma__next_unit(random) > 0.75) {
             quotient++;
         }
         a = 1 / (quotient + a);
@@ -523,14 +571,15 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     }
     bool again = koksma__next_below(&s.random, 4) == 0;
     double best = value * (double)n * (1 + 1e-9), F;
-    while (!status && s.work < WORK) {
+    while (!status && s.work < s.budget) {
         if (again) {
             memcpy(xs, points->xs, 2 * n * sizeof *xs);
         } else {
             draw_start(&s, xs);
         }
         status = take_points(&s, xs, order);
-        if (!status && solve(&s, &F, again ? (double)INFINITY : best * 1.05)) {
+        double limit = (again ? 1 : 1.05) * best;
+        if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
             if (F < best) {
                 best = F;
                 write_points(&s, points);

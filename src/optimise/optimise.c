@@ -17,7 +17,7 @@
 #include "measures/measures.h"
 #include "optimise/methods.h"
 
-enum { SEARCHES = 16 };
+enum { SEARCHES = 8 };
 
 typedef struct step {
     const koksma_spec *measure;
