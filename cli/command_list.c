@@ -6,6 +6,7 @@
 #include <koksma/adaptive.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
+#include <koksma/optimise.h>
 #include <koksma/warp.h>
 
 #include "curves.h"
@@ -138,6 +139,17 @@ static void list_warps(cli_rows *rows)
         cli_row_text(rows, "warp", w->name);
         cli_row_text(rows, "domain", domains[w->domain]);
         end_row(rows, w->cite, w->title);
+    }
+}
+
+static void list_methods(cli_rows *rows)
+{
+    const koksma_method *m;
+    for (size_t i = 0; (m = koksma_method_at(i)); i++) {
+        cli_row_text(rows, "method", m->name);
+        cli_row_text(rows, "source", m->cite);
+        cli_row_text(rows, "what", m->title);
+        cli_row_end(rows);
     }
 }
 
@@ -280,7 +292,7 @@ static const struct {
     {"scenes", list_scenes},         {"materials", list_materials},   {"lights", list_lights},
     {"shapes", list_shapes},         {"formats", list_formats},       {"integrators", list_integrators},
     {"pipelines", list_pipelines},   {"filters", list_filters},       {"uses", list_uses},
-    {"adaptive", list_adaptive},     {"plans", list_plans},           {"questions", list_questions},
+    {"adaptive", list_adaptive},     {"methods", list_methods}, {"plans", list_plans},           {"questions", list_questions},
     {"sections", list_sections},     {"parameters", list_parameters},
 };
 

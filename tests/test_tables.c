@@ -12,6 +12,7 @@
 #include "image/formats.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
+#include "optimise/methods.h"
 #include "patterns/patterns.h"
 #include "render/filters/filters.h"
 #include "render/lights/lights.h"
@@ -39,7 +40,7 @@ static void expect_name(const char *file, const char *name, const void *member, 
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    size_t n[9] = {0};
+    size_t n[10] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
                 koksma_pattern_find(koksma__pattern_##line.name));                                                   \
@@ -54,6 +55,11 @@ static void names_are_those_of_files(void **state)
     expect_name(#line, koksma__warp_##line.name, &koksma__warp_##line, koksma_warp_find(koksma__warp_##line.name));  \
     n[2]++;
 #include "warps/warps.def"
+#define METHOD(line)                                                                                                 \
+    expect_name(#line, koksma__method_##line.name, &koksma__method_##line,                                           \
+                koksma_method_find(koksma__method_##line.name));                                                     \
+    n[9]++;
+#include "optimise/methods.def"
 #define FILTER(line)                                                                                                 \
     expect_name(#line, koksma__filter_##line.name, &koksma__filter_##line,                                           \
                 koksma_filter_find(koksma__filter_##line.name));                                                     \
@@ -91,10 +97,11 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma__bsdfs[n[4]]);
     assert_null(koksma__light_types[n[7]]);
     assert_null(koksma__shape_types[n[8]]);
+    assert_null(koksma_method_at(n[9]));
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
-    for (int i = 0; i < 9; i++) {
-        assert_true(n[i] > 1);
+    for (int i = 0; i < 10; i++) {
+        assert_true(n[i] > 0);
     }
 }
 

@@ -37,6 +37,7 @@ MAY_USE = {
     "measures": "core kernels stats warps",
     "api": "core patterns measures warps",
     "verify": "core patterns measures api",
+    "optimise": "core kernels measures api",
     "image": "core kernels stats",
     "meshes": "core json image",
     "plot": "core patterns measures api",
@@ -48,7 +49,7 @@ MAY_USE = {
     "study/ranking": "core stats image scene render study/plan study/run api",
     "study/images": "core stats image study/plan study/run",
     "study/report": "core stats patterns measures warps image plot render study/plan study/store study/run api",
-    "cli": "core kernels stats patterns measures warps api verify image scene plot render study/plan study/run "
+    "cli": "core kernels stats patterns measures warps api verify optimise image scene plot render study/plan study/run "
            "study/ranking study/images study/report",
 }
 
@@ -317,7 +318,7 @@ ABOUT = {
     "kernels": "fast loops per instruction set",
     "warps": "maps of the square to a domain", "json": "JSON reader with line numbers",
     "stats": "statistics", "patterns": "one file a pattern", "measures": "one file a measure",
-    "api": "generate, evaluate", "verify": "proved properties", "image": "images, formats, spectra",
+    "api": "generate, evaluate", "verify": "proved properties", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
     "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report",

@@ -81,6 +81,18 @@ void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, co
     }
 }
 
+size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float *xs, float sign, float y,
+                                float limit, uint32_t *out)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (sign * counts[k] - xs[k] * y > limit) {
+            out[found++] = (uint32_t)k;
+        }
+    }
+    return found;
+}
+
 void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
                                 double *const out[2])
 {

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma optimise`: the best point set that a search finds, on disk after each gain. */
+#include <koksma/optimise.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "source.h"
+
+typedef struct job {
+    const cli_arguments *arguments;
+    const koksma_spec *measure;
+    cli_work work;
+    koksma_optimise_options options;
+    koksma_status written; /* of the last write */
+    uint64_t last_gain;
+    double gained_s;
+    char name[KOKSMA_MAX_SPEC], line[KOKSMA_MAX_SPEC + 128];
+} job;
+
+/* Writes the best set whole or not at all: who ends the program at any moment finds the last one. */
+static koksma_status write_best(const job *j, const koksma_optimum *best)
+{
+    char comment[KOKSMA_MAX_SPEC + 256];
+    snprintf(comment, sizeof comment, "optimised for %s\nvalue %.17g\nseed %llu\nsteps %llu\nkoksma %s", j->name,
+             best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain, koksma_version());
+    return koksma_points_write(cli_text(j->arguments, "output", NULL), &best->points, comment, NULL);
+}
+
+static bool progress(void *context, const koksma_optimum *best)
+{
+    job *j = context;
+    const double now_s = cli_seconds();
+    if (best->steps == 0 || best->last_gain > j->last_gain) {
+        j->last_gain = best->last_gain;
+        j->gained_s = now_s;
+        j->written = write_best(j, best);
+    }
+    char bound[48] = "";
+    if (best->lower == best->lower) {
+        snprintf(bound, sizeof bound, " (at least %.6g)", best->lower);
+    }
+    snprintf(j->line, sizeof j->line, "%s %.10g%s, last gain %.0f s ago, step %llu,", j->name, best->value, bound,
+             now_s - j->gained_s, (unsigned long long)best->steps);
+    return !j->written;
+}
+
+static int report(job *j, const koksma_optimum *best)
+{
+    cli_rows *rows = cli_rows_open(cli_flag(j->arguments, "json"));
+    cli_row_text(rows, "measure", j->name);
+    cli_row_whole(rows, "n", best->points.n);
+    cli_row_whole(rows, "dim", (uint64_t)best->points.dim);
+    cli_row_number(rows, "value", best->value);
+    cli_row_number(rows, "lower", best->lower);
+    cli_row_text(rows, "method", best->method);
+    cli_row_whole(rows, "seed", j->options.seed);
+    cli_row_whole(rows, "steps", best->steps);
+    cli_row_whole(rows, "last_gain", best->last_gain);
+    cli_row_text(rows, "version", koksma_version());
+    cli_row_end(rows);
+    return cli_rows_close(rows);
+}
+
+/* --from: a file, or a pattern of n points. */
+static int first_set(job *j, bool counted, koksma_points *from)
+{
+    const char *text = cli_text(j->arguments, "from", NULL);
+    koksma_spec spec;
+    if (!text) {
+        return CLI_YES;
+    }
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":"), text);
+    koksma_status status;
+    if (!koksma_pattern_find(name)) {
+        status = koksma_points_read(text, from);
+        j->options.n = counted || status ? j->options.n : from->n;
+        j->options.dim = cli_text(j->arguments, "dim", NULL) || status ? j->options.dim : from->dim;
+    } else {
+        status = koksma_pattern_spec(text, &spec);
+        status = status ? status : koksma_points_init(from, j->options.n, j->options.dim);
+        status = status ? status : koksma_generate(&spec, j->options.seed, &j->work.run, from);
+    }
+    j->options.from = from;
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
+static bool parse(job *j)
+{
+    const cli_arguments *arguments = j->arguments;
+    static const char *const kept[] = {"none", "latin", "net"};
+    const char *keep = cli_text(arguments, "keep", "none");
+    uint64_t n, dim;
+    int k = 0;
+    while (k < 3 && strcmp(keep, kept[k]) != 0) {
+        k++;
+    }
+    if (k == 3) {
+        cli_usage_error(arguments, "--keep %s: it takes none, latin or net", keep);
+        return false;
+    }
+    if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
+        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
+        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j->options.seed) ||
+        !cli_whole(arguments, "steps", 0, 1, UINT64_MAX, &j->options.steps) ||
+        !cli_work_begin(arguments, "optimising", &j->work)) {
+        return false;
+    }
+    j->options.n = n;
+    j->options.dim = (int)dim;
+    j->options.keep = (koksma_keep)k;
+    return cli_real(arguments, "time-limit", j->options.steps ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
+}
+
+static int run(const cli_arguments *arguments)
+{
+    koksma_spec measure;
+    koksma_points from = {0};
+    koksma_optimum best = {0};
+    job j = {.arguments = arguments, .measure = &measure, .options = {.progress = progress, .context = &j}};
+    if (arguments->n_operands != 1) {
+        return cli_usage_error(arguments, "it takes one measure, such as star or l2-disk:r=0.25");
+    }
+    if (!cli_text(arguments, "output", NULL)) {
+        return cli_usage_error(arguments, "-o FILE, where the best set is kept, is missing");
+    }
+    koksma_status status = koksma_measure_spec(arguments->operands[0], &measure);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    const bool counted = cli_text(arguments, "n", NULL), given = cli_text(arguments, "from", NULL);
+    if (!counted && !given) {
+        return cli_usage_error(arguments, "-n N, the number of points, is missing");
+    }
+    koksma_spec_text(&measure, j.name);
+    if (!parse(&j)) {
+        return CLI_USAGE;
+    }
+    int code = first_set(&j, counted, &from);
+    if (!code) {
+        j.work.what = j.line;
+        j.gained_s = cli_seconds();
+        status = koksma_optimise(&measure, &j.options, &j.work.run, &best);
+        cli_work_end(&j.work);
+        status = j.written ? j.written : status;
+        if (best.points.n) {
+            code = report(&j, &best);
+        }
+        code = status ? cli_fail(arguments, status) : code;
+    }
+    koksma_optimum_fini(&best);
+    koksma_points_fini(&from);
+    return code;
+}
+
+static const cli_option options[] = {
+    {'n', "n", "N", "number of points (may be left out with --from FILE)"},
+    {'d', "dim", "DIM", "number of dimensions (default: 2)"},
+    {0, "from", "PATTERN|FILE", "the first set (default: latin-hypercube; with --keep net: sobol)"},
+    {0, "keep", "none|latin|net", "what the points may not lose (default: none)"},
+    {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
+    {0, "time-limit", "SECONDS",
+     "end after the step in which so many seconds pass (default: 60, with --steps: none)"},
+    {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
+    {'o', "output", "FILE", "the best set, .txt, .csv or .npy by its ending; written anew after each gain"},
+    CLI_ROW_OPTIONS,
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_optimise = {
+    .name = "optimise",
+    .summary = "search for points with a small value of a measure",
+    .synopsis = "MEASURE -n N [-d DIM] [--from PATTERN|FILE] [--keep WHAT] [--steps K] -o FILE",
+    .details = "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
+               "arguments\n"
+               "with --steps give equal sets, on any number of threads; after a time limit the row says how many "
+               "steps were\n"
+               "done, and --steps with that number gives the set again. FILE holds the best set at any moment: the "
+               "search may\n"
+               "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
+               "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
+               "length 1/n.",
+    .options = options,
+    .run = run,
+};

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Search for point sets with a small value of a measure. Part of libkoksma.
+ *
+ *     koksma_optimum best;
+ *     koksma_optimise_options options = {.n = 16, .dim = 2, .steps = 20};
+ *     if (!koksma_measure_spec("star", &star) && !koksma_optimise(&star, &options, NULL, &best)) {
+ *         printf("%g after %llu steps\n", best.value, (unsigned long long)best.steps);
+ *     }
+ *     koksma_optimum_fini(&best);
+ *
+ * Work proceeds in steps of a fixed amount: equal measure, n, dim, from, keep, seed and number of steps give equal
+ * bits, for any number of threads.
+ */
+#ifndef KOKSMA_OPTIMISE_H
+#define KOKSMA_OPTIMISE_H
+
+#include <koksma/koksma.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the search may not give up. */
+typedef enum koksma_keep {
+    KOKSMA_KEEP_NONE,
+    KOKSMA_KEEP_LATIN, /* along each axis the coordinates stay those of the first set, in another order */
+    KOKSMA_KEEP_NET    /* each coordinate stays in its interval of length 1/n, with which a (t,m,s)-net of n = b^m
+                          points stays one */
+} koksma_keep;
+
+/* The best set so far. */
+typedef struct koksma_optimum {
+    koksma_points points;
+    double value;       /* of the measure, by koksma_evaluate */
+    double lower;       /* no n points of so many dimensions have a smaller value; NaN where none is known */
+    uint64_t steps;     /* done */
+    uint64_t last_gain; /* the step that found these points; 0: they are the first set */
+    const char *method; /* of the search, as `koksma list methods` names it */
+} koksma_optimum;
+
+typedef struct koksma_optimise_options {
+    size_t n; /* 1 or more */
+    int dim;
+    const koksma_points *from; /* the first set, n points of dim; NULL: n Latin hypercube points, with
+                                  KOKSMA_KEEP_NET the first n of the Sobol' sequence */
+    koksma_keep keep;
+    uint64_t seed;
+    uint64_t steps; /* 0: until the time limit, or until progress returns false */
+    bool (*progress)(void *context, const koksma_optimum *best); /* called with the first set, and after each step, on
+                                                          the calling thread; returns false to stop. May be NULL */
+    void *context;                                               /* passed to progress */
+} koksma_optimise_options;
+
+/* A method of search: one line of `koksma list methods`. */
+typedef struct koksma_method {
+    const char *name, *title, *cite;
+    /* How well it serves such a search; 0: it cannot. Of all methods the one with the largest number does it. */
+    int (*serves)(const koksma_spec *measure, size_t n, int dim, koksma_keep keep);
+    /* Replaces points, the best so far, whose value is given, by another candidate. A pure function of its arguments;
+       several threads call it at once. */
+    koksma_status (*search)(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+                            koksma_points *points);
+} koksma_method;
+
+/* Returns method i of the table, or the method with this name; NULL if there is none. */
+KOKSMA_API const koksma_method *koksma_method_at(size_t i);
+KOKSMA_API const koksma_method *koksma_method_find(const char *name);
+
+/* Searches for points with a small value of a measure (a large one of a distance). Allocates out.
+     measure  any measure that is exact
+     run      its time limit ends the search after the step in which it passes; at least one step is done
+   Errors: ARGUMENT (of options or the measure), N, DIM, MEMORY; INTERRUPTED by run->keep_going, after which out holds
+   the best set. */
+KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
+                                         const koksma_run *run, koksma_optimum *out);
+
+/* Frees the points and zeroes the struct. best may be NULL, or zeroed. */
+KOKSMA_API void koksma_optimum_fini(koksma_optimum *best);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

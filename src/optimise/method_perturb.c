@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * perturb: for any measure, by its value alone. A walk moves one point at a time, by a step whose length is drawn anew
+ * from 1 down to 10^-4 of the mean spacing n^(-1/d) (log-uniform), on the torus; with keep=net within its intervals of
+ * length 1/n; with keep=latin it swaps a coordinate of two points instead. A move is kept if the value gets no larger than
+ * the walk's plus a threshold that falls to 0 (threshold accepting: Dueck & Scheuer 1990).
+ */
+#include <math.h>
+#include <string.h>
+
+#include "optimise/methods.h"
+
+enum { MOVES = 200 };
+
+static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+{
+    (void)measure, (void)n, (void)dim, (void)keep;
+    return 1;
+}
+
+/* One coordinate of a point, moved by up to `reach`. */
+static double moved(double x, double reach, size_t n, koksma_keep keep, koksma__stream *random)
+{
+    const double cell = 1 / (double)n, by = reach * (2 * koksma__next_unit(random) - 1);
+    if (keep == KOKSMA_KEEP_NET) {
+        const double low = floor(x * (double)n) * cell, to = x + by * cell;
+        return to >= low && to < low + cell && to < 1 && floor(to * (double)n) == floor(x * (double)n) ? to : x;
+    }
+    const double to = x + by, wrapped = to - floor(to);
+    return wrapped < 1 ? wrapped : 0;
+}
+
+static koksma_status value_of(const koksma_spec *measure, const koksma_points *points, double *value)
+{
+    const koksma_run run = {.threads = 1};
+    koksma_value v;
+    const koksma_status status = koksma_evaluate(measure, points, &run, &v);
+    *value = measure->measure->larger_is_better ? -v.value : v.value;
+    return status;
+}
+
+static void move(koksma_points *points, koksma_keep keep, koksma__stream *random, double *a, double *b)
+{
+    const size_t dim = (size_t)points->dim, k = koksma__next_below(random, dim);
+    if (keep == KOKSMA_KEEP_LATIN) {
+        const double swapped = a[k];
+        a[k] = b[k];
+        b[k] = swapped;
+        return;
+    }
+    const double spacing = keep == KOKSMA_KEEP_NET ? 1 : pow((double)points->n, -1.0 / points->dim);
+    const double reach = spacing * pow(10, -4 * koksma__next_unit(random));
+    for (size_t c = 0; c < dim; c++) {
+        a[c] = moved(a[c], reach, points->n, keep, random);
+    }
+}
+
+static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+                            koksma_points *points)
+{
+    koksma__stream random = {.seed = seed};
+    const size_t dim = (size_t)points->dim, bytes = dim * sizeof(double);
+    const double tolerance = 0.01 * koksma__next_unit(&random) * value;
+    double current = measure->measure->larger_is_better ? -value : value, before[2 * KOKSMA_MAX_DIM];
+    koksma_status status = KOKSMA_OK;
+    for (int m = 0; m < MOVES && !status; m++) {
+        double *a = points->xs + koksma__next_below(&random, points->n) * dim,
+               *b = points->xs + koksma__next_below(&random, points->n) * dim, after;
+        memcpy(before, a, bytes);
+        memcpy(before + dim, b, bytes);
+        move(points, keep, &random, a, b);
+        status = value_of(measure, points, &after);
+        if (after <= current + tolerance * (1 - (double)(m + 1) / MOVES)) {
+            current = after;
+        } else {
+            memcpy(a, before, bytes);
+            memcpy(b, before + dim, bytes);
+        }
+    }
+    return status;
+}
+
+const koksma_method koksma__method_perturb = {
+    .name = "perturb",
+    .title = "moves of one point, or swaps of one coordinate, by the value alone",
+    .cite = "dueck1990",
+    .serves = serves,
+    .search = search,
+};

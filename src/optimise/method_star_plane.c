@@ -1,0 +1,606 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * star-plane: the star discrepancy of the plane, by a search over permutations with exact coordinates.
+ *
+ * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f. Then
+ * coordinates with D* <= f exist if and only if
+ *
+ *     X_i Y_j >= c(i,j) - F,   X_i Y_j <= c(i-1,j-1) + F,   X_i <= X_i+1,   Y_j <= Y_j+1,   X_n+1 Y_n+1 = n,
+ *
+ * i, j = 1 .. n + 1; the side of the square is X_n+1, Y_n+1. In logarithms these are difference constraints: they have a
+ * solution if no cycle of them is violated, and then any start leads to one, by raising X and lowering Y where a
+ * constraint is violated, one node after the other (Bellman & Ford with a queue). A violated cycle, found by following the
+ * causes of changes, closes at the F that makes the product of its counts - F equal to that of its counts + F: F is set to
+ * it, and the work goes on. When nothing is violated, F is the least for p, and the cycle that set it is the critical one.
+ *
+ * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; one in four is the best
+ * set. Moves: two points swap their ranks by y, such that a box of the critical cycle that holds too many points loses
+ * one, or one that holds too few gains one: no other swap can help. A move is refused at once if a cycle that was violated
+ * before (the last CYCLES are kept) is violated by the new counts at the threshold F. Threshold accepting (Dueck & Scheuer
+ * 1990) with a falling threshold. Work is counted in corners looked at.
+ *
+ * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "kernels/kernels.h"
+#include "measures/measures.h"
+#include "measures/shared/order.h"
+#include "optimise/methods.h"
+
+enum { MAX_N = 4096, PATIENCE = 3000, ACCEPTED = 8, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
+
+/* Corners looked at in one search: some tenths of a second. */
+static double budget_of(size_t n)
+{
+    return 1e8 + 1e6 * (double)n;
+}
+
+/* Violations below this many points are rounding. */
+static const double TOLERANCE = 1e-10;
+
+/* The count of corner (i, j) at which a cycle goes from Y_j to X_i (an excess; sign = 1) or, of corner (i, j) = (i' - 1,
+   j' - 1), from X_i' to Y_j' (a deficit; -1). */
+typedef struct edge {
+    uint16_t i, j;
+    int8_t sign;
+} edge;
+
+typedef struct cycle {
+    size_t n;
+    edge edges[MAX_EDGES];
+} cycle;
+
+/* Two points, first by x, that swap their ranks. */
+typedef struct swap {
+    size_t a, b;
+} swap;
+
+typedef struct plane {
+    size_t n, side, stride;   /* side: n + 1 nodes for each axis */
+    uint32_t *rank, *at;      /* p and its inverse, 1 .. n */
+    int16_t *counts, *turned; /* c(i,j) at i stride + j, and at j stride + i, 0 .. n + 1 */
+    double *v, *saved;        /* X_1 .. X_n+1, Y_1 .. Y_n+1 */
+    float *rounded;           /* the same in floats */
+    uint32_t *cause, *queue, *found, *stamps;
+    uint8_t *queued;
+    size_t first, waiting; /* of the queue, a ring of 2 side nodes */
+    uint32_t stamp;
+    cycle cycles[CYCLES];    /* those that were violated last in front */
+    edge *traced, *critical; /* up to 2 side edges */
+    size_t n_traced, n_critical;
+    double work, budget;
+    koksma__stream random;
+    void *memory;
+} plane;
+
+static koksma_status plane_init(plane *s, size_t n, uint64_t seed)
+{
+    *s = (plane){
+        .n = n, .side = n + 1, .stride = (n + 2 + 31) / 32 * 32, .random = {.seed = seed}, .budget = budget_of(n)};
+    const size_t nodes = 2 * s->side, matrix = (n + 2) * s->stride;
+    const size_t bytes = 2 * nodes * sizeof(double) + nodes * sizeof(float) +
+                         (4 * nodes + 2 * (n + 1)) * sizeof(uint32_t) + 2 * nodes * sizeof(edge) +
+                         2 * matrix * sizeof(int16_t) + nodes;
+    s->memory = calloc(1, bytes);
+    if (!s->memory) {
+        return koksma__fail_memory(bytes);
+    }
+    s->v = s->memory;
+    s->saved = s->v + nodes;
+    s->rounded = (float *)(s->saved + nodes);
+    s->cause = (uint32_t *)(s->rounded + nodes);
+    s->queue = s->cause + nodes;
+    s->found = s->queue + nodes;
+    s->stamps = s->found + nodes;
+    s->rank = s->stamps + nodes;
+    s->at = s->rank + n + 1;
+    s->traced = (edge *)(s->at + n + 1);
+    s->critical = s->traced + nodes;
+    s->counts = (int16_t *)(s->critical + nodes);
+    s->turned = s->counts + matrix;
+    s->queued = (uint8_t *)(s->turned + matrix);
+    return KOKSMA_OK;
+}
+
+/* The counts of s->rank; its inverse. */
+static void count_all(plane *s)
+{
+    const size_t n = s->n, stride = s->stride;
+    for (size_t i = 1; i <= n; i++) {
+        s->at[s->rank[i]] = (uint32_t)i;
+    }
+    for (int turned = 0; turned < 2; turned++) {
+        const uint32_t *rank = turned ? s->at : s->rank;
+        int16_t *c = turned ? s->turned : s->counts;
+        for (size_t i = 1; i <= n; i++) {
+            int16_t *row = c + i * stride;
+            memcpy(row, row - stride, (n + 2) * sizeof *row);
+            for (size_t j = rank[i]; j <= n + 1; j++) {
+                row[j]++;
+            }
+        }
+        memcpy(c + (n + 1) * stride, c + n * stride, (n + 2) * sizeof *c);
+    }
+    s->work += 2.0 * (double)(n * n);
+}
+
+/* How a swap changes c(i,j). */
+static int change(const plane *s, swap w, size_t i, size_t j)
+{
+    const size_t a = s->rank[w.a], b = s->rank[w.b];
+    return i < w.a || i >= w.b ? 0 : a < b ? -(j >= a && j < b) : j >= b && j < a;
+}
+
+static void apply(plane *s, swap w)
+{
+    const uint32_t a = s->rank[w.a], b = s->rank[w.b], low = a < b ? a : b, high = a < b ? b : a;
+    const int16_t by = a < b ? -1 : 1;
+    for (size_t i = w.a; i < w.b; i++) {
+        for (size_t j = low; j < high; j++) {
+            s->counts[i * s->stride + j] = (int16_t)(s->counts[i * s->stride + j] + by);
+        }
+    }
+    for (size_t j = low; j < high; j++) {
+        for (size_t i = w.a; i < w.b; i++) {
+            s->turned[j * s->stride + i] = (int16_t)(s->turned[j * s->stride + i] + by);
+        }
+    }
+    s->rank[w.a] = b;
+    s->rank[w.b] = a;
+    s->at[b] = (uint32_t)w.a;
+    s->at[a] = (uint32_t)w.b;
+    s->work += 2.0 * (double)(w.b - w.a) * (high - low);
+}
+
+/* Whether a cycle is violated at F, after a swap (NULL: none). */
+static bool violated(const plane *s, const edge *edges, size_t n, double F, const swap *w)
+{
+    double more = 1, less = 1;
+    for (size_t e = 0; e < n; e++) {
+        const size_t i = edges[e].i, j = edges[e].j;
+        const double count = s->counts[i * s->stride + j] + (w ? change(s, *w, i, j) : 0);
+        if (edges[e].sign > 0) {
+            if (count <= F) {
+                return false;
+            }
+            more *= i == s->side && j == s->side ? count : count - F;
+        } else {
+            less *= i == s->side && j == s->side ? count : count + F;
+        }
+        if (more > 1e60 && less > 1e60) {
+            more *= 1e-60;
+            less *= 1e-60;
+        }
+    }
+    return more > less;
+}
+
+/* The F at which a cycle that is violated at F closes, rounded up. */
+static double closing(const plane *s, const edge *edges, size_t n, double F)
+{
+    double low = F, high = (double)s->n;
+    while (high - low > 1e-14 * high) {
+        const double middle = low + (high - low) / 2;
+        *(violated(s, edges, n, middle, NULL) ? &low : &high) = middle;
+    }
+    return high;
+}
+
+static void push(plane *s, uint32_t node)
+{
+    if (!s->queued[node]) {
+        const size_t nodes = 2 * s->side;
+        s->queued[node] = 1;
+        s->queue[(s->first + s->waiting++) % nodes] = node;
+    }
+}
+
+/* Nothing is waiting, nothing has a cause. */
+static void clear(plane *s)
+{
+    memset(s->queued, 0, 2 * s->side);
+    memset(s->cause, 0xff, 2 * s->side * sizeof *s->cause);
+    s->first = s->waiting = 0;
+}
+
+/* The corner of the constraint by which one node moves another; false for neighbours, whose order alone does. */
+static bool corner_of(const plane *s, uint32_t from, uint32_t to, edge *out)
+{
+    const uint32_t side = (uint32_t)s->side;
+    if ((from < side) == (to < side)) {
+        return false;
+    }
+    const uint32_t x = from < side ? from : to, y = from < side ? to - side : from - side;
+    const bool outer = x + 1 == side && y + 1 == side, deficit = from < side;
+    *out = (edge){(uint16_t)(x + (outer || !deficit)), (uint16_t)(y + (outer || !deficit)), deficit ? -1 : 1};
+    return true;
+}
+
+/* Traces the cycle that closes when `from` moves `to`, which is among the causes of `from`. */
+static void trace(plane *s, uint32_t from, uint32_t to)
+{
+    s->n_traced = 0;
+    for (uint32_t node = to, cause = from;; node = cause, cause = s->cause[cause]) {
+        s->n_traced += corner_of(s, cause, node, &s->traced[s->n_traced]);
+        if (cause == to) {
+            return;
+        }
+    }
+}
+
+/* Moves a cycle to the front of those that are kept. */
+static void keep_cycle(plane *s, const cycle *c, size_t from)
+{
+    const cycle copy = *c;
+    memmove(s->cycles + 1, s->cycles, from * sizeof copy);
+    s->cycles[0] = copy;
+}
+
+/* The traced cycle raises F, becomes the critical one and is kept. */
+static void raise(plane *s, double *F)
+{
+    *F = fmax(closing(s, s->traced, s->n_traced, *F), *F * (1 + 1e-14));
+    memcpy(s->critical, s->traced, s->n_traced * sizeof *s->traced);
+    s->n_critical = s->n_traced;
+    if (s->n_traced <= MAX_EDGES) {
+        cycle c = {.n = s->n_traced};
+        memcpy(c.edges, s->traced, c.n * sizeof *c.edges);
+        keep_cycle(s, &c, CYCLES - 1);
+    }
+}
+
+/* Moves `to` because of `from`; false if `to` is among the causes of `from`. */
+static bool set(plane *s, uint32_t from, uint32_t to, double value)
+{
+    if (s->stamps[to] == s->stamp) {
+        trace(s, from, to);
+        return false;
+    }
+    s->v[to] = value;
+    s->rounded[to] = (float)value;
+    s->cause[to] = from;
+    push(s, to);
+    return true;
+}
+
+/* Corners of a node and the nodes from `others` on, `count` of them, that may be violated at F. */
+static size_t far(const plane *s, size_t count, const int16_t *counts, size_t others, uint32_t node, double F)
+{
+    const float sign = node < s->side ? -1 : 1, rounding = (float)s->n * 0x1p-21F;
+    return koksma__kernels()->far_corners(count, counts, s->rounded + others, sign, sign * s->rounded[node],
+                                          (float)F - rounding, s->found);
+}
+
+/* Moves what a node violates; false when a cycle closes. */
+static bool relax(plane *s, uint32_t node, double F)
+{
+    const size_t side = s->side;
+    const bool x = node < side;
+    const uint32_t at = x ? node : node - (uint32_t)side, last = (uint32_t)side - 1;
+    const double value = s->v[node];
+    const uint32_t outer = x ? last + (uint32_t)side : last, next = x ? node + 1 : node - 1;
+    s->stamp++;
+    for (uint32_t n = node; n != NONE; n = s->cause[n]) {
+        s->stamps[n] = s->stamp;
+    }
+    if (at == last) {
+        const double other = (double)s->n / value;
+        if ((x ? s->v[outer] - other : other - s->v[outer]) > 1e-14 * other && !set(s, node, outer, other)) {
+            return false;
+        }
+    }
+    if (at != (x ? last : 0) && (x ? s->v[next] < value : s->v[next] > value) && !set(s, node, next, value)) {
+        return false;
+    }
+    const int16_t *counts = x ? s->counts + at * s->stride : s->turned + (at + 1) * s->stride + 1;
+    const uint32_t others = x ? (uint32_t)side : 0;
+    const size_t found = far(s, side, counts, others, node, F);
+    for (size_t k = 0; k < found; k++) {
+        const uint32_t other = others + s->found[k];
+        const double count = counts[s->found[k]], volume = s->v[other] * value;
+        if ((x ? volume - count : count - volume) > F + TOLERANCE &&
+            !set(s, node, other, (count + (x ? F : -F)) / value)) {
+            return false;
+        }
+    }
+    s->work += (double)side + 32;
+    return true;
+}
+
+/* Works on until nothing is violated. A cycle raises F; false if above limit. */
+static bool settle(plane *s, double *F, double limit)
+{
+    const size_t nodes = 2 * s->side;
+    while (s->waiting) {
+        const uint32_t node = s->queue[s->first];
+        s->first = (s->first + 1) % nodes;
+        s->waiting--;
+        s->queued[node] = 0;
+        if (!relax(s, node, *F)) {
+            raise(s, F);
+            if (*F > limit) {
+                return false;
+            }
+            memset(s->cause, 0xff, nodes * sizeof *s->cause);
+            push(s, node);
+        }
+    }
+    return true;
+}
+
+/* Settles all constraints at F; a cycle raises it. False if above limit. */
+static bool settle_all(plane *s, double *F, double limit)
+{
+    clear(s);
+    for (uint32_t node = 0; node < 2 * s->side; node++) {
+        push(s, node);
+    }
+    return settle(s, F, limit);
+}
+
+/* The largest F at which a kept cycle closes, at most that of the permutation; the cycle becomes the critical one. */
+static double estimate(plane *s)
+{
+    double F = 0;
+    for (size_t c = 0; c < CYCLES; c++) {
+        const cycle *kept = &s->cycles[c];
+        if (violated(s, kept->edges, kept->n, F, NULL)) {
+            F = closing(s, kept->edges, kept->n, F);
+            memcpy(s->critical, kept->edges, kept->n * sizeof(edge));
+            s->n_critical = kept->n;
+        }
+    }
+    return F;
+}
+
+/* The least F of the permutation, from coordinates without violations at limit. */
+static bool solve(plane *s, double *F, double limit)
+{
+    *F = estimate(s);
+    for (double guess = 0.98 * limit; *F < guess; guess *= 0.96) {
+        double least = guess;
+        s->n_critical = 0;
+        if (!settle_all(s, &least, limit)) {
+            return false;
+        }
+        if (s->n_critical) {
+            *F = least;
+            return true;
+        }
+    }
+    return *F <= limit && settle_all(s, F, limit);
+}
+
+/* Whether a rank is within reach of a corner's, above it or up to it. */
+static bool beside(size_t rank, size_t j, size_t reach, bool above)
+{
+    return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
+}
+
+/* A swap that lowers the count of a corner with too many points of the critical cycle, or raises one with too few. */
+static bool draw_swap(plane *s, swap *w)
+{
+    const edge e = s->critical[koksma__next_below(&s->random, s->n_critical)];
+    const size_t n = s->n, i = e.i, j = e.j;
+    if (i == 0 || i >= n || j == 0 || j >= n) {
+        return false;
+    }
+    const bool many = e.sign > 0;
+    const size_t reach = (size_t)sqrt((double)n) << koksma__next_below(&s->random, 2);
+    const size_t before = i < reach ? i : reach, after = n - i < reach ? n - i : reach;
+    size_t a = i - koksma__next_below(&s->random, before), b = i + 1 + koksma__next_below(&s->random, after);
+    for (size_t left = reach; left && a && !beside(s->rank[a], j, reach, !many); left--) {
+        a--;
+    }
+    for (size_t left = reach; left && b <= n && !beside(s->rank[b], j, reach, many); left--) {
+        b++;
+    }
+    *w = (swap){a, b};
+    return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
+}
+
+/* Whether a kept cycle is violated at F after a swap. */
+static bool refused(plane *s, double F, const swap *w)
+{
+    for (size_t c = 0; c < CYCLES && s->cycles[c].n; c++) {
+        if (violated(s, s->cycles[c].edges, s->cycles[c].n, F, w)) {
+            keep_cycle(s, &s->cycles[c], c);
+            return true;
+        }
+    }
+    return false;
+}
+
+static void round_all(plane *s)
+{
+    for (size_t k = 0; k < 2 * s->side; k++) {
+        s->rounded[k] = (float)s->v[k];
+    }
+}
+
+/* Queues the nodes of what a swap that was applied violates at F. */
+static void push_violated(plane *s, swap w, double F)
+{
+    const size_t side = s->side, stride = s->stride, a = s->rank[w.a], b = s->rank[w.b];
+    const bool fewer = a > b; /* after the swap */
+    const size_t low = fewer ? b : a, high = fewer ? a : b;
+    for (size_t k = fewer ? w.a : low; k < (fewer ? w.b : high); k++) {
+        const int16_t *counts = fewer ? s->counts + k * stride + low : s->turned + k * stride + w.a;
+        const uint32_t node = (uint32_t)(fewer ? k : side + k - 1);
+        if (far(s, fewer ? high - low : w.b - w.a, counts, fewer ? side + low : w.a - 1, node, F)) {
+            push(s, node);
+        }
+    }
+}
+
+/* One or two swaps, if F does not get above limit; the coordinates then are for limit, as they were before. */
+static bool move(plane *s, double limit)
+{
+    swap w[2];
+    const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
+    if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, limit, &w[0]))) {
+        return false;
+    }
+    apply(s, w[0]);
+    if (n == 2) {
+        if (!draw_swap(s, &w[1]) || refused(s, limit, &w[1])) {
+            apply(s, w[0]);
+            return false;
+        }
+        apply(s, w[1]);
+    }
+    const size_t bytes = 2 * s->side * sizeof *s->v;
+    memcpy(s->saved, s->v, bytes);
+    clear(s);
+    double at_limit = limit;
+    for (int k = 0; k < n; k++) {
+        push_violated(s, w[k], limit);
+    }
+    if (settle(s, &at_limit, limit)) {
+        return true;
+    }
+    for (int k = n; k-- > 0;) {
+        apply(s, w[k]);
+    }
+    memcpy(s->v, s->saved, bytes);
+    round_all(s);
+    return false;
+}
+
+/* Coordinates at F are kept as points, those of the square's side at 1. */
+static void write_points(const plane *s, koksma_points *points)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        const double x = s->v[i] / s->v[s->n], y = s->v[s->side + s->rank[i + 1] - 1] / s->v[2 * s->side - 1];
+        points->xs[2 * i] = fmin(x, 1 - 0x1p-53);
+        points->xs[2 * i + 1] = fmin(y, 1 - 0x1p-53);
+    }
+}
+
+/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. Between exact values,
+   which are found after each ACCEPTED moves and where *best may be beaten, the limit stays and the kept cycles lead. */
+static void walk(plane *s, double F, double *best, koksma_points *points)
+{
+    const double threshold = F * 0.03 * koksma__next_unit(&s->random);
+    double limit = F + threshold;
+    size_t accepted = 0;
+    for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
+        if (!move(s, limit) || (estimate(s) >= *best && ++accepted % ACCEPTED)) {
+            continue;
+        }
+        double to = limit;
+        if (!solve(s, &to, limit)) {
+            return; /* within rounding of the limit */
+        }
+        if (to < F) {
+            m = 0;
+            F = to;
+        }
+        if (to < *best) {
+            *best = to;
+            write_points(s, points);
+        }
+        limit = to + threshold * (1 - (double)m / PATIENCE);
+    }
+}
+
+/* Order and coordinates of given points; those of the square's side are 1. */
+static koksma_status take_points(plane *s, const double *xs, uint32_t *order)
+{
+    const koksma_run run = {.threads = 1};
+    const size_t n = s->n;
+    for (size_t k = 2; k-- > 0;) { /* y, then x */
+        const koksma_status status = koksma__order(&run, n, xs + k, 2, order);
+        if (status) {
+            return status;
+        }
+        for (size_t i = 0; i < n; i++) {
+            const double value = fmax(xs[2 * order[i] + k], 0.25 / (double)n);
+            s->v[k * s->side + i] = k ? value : value * (double)n;
+            (k ? s->at : s->rank)[i + 1] = order[i];
+        }
+    }
+    s->v[n] = (double)n;
+    s->v[2 * s->side - 1] = 1;
+    for (size_t j = 1; j <= n; j++) {
+        order[s->at[j]] = (uint32_t)j; /* the rank by y of each point */
+    }
+    for (size_t i = 1; i <= n; i++) {
+        s->rank[i] = order[s->rank[i]];
+    }
+    round_all(s);
+    count_all(s);
+    return KOKSMA_OK;
+}
+
+/* The points (i, {i a + s}), a of random small partial quotients. */
+static void draw_start(plane *s, double *xs)
+{
+    koksma__stream *random = &s->random;
+    double a = koksma__next_unit(random);
+    for (int k = 0; k < 24; k++) {
+        double quotient = 1;
+        while (quotient < 20 && koksma__next_unit(random) > 0.75) {
+            quotient++;
+        }
+        a = 1 / (quotient + a);
+    }
+    const double shift = koksma__next_unit(random);
+    for (size_t i = 0; i < s->n; i++) {
+        const double y = (double)i * a + shift;
+        xs[2 * i] = ((double)i + 0.5) / (double)s->n;
+        xs[2 * i + 1] = y - floor(y);
+    }
+}
+
+static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
+                            koksma_points *points)
+{
+    (void)measure, (void)keep;
+    const size_t n = points->n;
+    plane s;
+    koksma_status status = plane_init(&s, n, seed);
+    double *xs = status ? NULL : malloc(2 * n * sizeof *xs + n * sizeof(uint32_t));
+    uint32_t *order = (uint32_t *)(xs + (xs ? 2 * n : 0));
+    if (!status && !xs) {
+        status = koksma__fail_memory(3 * n * sizeof *xs);
+    }
+    bool again = koksma__next_below(&s.random, 4) == 0;
+    double best = value * (double)n * (1 + 1e-9), F;
+    while (!status && s.work < s.budget) {
+        if (again) {
+            memcpy(xs, points->xs, 2 * n * sizeof *xs);
+        } else {
+            draw_start(&s, xs);
+        }
+        status = take_points(&s, xs, order);
+        double limit = (again ? 1 : 1.05) * best;
+        if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
+            if (F < best) {
+                best = F;
+                write_points(&s, points);
+            }
+            walk(&s, F, &best, points);
+        }
+    }
+    free(xs);
+    free(s.memory);
+    return status;
+}
+
+static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep keep)
+{
+    return measure->measure == &koksma__measure_star && dim == 2 && n <= MAX_N && keep == KOKSMA_KEEP_NONE ? 10 : 0;
+}
+
+const koksma_method koksma__method_star_plane = {
+    .name = "star-plane",
+    .title = "permutations with exact coordinates by difference constraints (star, 2D)",
+    .cite = "clement2023 dueck1990",
+    .serves = serves,
+    .search = search,
+};

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The table of methods (methods.def): member i, and the member of a name. */
+#include "optimise/methods.h"
+#include "core/lookup.h"
+
+static const koksma_method *const methods[] = {
+#define METHOD(name) &koksma__method_##name,
+#include "optimise/methods.def"
+#undef METHOD
+};
+
+KOKSMA__LOOKUP(koksma_method, methods)
