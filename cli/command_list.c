@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/optimise.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
-#include <koksma/optimise.h>
 #include <koksma/warp.h>
 
 #include "curves.h"
@@ -287,13 +287,13 @@ static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},     {"measures", list_measures},     {"claims", list_claims},
-    {"properties", list_properties}, {"warps", list_warps},           {"curves", list_curves},
-    {"scenes", list_scenes},         {"materials", list_materials},   {"lights", list_lights},
-    {"shapes", list_shapes},         {"formats", list_formats},       {"integrators", list_integrators},
-    {"pipelines", list_pipelines},   {"filters", list_filters},       {"uses", list_uses},
-    {"adaptive", list_adaptive},     {"methods", list_methods}, {"plans", list_plans},           {"questions", list_questions},
-    {"sections", list_sections},     {"parameters", list_parameters},
+    {"patterns", list_patterns},     {"measures", list_measures},   {"claims", list_claims},
+    {"properties", list_properties}, {"warps", list_warps},         {"curves", list_curves},
+    {"scenes", list_scenes},         {"materials", list_materials}, {"lights", list_lights},
+    {"shapes", list_shapes},         {"formats", list_formats},     {"integrators", list_integrators},
+    {"pipelines", list_pipelines},   {"filters", list_filters},     {"uses", list_uses},
+    {"adaptive", list_adaptive},     {"methods", list_methods},     {"plans", list_plans},
+    {"questions", list_questions},   {"sections", list_sections},   {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)

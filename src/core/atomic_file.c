@@ -141,12 +141,13 @@ static bool make_temporary(output *o)
             continue;
         }
         const bool locked = o->descriptor >= 0 && (!flock(o->descriptor, LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK);
-        if (o->descriptor < 0 || (locked && !fstat(o->descriptor, &info) && info.st_nlink == 1)) {
+        if (o->descriptor < 0 || (locked && !fstat(o->descriptor, &info) && info.st_nlink > 0)) {
             return o->descriptor >= 0;
         }
         close(o->descriptor); /* somebody is removing it as a leftover */
         o->descriptor = -1;
     }
+    errno = EAGAIN;
     return false;
 }
 
@@ -188,7 +189,9 @@ static bool open_special(const char *path, output *o)
     struct stat info;
     const int stream = descriptor_of(path);
     if (stream >= 0) {
-        fflush(stream == STDOUT_FILENO ? stdout : NULL);
+        if (stream == STDOUT_FILENO) {
+            fflush(stdout);
+        }
         o->descriptor = fcntl(stream, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
         return true;
     }
@@ -308,6 +311,11 @@ koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__
     }
     file->output = o;
     return KOKSMA_OK;
+}
+
+void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH])
+{
+    snprintf(path, KOKSMA__TEMPORARY_PATH, "/proc/self/fd/%d/%s", file->output->folder, file->output->temporary);
 }
 
 /* ---- Closing --------------------------------------------------------------------------------------------- */

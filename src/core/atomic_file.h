@@ -19,6 +19,11 @@ typedef struct koksma__atomic_file {
    chose: links below folder are not followed, and one in the file's place is replaced. Errors: IO, MEMORY. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
+enum { KOKSMA__TEMPORARY_PATH = 64 };
+
+/* The path of the temporary file while it is open, for a library that opens files by name. Only of plain files. */
+KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH]);
+
 /* Closes the file. If keep is true it is synced and put in its place; if keep is false, or a step fails, what was in
    its place stays. Errors: IO, with the system's reason for the first write that failed. */
 KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep);

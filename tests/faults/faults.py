@@ -126,7 +126,7 @@ def problem_of_run(done, good, kind, mode):
 def problem_of_files(now, good, code, mode):
     for name, bytes_now in now.items():
         base = os.path.basename(name)
-        if base.startswith((".koksma-", "koksma-")):
+        if base.startswith(".koksma-"):
             if mode != "end":
                 return f"left {name} behind"
         elif name not in good.files:

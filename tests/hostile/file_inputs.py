@@ -296,6 +296,10 @@ def main():
         seen |= check_named_by_user(checks, program, folder, kinds)
         check_pipes(checks, program, folder)
         check_descriptors(checks, program, folder)
+    with open(os.path.join(SOURCE, "docs/files.md"), encoding="utf-8") as stream:
+        rows = re.findall(r"^\| ([^|]+) \| (\d+) MiB \|", stream.read(), re.M)
+    checks.check({(text, int(mib) << 20) for text, mib in rows} == {(text, most) for most, text in kinds.values()},
+                 f"docs/files.md has another table: {rows}")
     checks.check(seen == set(kinds), f"kinds of file without a case: {set(kinds) - seen}")
     checks.end()
 

@@ -103,10 +103,11 @@ static koksma_status build(const char *path, const koksma__database *old, int sc
 
 /* Says in the header that the file has a write-ahead log, which SQLite would do in place, with a journal that a kill
    may leave behind: bytes 18 and 19 (https://sqlite.org/fileformat.html). */
-static koksma_status mark_as_logged(FILE *stream, const char *path)
+static koksma_status mark_as_logged(const char *temporary, const char *path)
 {
-    const bool done = !fseek(stream, 18, SEEK_SET) && fwrite("\2\2", 1, 2, stream) == 2 && !fflush(stream) &&
-                      !fsync(fileno(stream));
+    FILE *stream = fopen(temporary, "r+be");
+    const bool written = stream && !fseek(stream, 18, SEEK_SET) && fwrite("\2\2", 1, 2, stream) == 2;
+    const bool done = stream && !fclose(stream) && written;
     return done ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: writing failed: %s", path, strerror(errno));
 }
 
@@ -115,16 +116,18 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
 {
     koksma__atomic_file file;
     koksma__store *store;
-    koksma_status status = koksma__atomic_open(path, &file);
+    koksma_status status = koksma__atomic_open(NULL, path, &file);
     if (status) {
         return status;
     }
-    status = build(file.temporary, old, schema, &store);
+    char temporary[KOKSMA__TEMPORARY_PATH];
+    koksma__atomic_temporary(&file, temporary);
+    status = build(temporary, old, schema, &store);
     const koksma_status closed = koksma__store_close(store);
     status = status ? status : closed;
-    status = status ? status : mark_as_logged(file.stream, path);
+    status = status ? status : mark_as_logged(temporary, path);
     bool keep = !status;
-    if (keep && !old && (!link(file.temporary, path) || errno == EEXIST)) { /* else there are no links: a rename */
+    if (keep && !old && (!link(temporary, path) || errno == EEXIST)) { /* else there are no links: a rename */
         keep = false;
     }
     const koksma_status placed = koksma__atomic_close(&file, keep);
