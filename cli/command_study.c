@@ -2,8 +2,9 @@
 /*
  * `koksma study`: new writes an example of a plan; run measures and renders what plans list, into a folder, and
  * goes on where an earlier run ended; estimate says what it will cost; export and report print the results again;
- * images compares sets of images. One function for each verb, and one table of which options each takes.
+ * audit makes them again; images compares sets of images. One function for each verb, and one table of which options each takes.
  */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -238,6 +239,93 @@ static int report(const cli_arguments *arguments)
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* ---- audit --------------------------------------------------------------------------------------------- */
+
+typedef struct audited {
+    cli_work *work;
+    cli_rows *rows; /* of JSON; NULL: text */
+} audited;
+
+static void put_difference(void *context, const char *text)
+{
+    const audited *a = context;
+    if (a->rows) {
+        cli_row_text(a->rows, "differs", text);
+        cli_row_end(a->rows);
+    } else {
+        fputs(a->work->shown ? "\n" : "", stderr); /* below the progress */
+        printf("differs: %s\n", text);
+    }
+}
+
+static void put_audit_row(cli_rows *rows, const koksma_audit *a)
+{
+    cli_row_whole(rows, "rows", (uint64_t)a->rows);
+    cli_row_whole(rows, "drawn", (uint64_t)a->drawn);
+    cli_row_whole(rows, "agree", (uint64_t)a->agree);
+    cli_row_number(rows, "wrong_below", a->bound);
+    cli_row_whole(rows, "other_revisions", (uint64_t)a->other_rows);
+    cli_row_whole(rows, "references", a->references);
+    cli_row_whole(rows, "references_agree", a->references_agree);
+    cli_row_whole(rows, "references_missing", a->references_missing);
+    cli_row_whole(rows, "differences", a->differences);
+    cli_row_end(rows);
+}
+
+/* The limit is rounded up to two digits: what is printed holds. */
+static void print_audit(const koksma_audit *a)
+{
+    printf("of %lld rows drawn, %lld agree", a->drawn, a->agree);
+    if (a->drawn == a->rows) {
+        printf(": these are all\n");
+    } else {
+        const double unit = pow(10, floor(log10(100 * a->bound)) - 1);
+        printf(": with 95 %% confidence fewer than %g %% are wrong\n", ceil(100 * a->bound / unit - 1e-9) * unit);
+    }
+    printf("of %zu references made again, %zu agree", a->references, a->references_agree);
+    printf(a->references_missing ? "; the files of %zu are not there\n" : "\n", a->references_missing);
+    if (a->other_rows) {
+        printf("not compared: %lld rows of other revisions, such as %s\n", a->other_rows, a->other);
+    }
+}
+
+static int audit(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_audit found;
+    uint64_t rows = 0, seed;
+    const bool all = !strcmp(cli_text(arguments, "rows", ""), "all"), json = cli_flag(arguments, "json");
+    if (arguments->n_operands != 2) {
+        return cli_usage_error(arguments, "audit takes a study's folder, as in audit DIR");
+    }
+    if ((!all && !cli_whole(arguments, "rows", 200, 1, INT64_MAX, &rows)) ||
+        !cli_whole(arguments, "seed", 1, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "auditing", &work)) {
+        return CLI_USAGE;
+    }
+    const bool speaks = koksma_study_mpi_rank() == 0;
+    audited to = {&work, json && speaks ? cli_rows_open(true) : NULL};
+    const koksma_audit_options options = {.folder = arguments->operands[1],
+                                          .rows = (long long)rows,
+                                          .seed = seed,
+                                          .differs = speaks ? put_difference : NULL,
+                                          .context = &to};
+    const koksma_status status = koksma_study_audit(&options, &work.run, &found);
+    cli_work_end(&work);
+    if (status) {
+        return speaks ? cli_fail(arguments, status) : koksma_status_exit_code(status);
+    }
+    if (!speaks) {
+        return CLI_YES;
+    }
+    if (json) {
+        put_audit_row(to.rows, &found);
+        const int written = cli_rows_close(to.rows);
+        return written ? written : found.differences ? CLI_NO : CLI_YES;
+    }
+    print_audit(&found);
+    return found.differences ? CLI_NO : CLI_YES;
+}
+
 /* ---- images -------------------------------------------------------------------------------------------- */
 
 static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t n)
@@ -315,13 +403,14 @@ static int run(const cli_arguments *arguments)
                  {"estimate", estimate, " trials quick time-limit json "},
                  {"export", export_rows, " output format "},
                  {"report", report, " "},
+                 {"audit", audit, " rows seed json "},
                  {"images", images, " reference json "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    return cli_usage_error(arguments, "it takes run, new, estimate, export, report or images");
+    return cli_usage_error(arguments, "it takes run, new, estimate, export, report, audit or images");
 }
 
 static const cli_option options[] = {
@@ -330,6 +419,8 @@ static const cli_option options[] = {
     {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
+    {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
+    {'s', "seed", "SEED", "audit: of the draw (default: 1)"},
     {0, "reference", "FILE", "images: the reference image"},
     {0, "format", "csv|json|npy|sha256", "export (default: by the file's ending, else csv)"},
     CLI_ROW_OPTIONS,
@@ -345,6 +436,7 @@ const cli_command cli_command_study = {
                 "estimate PLAN... [--json]\n"
                 "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
                 "report DIR\n"
+                "audit DIR [--rows N|all] [--seed SEED] [--json]\n"
                 "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
@@ -357,6 +449,10 @@ const cli_command cli_command_study = {
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and refuse results that something else than a run has changed.\n"
         "report: writes DIR/report.html.\n"
+        "audit: makes rows of DIR again, and all reference images, and compares them bit for bit; prints what\n"
+        "differs, and below which part of all rows is wrong with 95 % confidence. The exit code is 1 if anything\n"
+        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. It changes\n"
+        "nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces. 'koksma compare --help' explains coherence.\n",
     .examples = "koksma study new plan.json\n"
@@ -364,6 +460,7 @@ const cli_command cli_command_study = {
                 "koksma study run ./plan.json -o results --quick\n"
                 "koksma study export results --format csv -o rows.csv\n"
                 "koksma study report results\n"
+                "koksma study audit results --rows all\n"
                 "koksma study images 'mine_{sampler}_{spp}_{trial}.exr' --reference truth.exr\n",
     .options = options,
     .run = run,

@@ -113,6 +113,37 @@ typedef enum koksma_export_format {
    folder), MEMORY. */
 KOKSMA_API koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path);
 
+/* What an audit compares. */
+typedef struct koksma_audit_options {
+    const char *folder; /* of a study; it is only read */
+    long long rows;     /* to draw at random, each with the same probability; 0: all */
+    uint64_t seed;      /* of the draw */
+    /* Is called with a line for each thing that differs, by one thread at a time; NULL: is not. */
+    void (*differs)(void *context, const char *text);
+    void *context;
+} koksma_audit_options;
+
+/* What an audit found. A row is a line of koksma_study_export. */
+typedef struct koksma_audit {
+    long long rows;         /* that the generators of this program made, by their revisions (koksma_pattern) */
+    long long other_rows;   /* that others made: they cannot be compared here */
+    long long drawn, agree; /* of `rows`; those that are equal, bit for bit, when they are made again */
+    double bound;           /* with 95 % confidence a smaller part of `rows` is wrong (Clopper & Pearson 1934); the
+                               part that is, if all are drawn */
+    size_t references, references_agree; /* reference images that rows are compared with: made again; equal */
+    size_t references_missing;           /* whose files are not there */
+    size_t differences;                  /* things that differ; 0: none */
+    char other[128];                     /* revisions of one of other_rows and of this program; empty: none */
+} koksma_audit;
+
+/* Makes rows of a study again from their keys, and all its reference images, and compares them with what is stored. The
+   rows depend on the seed and on the store, not on the number of threads; under mpirun all ranks work, which must be
+   able to read the folder, and rank 0 has the result.
+   Errors: ARGUMENT (rows below 0), MISSING, MALFORMED (no results of a study, or damaged beyond reading), IO,
+   MEMORY, INTERRUPTED. What differs is no error. */
+KOKSMA_API koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run,
+                                            koksma_audit *out);
+
 /* Writes DIR/report.json, which has every number (docs/report-format.md), and DIR/report.html, which shows it: one
    file that needs no network. Errors: ARGUMENT (the study has no folder), IO. */
 KOKSMA_API koksma_status koksma_study_report(koksma_study *study, const koksma_run *run);

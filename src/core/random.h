@@ -22,7 +22,8 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_SHIFT,    /* a toroidal or digital shift */
     KOKSMA__PURPOSE_SCRAMBLE, /* scrambling of digits */
     KOKSMA__PURPOSE_SEARCH,   /* a random search of a measure */
-    KOKSMA__PURPOSE_TEST      /* tests and benchmarks */
+    KOKSMA__PURPOSE_TEST,     /* tests and benchmarks */
+    KOKSMA__PURPOSE_AUDIT     /* which rows of a study are drawn */
 } koksma__purpose;
 
 typedef struct koksma__words {

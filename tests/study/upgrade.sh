@@ -20,6 +20,7 @@ for schema in 3 4 5; do
     cp "$here/stores/schema_$schema.sqlite" $schema/results.sqlite
     "$koksma" study export $schema > $schema.csv
     "$koksma" study report $schema
+    "$koksma" study audit $schema --rows all -q > audit.txt
     cmp $schema/results.sqlite "$here/stores/schema_$schema.sqlite"
     test "$(ls $schema | tr '\n' ' ')" = "report.html report.json results.sqlite "
     if [ $schema = 5 ]; then cmp $schema.csv new.csv; done=14; else cmp $schema.csv without.csv; done=10; fi

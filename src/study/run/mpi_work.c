@@ -120,7 +120,7 @@ static koksma_status do_job(worker *w, unsigned long long job)
         l->size += sizeof job + task->n_series * sizeof *results;
         w->busy_s += koksma__now_s() - start_s;
         status = koksma__now_s() - l->since_s > KOKSMA__SEND_S ? send_results(w) : KOKSMA_OK;
-    } else if (status == KOKSMA_IMPOSSIBLE) {
+    } else if (koksma__task_failed_alone(w->study, status)) {
         w->busy_s += koksma__now_s() - start_s;
         status = send_failure(w, job);
     }

@@ -66,12 +66,13 @@ koksma_status koksma__tiles_open(const koksma__tasks *tasks, koksma__reference_t
     }
     for (size_t i = 0; !status && i < tasks->n; i++) {
         const koksma__task *task = &tasks->at[i];
-        for (size_t r = 0; task->image && !status && r < task->n_series && task->done_before < task->trials; r++) {
+        const bool needed = task->image && (study->sink || task->done_before < task->trials);
+        for (size_t r = 0; needed && !status && r < task->n_series; r++) {
             const size_t index = task->references[r];
             if (study->references[index].image.pixels || tiles->rows_left[index]) {
                 continue;
             }
-            status = is_kept(study, &study->references[index])
+            status = !study->sink && is_kept(study, &study->references[index])
                          ? koksma__reference_read(study, &study->references[index])
                          : add_tiles(tiles, index);
         }

@@ -150,12 +150,16 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
                                         koksma__reference_image *reference)
 {
     char path[KOKSMA__PATH], name[KOKSMA__REFERENCE_NAME];
-    snprintf(path, sizeof path, "%s/references", study->folder);
+    koksma__reference_row row;
     koksma_status status = KOKSMA_OK;
+    if (study->sink) {
+        status = koksma__replicates_done(s, reference, &row);
+        return status ? status : study->sink->put_reference(study->sink->context, reference, &row);
+    }
+    snprintf(path, sizeof path, "%s/references", study->folder);
     if (mkdir(path, 0777) && errno != EEXIST) {
         status = koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
     }
-    koksma__reference_row row;
     status = status ? status : koksma__replicates_done(s, reference, &row);
     const koksma__series key = koksma__reference_key(reference, name);
     status = status ? status : koksma__store_put_reference(study->store, &key, &row);

@@ -13,6 +13,7 @@
 #include "study/run/mpi_rank.h"
 #include "study/run/mpi_serve.h"
 #include "study/run/mpi_work.h"
+#include "study/run/run.h"
 #include "study/run/workers.h"
 
 /* ---- What was run, on what ----------------------------------------------------------------------------- */
@@ -65,8 +66,8 @@ static void add_failures(koksma__failures *all, const koksma__failures *more)
 }
 
 /* With a status that is not OK already, only counts. */
-static koksma_status run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
-                              koksma_study_summary *summary, koksma__failures *failures)
+koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_control *control, koksma_status before,
+                               koksma_study_summary *summary, koksma__failures *failures)
 {
     koksma__tasks tasks;
     koksma_status status = koksma__tasks_open(study, images, &tasks);
@@ -74,7 +75,7 @@ static koksma_status run_kind(koksma_study *study, bool images, koksma__run_cont
         return status;
     }
     koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
-    status = koksma__tasks_look_up(&tasks);
+    status = study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
     for (size_t i = 0; i < tasks.n; i++) {
@@ -115,8 +116,8 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};
-    koksma_status status = run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
-    status = run_kind(study, true, &control, status, summary, &failures);
+    koksma_status status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
+    status = koksma__run_kind(study, true, &control, status, summary, &failures);
     summary->workers = koksma__mpi_size() > 1 ? koksma__mpi_size() : control.run.threads;
     summary->seconds = koksma__now_s() - start_s;
     summary->idle_seconds += summary->workers * summary->seconds;

@@ -108,8 +108,7 @@ void koksma__run_state_put_job(koksma__run_state *state, size_t job, const koksm
     pthread_mutex_lock(&state->lock);
     const bool is_new = koksma__work_queue_put(&state->jobs, job);
     pthread_mutex_unlock(&state->lock);
-    const koksma_status status =
-        is_new ? koksma__task_put(state->phase->tasks->study->store, task, results) : KOKSMA_OK;
+    const koksma_status status = is_new ? koksma__task_put(state->phase->tasks->study, task, results) : KOKSMA_OK;
     if (status) {
         koksma__run_state_stop(state, status, koksma_error_text());
         return;

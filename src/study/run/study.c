@@ -47,7 +47,7 @@ const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, con
     return NULL;
 }
 
-static koksma_status open_scene(koksma_study *study, const char *name)
+koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
 {
     if (koksma__study_scene_of(study, name)) {
         return KOKSMA_OK;
@@ -77,12 +77,12 @@ static koksma_status open_scenes(koksma_study *study)
     koksma_status status = KOKSMA_OK;
     for (size_t b = 0; b < study->plan.n_images; b++) {
         for (size_t i = 0; !status && i < study->plan.images[b].scenes.n; i++) {
-            status = open_scene(study, study->plan.images[b].scenes.at[i]);
+            status = koksma__study_open_scene(study, study->plan.images[b].scenes.at[i]);
         }
     }
     for (size_t f = 0; !status && f < study->plan.n_figures; f++) {
         if (study->plan.figures[f].scene) {
-            status = open_scene(study, study->plan.figures[f].scene);
+            status = koksma__study_open_scene(study, study->plan.figures[f].scene);
         }
     }
     return status;

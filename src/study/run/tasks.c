@@ -283,9 +283,16 @@ koksma_status koksma__tasks_look_up(koksma__tasks *tasks)
     return status;
 }
 
-koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results)
+koksma_status koksma__task_put(const koksma_study *study, const koksma__task *task, const koksma__result *results)
 {
-    return koksma__store_put(store, task->series, results, task->n_series);
+    return study->sink ? study->sink->put_job(study->sink->context, task, results)
+                       : koksma__store_put(study->store, task->series, results, task->n_series);
+}
+
+bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
+{
+    const bool of_all = status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO;
+    return status == KOKSMA_IMPOSSIBLE || (study->sink && status && !of_all);
 }
 
 /* ---- One job ------------------------------------------------------------------------------------------- */
@@ -298,6 +305,10 @@ static const double AS_GOOD_AS_EXACT = 2e-12;
 static koksma_status check_value(const koksma_spec *measure, const koksma_value *value)
 {
     char text[KOKSMA_MAX_SPEC];
+    if (!isfinite(value->value)) {
+        koksma_spec_text(measure, text);
+        return koksma__fail(KOKSMA_IMPOSSIBLE, "%s: its value is %g; a study takes finite ones", text, value->value);
+    }
     if (value->exact || measure->measure->answer != KOKSMA_ANSWER_EXACT ||
         value->upper - value->lower <= AS_GOOD_AS_EXACT) {
         return KOKSMA_OK;

@@ -67,7 +67,11 @@ uint64_t koksma__task_seed(const koksma__task *task, long long trial);
 koksma_status koksma__task_do(const koksma_study *study, const koksma__task *task, long long trial,
                               const koksma_run *run, koksma__result *results);
 
-/* Puts the results of a job into the store. */
-koksma_status koksma__task_put(koksma__store *store, const koksma__task *task, const koksma__result *results);
+/* Puts the results of a job into the store, or where else they go. */
+koksma_status koksma__task_put(const koksma_study *study, const koksma__task *task, const koksma__result *results);
+
+/* Whether the other jobs go on when one has failed so: it is impossible; in an audit also for another reason of its
+   own. */
+bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
 
 #endif

@@ -24,7 +24,7 @@ static void do_job(koksma__run_state *state, size_t job)
     const koksma_status status =
         results ? koksma__task_do(phase->tasks->study, task, trial, &phase->control->job, results)
                 : koksma__fail_memory(task->n_series * sizeof *results);
-    if (status == KOKSMA_IMPOSSIBLE) {
+    if (koksma__task_failed_alone(phase->tasks->study, status)) {
         koksma__run_state_fail_job(state, job, koksma_error_text());
     } else if (status) {
         koksma__run_state_stop(state, status, koksma_error_text());

@@ -206,7 +206,8 @@ def check_documents():
 
 
 # The validator itself sees what is wrong.
-GOOD = {"format": "koksma-report", "version": 1, "title": "", "about": "", "plan": "", "koksma": "", "content": []}
+GOOD = {"format": "koksma-report", "version": 1, "title": "", "about": "", "plan": "", "koksma": "", "rows_sha256": "0" * 64,
+        "content": []}
 for wrong in ({"version": 2}, {"title": 3}, {"more": 1}, {"content": [{"kind": "table", "name": "t", "columns": [], "rows": []}]},
               {"content": [{"kind": "paragraph", "text": [{"text": "1", "value": "1"}]}]}, {"content": [{"kind": "none"}]}):
     assert list(errors({**GOOD, **wrong}, SCHEMA, SCHEMA)), f"the validator takes {wrong}"

@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The audit of a study: rows are drawn at random, made again from their keys, and compared bit for bit. Every series
+ * whose key still makes something becomes a block of a plan (audit_series.c), and the jobs run as those of a study do,
+ * on threads or MPI ranks; a sink takes the results in place of the store. Rows are drawn without replacement by
+ * selection sampling (Knuth, TAOCP 2, 3.4.2, algorithm S), in the order of their ids.
+ *
+ * If k of n drawn rows are wrong, the part p that is wrong is below the Clopper & Pearson limit with 95 % confidence:
+ * the p for which k or fewer among n have the probability 5 % (binomial, which for draws without replacement is on the
+ * safe side). For k = 0 that is 1 - 0.05^(1/n).
+ */
+#include <math.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/random.h"
+#include "core/status.h"
+#include "stats/log_gamma.h"
+#include "study/run/audit_series.h"
+#include "study/run/mpi_rank.h"
+#include "study/run/mpi_work.h"
+#include "study/run/references.h"
+#include "study/run/run.h"
+
+static const double CHANCE = 0.05;
+
+typedef struct audit {
+    const koksma_audit_options *options;
+    koksma_audit *out;
+    koksma_study *study;
+    koksma__audit_list list;
+    pthread_mutex_t lock; /* guards *out and the caller's function */
+    long long seen;       /* rows that the draw has passed */
+} audit;
+
+static void differ(audit *a, const char *format, ...) KOKSMA_PRINTF(2, 3);
+static void differ(audit *a, const char *format, ...)
+{
+    char text[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    pthread_mutex_lock(&a->lock);
+    a->out->differences++;
+    if (a->options->differs) {
+        a->options->differs(a->options->context, text);
+    }
+    pthread_mutex_unlock(&a->lock);
+}
+
+/* ---- The draw ------------------------------------------------------------------------------------------ */
+
+static bool is_drawn(const koksma__audit_series *s, long long trial)
+{
+    return s && trial < s->end && s->drawn[trial / 8] >> trial % 8 & 1;
+}
+
+static void draw_row(void *context, long long id, long long trial)
+{
+    audit *a = context;
+    const koksma__audit_series *s = koksma__audit_find(&a->list, id);
+    const long long wanted = a->options->rows && a->options->rows < a->out->rows ? a->options->rows : a->out->rows;
+    if (!s || s->state == KOKSMA__AUDIT_OTHER) {
+        return;
+    }
+    const koksma__words r = koksma__random(a->options->seed, KOKSMA__PURPOSE_AUDIT, (uint64_t)a->seen, 0);
+    const bool drawn =
+        koksma__unit(r.w[0], r.w[1]) * (double)(a->out->rows - a->seen) < (double)(wanted - a->out->drawn);
+    a->seen++;
+    if (drawn) {
+        a->out->drawn++;
+        if (s->drawn) {
+            s->drawn[trial / 8] |= (unsigned char)(1u << trial % 8);
+        }
+    }
+}
+
+/* The largest part of wrong rows that k among n leave possible. */
+static double upper_limit(long long k, long long n)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 60 && k < n; i++) {
+        const double p = (low + high) / 2;
+        double below = 0;
+        for (long long j = 0; j <= k; j++) {
+            below += exp(koksma__log_gamma((double)n + 1) - koksma__log_gamma((double)j + 1) -
+                         koksma__log_gamma((double)(n - j) + 1) + (double)j * log(p) + (double)(n - j) * log1p(-p));
+        }
+        *(below > CHANCE ? &low : &high) = p;
+    }
+    return high;
+}
+
+/* ---- Rows ---------------------------------------------------------------------------------------------- */
+
+static koksma__audit_group *group_of(audit *a, const koksma__task *t)
+{
+    const koksma__plan *plan = &a->study->plan;
+    return t->image ? &a->list.images[t->image - plan->images]
+                    : &a->list.discrepancies[t->discrepancy - plan->discrepancies];
+}
+
+/* The values of a series in a row of the store: four of an image, one of a measure. */
+static koksma_status stored(audit *a, const koksma__audit_series *s, bool image, koksma__result *out, bool *found)
+{
+    const long long place = image ? 0 : s->id % KOKSMA__AUDIT_MEMBERS;
+    double values[KOKSMA__RESULT_VALUES];
+    const koksma_status status =
+        koksma__store_row(a->study->store, s->id - place, out->trial, &out->seed, values, found);
+    for (int k = 0; k < KOKSMA__RESULT_VALUES; k++) {
+        out->values[k] = image ? values[k] : k == 0 ? values[place] : (double)NAN;
+    }
+    return status;
+}
+
+/* A row whose seed is not the hash of its key was not made from it. */
+static koksma_status check_seed(audit *a, const koksma__task *t, const koksma__audit_series *s, long long trial,
+                                bool *right)
+{
+    koksma__result row = {.trial = trial};
+    bool found;
+    char name[KOKSMA__REFERENCE_NAME];
+    const koksma_status status = stored(a, s, t->image != NULL, &row, &found);
+    *right = row.seed == koksma__task_seed(t, trial) && trial < t->trials;
+    if (!status && !*right) {
+        koksma__audit_name(&s->key, trial, name, sizeof name);
+        differ(a, "%s: no run makes it with the seed %llu", name, (unsigned long long)row.seed);
+    }
+    return status;
+}
+
+/* Only what was drawn is to be done. */
+static koksma_status look_up(void *context, koksma__tasks *tasks)
+{
+    audit *a = context;
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < tasks->n; i++) {
+        koksma__task *t = &tasks->at[i];
+        koksma__audit_group *group = group_of(a, t);
+        memset(t->done, 0xff, ((size_t)t->trials + 7) / 8);
+        t->done_before = t->trials;
+        for (int k = 0; !status && k < KOKSMA__AUDIT_MEMBERS; k++) {
+            const koksma__audit_series *s = group->members[k];
+            for (long long trial = 0; s && !status && trial < s->end; trial++) {
+                bool right = false;
+                status = is_drawn(s, trial) ? check_seed(a, t, s, trial, &right) : KOKSMA_OK;
+                if (!status && right && koksma__task_is_done(t, trial)) {
+                    t->done[trial / 8] &= (unsigned char)~(1u << trial % 8);
+                    t->done_before--;
+                }
+            }
+        }
+    }
+    return status;
+}
+
+/* The other series of a job are compared, too, but not counted: the draw was not of them. */
+static koksma_status put_job(void *context, const koksma__task *t, const koksma__result *results)
+{
+    audit *a = context;
+    const koksma__audit_group *group = group_of(a, t);
+    koksma_status status = KOKSMA_OK;
+    for (size_t k = 0; !status && k < t->n_series; k++) {
+        const koksma__audit_series *s = group->members[k];
+        koksma__result row = {.trial = results[k].trial};
+        bool found = false;
+        status = s ? stored(a, s, t->image != NULL, &row, &found) : KOKSMA_OK;
+        if (status || !found || isnan(row.values[0])) {
+            continue;
+        }
+        bool same = row.seed == results[k].seed;
+        int v = 0;
+        while (same && v < KOKSMA__RESULT_VALUES &&
+               ((isnan(row.values[v]) && isnan(results[k].values[v])) ||
+                !memcmp(&row.values[v], &results[k].values[v], sizeof *row.values))) {
+            v++;
+        }
+        if (!same || v < KOKSMA__RESULT_VALUES) {
+            char name[KOKSMA__REFERENCE_NAME];
+            koksma__audit_name(&s->key, row.trial, name, sizeof name);
+            differ(a, "%s: %.17g is stored, and %.17g is made", name, row.values[v % KOKSMA__RESULT_VALUES],
+                   results[k].values[v % KOKSMA__RESULT_VALUES]);
+        } else if (is_drawn(s, row.trial)) {
+            pthread_mutex_lock(&a->lock);
+            a->out->agree++;
+            pthread_mutex_unlock(&a->lock);
+        }
+    }
+    return status;
+}
+
+/* ---- References ---------------------------------------------------------------------------------------- */
+
+/* The file, where there is one; *same: its pixels have this hash. Errors in it are differences. */
+static void check_file(audit *a, const koksma__reference_image *reference, const char *pixels, const char *name,
+                       bool *same)
+{
+    char path[KOKSMA__PATH], found[KOKSMA__SHA256_TEXT];
+    koksma_image image;
+    if (!koksma__reference_exists(a->study, reference)) {
+        pthread_mutex_lock(&a->lock);
+        a->out->references_missing++;
+        pthread_mutex_unlock(&a->lock);
+        return;
+    }
+    koksma__reference_path(a->study, reference, path, sizeof path);
+    if (koksma_image_read(path, &image)) {
+        *same = false;
+        differ(a, "reference %s of %s: %s", name, reference->scene->name, koksma_error_text());
+        return;
+    }
+    koksma__reference_pixels(&image, found);
+    koksma_image_fini(&image);
+    if (strcmp(found, pixels) != 0) {
+        *same = false;
+        differ(a, "reference %s of %s: %s has other pixels", name, reference->scene->name, path);
+    }
+}
+
+static koksma_status put_reference(void *context, const koksma__reference_image *reference,
+                                   const koksma__reference_row *made)
+{
+    audit *a = context;
+    char name[KOKSMA__REFERENCE_NAME];
+    const koksma__series key = koksma__reference_key(reference, name);
+    koksma__reference_row row;
+    bool same = true;
+    const koksma_status status = koksma__store_reference(a->study->store, &key, &row);
+    if (status) {
+        return status;
+    }
+    if (row.pixels[0] && strcmp(row.pixels, made->pixels) != 0) {
+        same = false;
+        differ(a, "reference %s of %s: the stored hash is not that of its pixels", name, reference->scene->name);
+    }
+    if (!(isnan(row.standard_error) && isnan(made->standard_error)) &&
+        memcmp(&row.standard_error, &made->standard_error, sizeof row.standard_error) != 0) {
+        same = false;
+        differ(a, "reference %s of %s: its own error %.17g is stored, and %.17g is made", name,
+               reference->scene->name, row.standard_error, made->standard_error);
+    }
+    check_file(a, reference, made->pixels, name, &same);
+    pthread_mutex_lock(&a->lock);
+    a->out->references++;
+    a->out->references_agree += same;
+    pthread_mutex_unlock(&a->lock);
+    return KOKSMA_OK;
+}
+
+/* ---- The whole ----------------------------------------------------------------------------------------- */
+
+static koksma_status list_series(audit *a)
+{
+    char path[KOKSMA__PATH];
+    snprintf(path, sizeof path, "%s/results.sqlite", a->options->folder);
+    koksma_status status = koksma__store_open(path, KOKSMA__STORE_AUDIT, NULL, &a->study->store);
+    status = status ? status : koksma__audit_list_read(a->study->store, &a->list);
+    if (!status && !koksma__store_is_sealed(a->study->store)) {
+        differ(a, "%s: its rows are not those that runs wrote: some were changed, lost or added", path);
+    }
+    for (size_t i = 0; !status && i < a->list.n; i++) {
+        koksma__audit_series *s = &a->list.at[i];
+        koksma__made_by here;
+        char name[KOKSMA__REFERENCE_NAME];
+        if (!s->rows) {
+            continue;
+        }
+        if (koksma__audit_check(a->study, &a->list, s, &here)) {
+            koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
+            differ(a, "%s: can't be made again: %s", name, koksma_error_text());
+        }
+        if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other_rows) {
+            snprintf(a->out->other, sizeof a->out->other, "%.24s; %.24s (here: %.24s; %.24s)", s->key.made_by,
+                     s->key.measured_by, here.points, here.value);
+        }
+        *(s->state == KOKSMA__AUDIT_OTHER ? &a->out->other_rows : &a->out->rows) += s->rows;
+    }
+    return status ? status : koksma__audit_plan(a->study, &a->list);
+}
+
+static koksma_status compare(audit *a, const koksma_run *run)
+{
+    koksma__run_control control;
+    koksma_study_summary summary = {0};
+    koksma__failures failures = {.n = 0};
+    koksma__run_control_begin(run, 0, &control);
+    if (koksma_study_mpi_rank() > 0) {
+        return koksma__mpi_work(a->study, &control.job);
+    }
+    koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
+    status = koksma__run_kind(a->study, false, &control, status, &summary, &failures);
+    status = koksma__run_kind(a->study, true, &control, status, &summary, &failures);
+    if (failures.n) {
+        differ(a, "%zu rows can't be made again, such as %s", failures.n, failures.text);
+    }
+    const long long wrong = a->out->drawn - a->out->agree;
+    const bool all = a->out->drawn == a->out->rows;
+    a->out->bound = !a->out->drawn ? 1
+                    : all          ? (double)wrong / (double)a->out->rows
+                                   : upper_limit(wrong, a->out->drawn);
+    return status;
+}
+
+koksma_status koksma_study_audit(const koksma_audit_options *options, const koksma_run *run, koksma_audit *out)
+{
+    audit a = {.options = options, .out = out};
+    const koksma__sink sink = {&a, look_up, put_job, put_reference};
+    *out = (koksma_audit){0};
+    if (!options->folder || strlen(options->folder) > 1000 || options->rows < 0) {
+        return koksma__fail(KOKSMA_ARGUMENT, "an audit takes a study's folder, and a number of rows");
+    }
+    a.study = calloc(1, sizeof *a.study);
+    if (!a.study || !(a.study->folder = strdup(options->folder))) {
+        free(a.study);
+        return koksma__fail_memory(sizeof *a.study);
+    }
+    a.study->sink = &sink;
+    pthread_mutex_init(&a.lock, NULL);
+    koksma_status status = koksma__mpi_check();
+    status = status ? status : list_series(&a);
+    status = status ? status : compare(&a, run);
+    koksma__mpi_release();
+    koksma_study_close(a.study);
+    koksma__audit_list_fini(&a.list);
+    pthread_mutex_destroy(&a.lock);
+    return status;
+}

@@ -1,0 +1,333 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The series of a store become a plan again: a block of a plan for each row of table result (up to four measures of
+   one point set), and for each image with one reference, whose error and coherence are two rows. Its jobs are those of
+   a run. An image with several references is rendered once for each. */
+#include "study/run/audit_series.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/capacity.h"
+#include "core/status.h"
+#include "study/plan/made_by.h"
+#include "study/run/references.h"
+
+/* Trials are made in their order: one far above the others is damage. */
+static const long long MOST_HOLES = 100000;
+
+/* ---- The list ------------------------------------------------------------------------------------------ */
+
+/* The texts of a key, for who copies or frees them. */
+static void texts_of(koksma__series *key, const char **texts[8])
+{
+    const char **const all[8] = {&key->kind,    &key->scene, &key->scene_hash, &key->options,
+                                 &key->pattern, &key->what,  &key->made_by,    &key->measured_by};
+    memcpy(texts, all, sizeof all);
+}
+
+static koksma_status add_series(void *context, const koksma__series *key, long long id)
+{
+    koksma__audit_list *list = context;
+    koksma__audit_series *at = koksma__room_for_one(list->at, list->n, &list->room, 64, sizeof *at);
+    const char **texts[8];
+    if (!at) {
+        return KOKSMA_MEMORY;
+    }
+    list->at = at;
+    at += list->n++;
+    *at = (koksma__audit_series){.key = *key, .id = id};
+    bool copied = true;
+    texts_of(&at->key, texts);
+    for (int i = 0; i < 8; i++) {
+        *texts[i] = strdup(*texts[i]);
+        copied = copied && *texts[i];
+    }
+    return copied ? KOKSMA_OK : koksma__fail_memory(1);
+}
+
+static int compare_ids(const void *a, const void *b)
+{
+    const koksma__audit_series *s = a, *t = b;
+    return s->id < t->id ? -1 : s->id > t->id;
+}
+
+koksma__audit_series *koksma__audit_find(const koksma__audit_list *list, long long id)
+{
+    const koksma__audit_series wanted = {.id = id};
+    return list->n ? bsearch(&wanted, list->at, list->n, sizeof wanted, compare_ids) : NULL;
+}
+
+static void see_row(void *context, long long id, long long trial)
+{
+    koksma__audit_series *s = koksma__audit_find(context, id);
+    if (s) {
+        s->rows++;
+        s->end = trial >= s->end ? trial + 1 : s->end;
+    }
+}
+
+koksma_status koksma__audit_list_read(koksma__store *store, koksma__audit_list *list)
+{
+    koksma_status status = koksma__store_visit_series(store, add_series, list);
+    if (list->n) {
+        qsort(list->at, list->n, sizeof *list->at, compare_ids);
+    }
+    return status ? status : koksma__store_scan(store, see_row, list);
+}
+
+void koksma__audit_list_fini(koksma__audit_list *list)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        const char **texts[8];
+        texts_of(&list->at[i].key, texts);
+        for (int k = 0; k < 8; k++) {
+            free((char *)*texts[k]);
+        }
+        free(list->at[i].drawn);
+    }
+    free(list->at);
+    free(list->discrepancies);
+    free(list->images);
+    koksma__point_files_fini(&list->files);
+}
+
+void koksma__audit_name(const koksma__series *key, long long trial, char *text, size_t size)
+{
+    char place[64] = "";
+    if (key->width || key->height) {
+        snprintf(place, sizeof place, "%lld x %lld, ", key->width, key->height);
+    } else {
+        snprintf(place, sizeof place, "dim %lld, ", key->dim);
+    }
+    snprintf(text, size, "%s %.100s%s%.100s%s%.200s, n = %lld, %s%.200s, trial %lld", key->kind, key->scene,
+             key->scene[0] ? ", " : "", key->options, key->options[0] ? ", " : "", key->pattern, key->n, place,
+             key->what, trial);
+}
+
+/* ---- What can be made again ---------------------------------------------------------------------------- */
+
+/* Whether rows and reference of an image have options that the renderer takes. */
+static koksma_status check_image(const koksma__study_scene *scene, const koksma__series *key)
+{
+    char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
+    long long spp, replicates;
+    koksma__variant variant;
+    const int width = (int)key->width, height = (int)key->height;
+    koksma_status status = koksma__reference_parse(key->what, name, pattern, &spp, &replicates);
+    if (!status && (key->n > INT_MAX || spp > INT_MAX || key->width < 1 || key->height < 1 ||
+                    key->width > KOKSMA_MAX_IMAGE_SIDE || key->height > KOKSMA_MAX_IMAGE_SIDE)) {
+        status = koksma__fail(KOKSMA_ARGUMENT, "no such image: %lld x %lld pixels, %lld samples", key->width,
+                              key->height, key->n);
+    }
+    if (!status) {
+        const koksma__picture row = {key->pattern, key->options, false, key->n, width, height, 0};
+        status = koksma__picture_set(scene, &row, &variant);
+    }
+    if (!status) {
+        const koksma__picture of_reference = {pattern, key->options, true, spp, width, height, 0};
+        status = koksma__picture_set(scene, &of_reference, &variant);
+    }
+    return status;
+}
+
+koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list, koksma__audit_series *series,
+                                  koksma__made_by *here)
+{
+    const koksma__series *key = &series->key;
+    const bool image = strcmp(key->kind, "discrepancy") != 0;
+    char hash[KOKSMA__HASH_TEXT];
+    series->state = KOKSMA__AUDIT_WRONG;
+    koksma_status status = koksma__find_made_by(image, key->pattern, key->options, key->what, false, here);
+    if (!status && (strcmp(here->points, key->made_by) != 0 || strcmp(here->value, key->measured_by) != 0)) {
+        series->state = KOKSMA__AUDIT_OTHER;
+        return KOKSMA_OK;
+    }
+    if (!status && series->end > MOST_HOLES + MOST_HOLES * series->rows) {
+        status = koksma__fail(KOKSMA_MALFORMED, "a trial %lld of %lld", series->end - 1, series->rows);
+    }
+    if (!status && !image && (key->dim < 1 || key->dim > KOKSMA_MAX_DIM)) {
+        status = koksma__fail(KOKSMA_DIM, "no points of %lld dimensions", key->dim);
+    }
+    if (!status && image) {
+        status = koksma__study_open_scene(study, key->scene);
+    }
+    const koksma__study_scene *scene = !status && image ? koksma__study_scene_of(study, key->scene) : NULL;
+    if (!status) {
+        koksma__hash_with_points(&list->files, scene ? scene->hash : "", key->pattern, hash);
+        status = !strcmp(hash, key->scene_hash)
+                     ? KOKSMA_OK
+                     : koksma__fail(KOKSMA_MALFORMED, "its scene, or the file of its points, is another one now");
+    }
+    status = !status && scene ? check_image(scene, key) : status;
+    series->state = status ? KOKSMA__AUDIT_WRONG : KOKSMA__AUDIT_OURS;
+    return status;
+}
+
+/* ---- The plan ------------------------------------------------------------------------------------------ */
+
+static koksma_status set_text(koksma__texts *texts, const char *text)
+{
+    char **at = realloc(texts->at, (texts->n + 1) * sizeof *at);
+    if (!at) {
+        return koksma__fail_memory((texts->n + 1) * sizeof *at);
+    }
+    texts->at = at;
+    at[texts->n] = strdup(text);
+    texts->n += at[texts->n] != NULL;
+    return at[texts->n ? texts->n - 1 : 0] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+}
+
+static koksma_status set_whole(koksma__wholes *wholes, long long value)
+{
+    wholes->at = malloc(sizeof *wholes->at);
+    if (!wholes->at) {
+        return koksma__fail_memory(sizeof *wholes->at);
+    }
+    wholes->at[0] = value;
+    wholes->n = 1;
+    return KOKSMA_OK;
+}
+
+/* A new block, zero, and its group. */
+static void *add_block(void **blocks, size_t *n, size_t size, koksma__audit_group **groups)
+{
+    char *more = realloc(*blocks, (*n + 1) * size);
+    *blocks = more ? more : *blocks;
+    koksma__audit_group *group = realloc(*groups, (*n + 1) * sizeof *group);
+    *groups = group ? group : *groups;
+    if (!more || !group) {
+        koksma__fail_memory((*n + 1) * size);
+        return NULL;
+    }
+    group[*n] = (koksma__audit_group){{NULL}};
+    return memset(more + (*n)++ * size, 0, size);
+}
+
+static bool has_points_of(const koksma__series *a, const koksma__series *b)
+{
+    return !strcmp(a->pattern, b->pattern) && !strcmp(a->options, b->options) && a->n == b->n && a->dim == b->dim;
+}
+
+/* A measure goes into the block of its row, which the series before it may have begun. */
+static koksma_status add_measure(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series *s,
+                                 long long *row)
+{
+    const koksma__series *key = &s->key;
+    const long long place = s->id % KOKSMA__AUDIT_MEMBERS;
+    koksma__discrepancy_block *b = plan->n_discrepancies ? &plan->discrepancies[plan->n_discrepancies - 1] : NULL;
+    koksma_status status = KOKSMA_OK;
+    if (*row != s->id - place ||
+        !has_points_of(&list->discrepancies[plan->n_discrepancies - 1].members[0]->key, key)) {
+        b = add_block((void **)&plan->discrepancies, &plan->n_discrepancies, sizeof *b, &list->discrepancies);
+        *row = s->id - place;
+        status = b ? set_text(&b->patterns, key->pattern) : KOKSMA_MEMORY;
+        status = status || !key->options[0] ? status : set_text(&b->warps, key->options);
+        status = status ? status : set_whole(&b->n, key->n);
+    }
+    if (status) {
+        return status;
+    }
+    koksma__audit_group *group = &list->discrepancies[plan->n_discrepancies - 1];
+    group->members[b->measures.n] = s;
+    b->dim = (int)key->dim;
+    b->trials = s->end > b->trials ? s->end : b->trials;
+    return set_text(&b->measures, key->what);
+}
+
+static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, const koksma__series *key)
+{
+    koksma__image_block *b = add_block((void **)&plan->images, &plan->n_images, sizeof *b, &list->images);
+    char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
+    if (!b) {
+        return KOKSMA_MEMORY;
+    }
+    b->width = (int)key->width;
+    b->height = (int)key->height;
+    koksma_status status = set_text(&b->scenes, key->scene);
+    status = status ? status : set_text(&b->patterns, key->pattern);
+    status = status ? status : set_text(&b->variants, key->options);
+    status = status ? status : set_whole(&b->spp, key->n);
+    b->references = status ? NULL : calloc(1, sizeof *b->references);
+    if (!b->references) {
+        return status ? status : koksma__fail_memory(sizeof *b->references);
+    }
+    b->n_references = 1;
+    koksma__reference *r = &b->references[0];
+    status = koksma__reference_parse(key->what, name, pattern, &r->spp, &r->replicates);
+    r->name = strdup(name);
+    r->pattern = strdup(pattern);
+    return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
+}
+
+/* By all of their keys, an image before its coherence. */
+static int compare_images(const void *a, const void *b)
+{
+    koksma__series s = (*(koksma__audit_series *const *)a)->key, t = (*(koksma__audit_series *const *)b)->key;
+    const long long numbers[3][2] = {{s.n, t.n}, {s.width, t.width}, {s.height, t.height}};
+    const char **of_s[8], **of_t[8];
+    int order = 0;
+    texts_of(&s, of_s);
+    texts_of(&t, of_t);
+    for (int i = 0; !order && i < 3; i++) {
+        order = numbers[i][0] < numbers[i][1] ? -1 : numbers[i][0] > numbers[i][1];
+    }
+    for (int i = 1; !order && i < 8; i++) {
+        order = strcmp(*of_s[i], *of_t[i]);
+    }
+    return order ? order : -strcmp(s.kind, t.kind);
+}
+
+static bool is_coherence_of(const koksma__audit_series *s, const koksma__audit_series *image)
+{
+    koksma__audit_series other = *s;
+    const koksma__audit_series *a = &other, *b = image;
+    other.key.kind = image->key.kind;
+    return strcmp(s->key.kind, image->key.kind) != 0 && !compare_images(&a, &b);
+}
+
+static koksma_status add_images(koksma__plan *plan, koksma__audit_list *list, koksma__audit_series **images, size_t n)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < n; i++) {
+        const bool pair = i > 0 && is_coherence_of(images[i], images[i - 1]);
+        status = pair ? KOKSMA_OK : add_image(plan, list, &images[i]->key);
+        if (!status) {
+            koksma__image_block *b = &plan->images[plan->n_images - 1];
+            list->images[plan->n_images - 1].members[!strcmp(images[i]->key.kind, "coherence")] = images[i];
+            b->trials = images[i]->end > b->trials ? images[i]->end : b->trials;
+        }
+    }
+    return status;
+}
+
+koksma_status koksma__audit_plan(koksma_study *study, koksma__audit_list *list)
+{
+    koksma__plan *plan = &study->plan;
+    koksma__audit_series **images = calloc(list->n + 1, sizeof *images);
+    size_t n_images = 0;
+    long long row = -1;
+    plan->name = strdup(study->folder);
+    koksma_status status = images && plan->name ? KOKSMA_OK : koksma__fail_memory(list->n * sizeof *images);
+    for (size_t i = 0; !status && i < list->n; i++) {
+        koksma__audit_series *s = &list->at[i];
+        if (s->state != KOKSMA__AUDIT_OURS || !s->rows) {
+            continue;
+        }
+        s->drawn = calloc(((size_t)s->end + 7) / 8, 1);
+        if (!s->drawn) {
+            status = koksma__fail_memory((size_t)s->end / 8);
+        } else if (!strcmp(s->key.kind, "discrepancy")) {
+            status = add_measure(plan, list, s, &row);
+        } else {
+            images[n_images++] = s;
+        }
+    }
+    if (!status && n_images) {
+        qsort(images, n_images, sizeof *images, compare_images);
+        status = add_images(plan, list, images, n_images);
+    }
+    free(images);
+    return status;
+}
