@@ -109,7 +109,7 @@ static void equal_parts_get_equal_shares(void **state)
     for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
         double counts[CELLS][CELLS] = {{0}};
         for (int k = 0; k < SIDE * SIDE; k++) {
-            double x[3] = {0}, a, b;
+            double x[3] = {0}, a = 0, b = 0;
             w->map((double[2]){(k % SIDE + 0.5) / SIDE, (k / SIDE + 0.5) / SIDE}, x);
             straighten(w, x, &a, &b);
             counts[(int)fmin(a * CELLS, CELLS - 1)][(int)fmin(b * CELLS, CELLS - 1)] += 1;
