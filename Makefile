@@ -18,6 +18,7 @@
 #   Release
 #   make dist        write build/dist/koksma-VERSION.tar.gz; the same commit gives the same bytes
 #   make dist-test   build and test from that archive, in an empty directory without git
+#   make wheel       build a Python wheel that needs nothing but libc, and try it with the newest NumPy and SciPy
 #   make deb         write Debian packages to build/deb and check them with lintian
 #   make cross       build for aarch64 and run the tests of libkoksma under qemu; MACHINES="aarch64 s390x i686"
 #
@@ -31,7 +32,7 @@ TRIALS ?=
 BASE ?= main
 MACHINES ?= aarch64
 
-.PHONY: help demo check test bench install docs explorer deb dist dist-test cross release clean
+.PHONY: help demo check test bench install docs explorer wheel deb dist dist-test cross release clean
 
 help:
 	@sed -n 's/^#   //p; s/^#$$//p' Makefile | sed '1{/^$$/d}'
@@ -74,6 +75,10 @@ dist:
 dist-test:
 	@scripts/setup build test
 	@scripts/dist-test
+
+wheel:
+	@scripts/setup build
+	@scripts/wheel
 
 deb:
 	@scripts/setup build deb

@@ -1,6 +1,15 @@
 # What `cmake --install` puts where: a tree that can be moved, found through pkg-config or find_package(koksma).
 include(CMakePackageConfigHelpers)
 
+if(SKBUILD) # pip: the libraries and the program go into the Python package, where _library.py and _program.py look
+  set(parts koksma-shared koksma-lab-shared koksma-program)
+  set_target_properties(koksma-shared koksma-lab-shared PROPERTIES VERSION ${KOKSMA_ABI}) # a wheel holds no links
+  set_target_properties(${parts} PROPERTIES INSTALL_RPATH $ORIGIN)
+  install(TARGETS ${parts} LIBRARY DESTINATION koksma/lib COMPONENT python NAMELINK_SKIP
+          RUNTIME DESTINATION koksma/lib COMPONENT python)
+  return()
+endif()
+
 set_target_properties(koksma-shared PROPERTIES EXPORT_NAME koksma)
 set_target_properties(koksma PROPERTIES EXPORT_NAME koksma-static)
 install(TARGETS koksma-shared koksma EXPORT koksma-targets)

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The `koksma` command of an installed wheel: the C program, which lies beside the libraries in the package."""
+import os
+import sys
+from pathlib import Path
+
+
+def main() -> None:
+    """Replaces this process by the program, with its arguments; the exit code is the program's."""
+    program = Path(__file__).parent / "lib" / "koksma"
+    try:
+        os.execv(program, ["koksma", *sys.argv[1:]])
+    except OSError as error:
+        sys.exit(f"koksma: {program}: {error.strerror}; reinstall the package")
