@@ -150,7 +150,9 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     if (status || !size) {
         return status;
     }
-    status = open_file(path, &file);
+    char *real = realpath(path, NULL); /* SQLite's layer opens no links */
+    status = real ? open_file(real, &file) : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
+    free(real);
     if (status) {
         return status;
     }

@@ -215,6 +215,13 @@ static void remove_log(const char *path)
     }
 }
 
+static void pass(void *context, long long series, long long trial)
+{
+    (void)context;
+    (void)series;
+    (void)trial;
+}
+
 /* One run at a time: a second one on the same folder is told so instead of doing the same work. */
 static koksma_status open_to_write(const char *path, const char *plan_name, koksma__store **out)
 {
@@ -243,6 +250,11 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
+    if (!status) {                      /* damage is told before a byte is written */
+        (*out)->in_transaction = false; /* which the scan would end */
+        status = koksma__store_scan(*out, pass, NULL);
+        (*out)->in_transaction = true;
+    }
     if (!status && plan_name) {
         status = check_plan(*out, plan_name);
     }
