@@ -50,6 +50,7 @@ def reseal(folder):
     sums = [checksum(table, row) for table, query in tables for row in database.execute(query)]
     database.execute("UPDATE meta SET value = ? WHERE key = 'seal'", ("%d %d" % (len(sums), sum(sums) & ONES),))
     database.commit()
+    database.close()
 
 
 if __name__ == "__main__":

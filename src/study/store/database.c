@@ -145,12 +145,21 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     long long size;
     sqlite3_file *file;
     *header = (koksma__database_header){0};
+    long long journal = 0;
     koksma_status status = look_at(path, &header->exists, &size);
     header->is_empty = header->exists && size == 0;
     if (status || !size) {
         return status;
     }
-    status = open_file(path, &file);
+    char *real = realpath(path, NULL); /* SQLite's layer opens no links */
+    if (real && strlen(real) < MAX_PATH) {
+        status = look_beside(real, "-journal", &journal);
+        header->has_journal = journal > 0;
+    }
+    status = status ? status
+             : real ? open_file(real, &file)
+                    : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
+    free(real);
     if (status) {
         return status;
     }
@@ -242,7 +251,9 @@ static koksma_status open_as(koksma__database *database, koksma__database_mode m
         [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
         [KOKSMA__DATABASE_WRITE] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
                                    "PRAGMA synchronous=NORMAL; PRAGMA cache_size=-32768",
-        [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=OFF"};
+        [KOKSMA__DATABASE_LOCK] = "PRAGMA locking_mode=EXCLUSIVE; BEGIN EXCLUSIVE; COMMIT; "
+                                  "PRAGMA wal_checkpoint(TRUNCATE)",
+        [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=FULL"};
     const bool read = mode == KOKSMA__DATABASE_READ;
     const char *path = read ? database->uri : *database->real ? database->real : ":memory:";
     const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_URI | (read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);

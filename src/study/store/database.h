@@ -12,8 +12,8 @@ typedef struct sqlite3_stmt koksma__statement;
 
 /* What a file says of itself in its first 100 bytes, before SQLite has looked at it. */
 typedef struct koksma__database_header {
-    bool exists, is_empty;
-    uint32_t application_id, version; /* PRAGMA application_id and user_version */
+    bool exists, is_empty, has_journal; /* journal: another program was killed at work on it */
+    uint32_t application_id, version;   /* PRAGMA application_id and user_version */
 } koksma__database_header;
 
 /* Errors: MALFORMED (neither empty nor a database; no plain file), IO (can't be read). */
@@ -23,6 +23,7 @@ typedef enum koksma__database_mode {
     KOKSMA__DATABASE_READ,  /* changes no byte of the file and of its folder, which need not be writable; a run can't
                                begin until it is closed */
     KOKSMA__DATABASE_WRITE, /* of a file that exists: by itself, with a write-ahead log */
+    KOKSMA__DATABASE_LOCK,  /* the same; all that is written is what a log or a journal holds */
     KOKSMA__DATABASE_BUILD  /* of an empty file that nobody else knows; "": in memory */
 } koksma__database_mode;
 

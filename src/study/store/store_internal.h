@@ -118,6 +118,9 @@ koksma_status koksma__store_find_text(koksma__store *store, const char *key, cha
    can be upgraded. Errors: MALFORMED (another program's, or a newer schema). */
 koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema);
 
+/* Whether the header has our application's id. */
+bool koksma__schema_is_ours(const koksma__database_header *header);
+
 /* Makes the tables of KOKSMA__SCHEMA in an empty database. */
 koksma_status koksma__schema_make(koksma__database *database);
 

@@ -138,10 +138,7 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
 static koksma_status upgrade_file(const char *path, int schema)
 {
     koksma__database *old;
-    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_WRITE, &old);
-    status = status ? status
-                    : koksma__database_execute(old, "BEGIN EXCLUSIVE; COMMIT; "
-                                                    "PRAGMA wal_checkpoint(TRUNCATE)");
+    koksma_status status = koksma__database_open(path, KOKSMA__DATABASE_LOCK, &old);
     if (!status && koksma__database_has_moved(old)) {
         status = koksma__fail(KOKSMA_IO, "%s: another run is at work on it", path);
     }
@@ -185,6 +182,19 @@ static koksma_status look(const char *path, bool *exists, int *schema, koksma__d
     return status;
 }
 
+/* Where another program has taken the log from a file of ours, and was killed with a journal, SQLite undoes that. */
+static koksma_status end_journal(const char *path)
+{
+    koksma__database_header header;
+    koksma__database *database = NULL;
+    koksma_status status = koksma__database_look(path, &header);
+    if (!status && header.has_journal && koksma__schema_is_ours(&header)) {
+        status = koksma__database_open(path, KOKSMA__DATABASE_LOCK, &database);
+        koksma__database_close(database);
+    }
+    return status;
+}
+
 static koksma_status open_to_read(const char *path, koksma__store **out)
 {
     koksma__database *database;
@@ -218,6 +228,13 @@ static void remove_log(const char *path)
     }
 }
 
+static void pass(void *context, long long series, long long trial)
+{
+    (void)context;
+    (void)series;
+    (void)trial;
+}
+
 /* One run at a time: a second one on the same folder is told so instead of doing the same work. */
 static koksma_status open_to_write(const char *path, const char *plan_name, koksma__store **out)
 {
@@ -228,8 +245,9 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     if (access(path, W_OK) && errno != ENOENT) {
         return koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
     }
-    koksma_status status = look(path, &exists, &schema, &database);
-    koksma__database_close(database);
+    koksma_status status = end_journal(path);
+    status = status ? status : look(path, &exists, &schema, &database);
+    koksma__database_close(status ? NULL : database);
     if (!status && !exists) {
         remove_log(path);
         status = put_in_place(path, NULL, KOKSMA__SCHEMA);
@@ -246,6 +264,11 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
+    if (!status) {                      /* damage is told before a byte is written */
+        (*out)->in_transaction = false; /* which the scan would end */
+        status = koksma__store_scan(*out, pass, NULL);
+        (*out)->in_transaction = true;
+    }
     if (!status && plan_name) {
         status = check_plan(*out, plan_name);
     }

@@ -98,10 +98,15 @@ static koksma_status old_schema(koksma__database *database, int *schema)
     return status;
 }
 
+bool koksma__schema_is_ours(const koksma__database_header *header)
+{
+    return header->application_id == APPLICATION;
+}
+
 koksma_status koksma__schema_of(koksma__database *database, const koksma__database_header *header, int *schema)
 {
     const char *path = koksma__database_path(database);
-    const bool ours = header->application_id == APPLICATION;
+    const bool ours = koksma__schema_is_ours(header);
     int n = 0;
     if (ours && header->version != KOKSMA__SCHEMA) {
         return koksma__fail(KOKSMA_MALFORMED, "%s: its schema is %u and this program's is %d; choose another folder",

@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+"""store_attacks.py KOKSMA: folders of studies as a stranger may make them. Databases of other programs, triggers, views,
+tables of their own, values that are no numbers: refused with exit code 3 by export, report, run and audit, and not a
+byte of the folder is changed. Rows and references that were changed by hand, also where the seal was made anew
+(study/reseal.py): found by the audit. Stored specs that name programs or devices start nothing. Readers need no folder
+that can be written."""
+import hashlib
+import os
+import re
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE + "/../study")
+from reseal import reseal  # noqa: E402
+
+KOKSMA = os.path.abspath(sys.argv[1])
+PLAN = """{"name": "h", "title": "h",
+  "discrepancies": [{"patterns": ["random", "zaremba"], "measures": ["star", "l2-star"], "n": [4, 9], "trials": 5}],
+  "images": [{"scenes": ["checker"], "patterns": ["random"], "spp": [1], "size": [8, 6], "trials": 3,
+              "references": [{"name": "r", "pattern": "jittered", "spp": 4, "replicates": 2}]}]}"""
+problems = 0
+
+
+def check(right, what):
+    global problems
+    if not right:
+        problems += 1
+        print("wrong:", what)
+
+
+def koksma(*arguments, prefix=()):
+    return subprocess.run([*prefix, KOKSMA, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def study(verb, folder, *more):
+    if verb == "run":
+        return koksma("study", "run", "./plan.json", "-o", folder, "-q", "--trials", "7")
+    return koksma("study", verb, folder, *more)
+
+
+def bytes_of(folder):
+    names = sorted(os.path.join(at, name) for at, _, files in os.walk(folder) for name in files)
+    return {name: hashlib.sha256(open(name, "rb").read()).hexdigest() for name in names}
+
+
+def change(folder, *statements, unchecked=False, sealed=False):
+    database = sqlite3.connect(folder + "/results.sqlite")
+    if unchecked:
+        database.execute("PRAGMA ignore_check_constraints=ON")
+    for statement in statements:
+        database.execute(statement)
+    database.commit()
+    database.close()
+    if sealed:
+        reseal(folder)
+
+
+def copy(name, **how):
+    shutil.rmtree(name, ignore_errors=True)
+    shutil.copytree("sound", name)
+    return name
+
+
+def refused(name, folder, verbs=("export", "report", "run", "audit"), code=3):
+    before = bytes_of(folder)
+    for verb in verbs:
+        told = study(verb, folder)
+        check(told.returncode == code, f"{name}: {verb} has exit code {told.returncode}: {told.stdout}{told.stderr}")
+        lines = told.stderr.rstrip().split("\n")
+        check(len(lines) == 1 and folder in lines[0], f"{name}: {verb} says {told.stderr}")
+        check(bytes_of(folder) == before, f"{name}: {verb} has changed the folder")
+
+
+# ---- Databases that are not ours ------------------------------------------------------------------------------
+
+
+def foreign():
+    os.mkdir("f")
+    for name, statements in {
+        "another program's": ["CREATE TABLE moz_places (id INTEGER PRIMARY KEY, url TEXT)", "INSERT INTO moz_places VALUES (1, 'x')"],
+        "empty of tables": ["PRAGMA user_version=6"],
+        "with an application's id": ["PRAGMA application_id=252006673", "CREATE TABLE t (x)"],
+        "with our id": ["PRAGMA application_id=1263236973", "PRAGMA user_version=6", "CREATE TABLE t (x)"],
+        "of a newer schema": ["PRAGMA application_id=1263236973", "PRAGMA user_version=7", "CREATE TABLE t (x)"],
+        "with a meta of its own": ["CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+                                   "INSERT INTO meta VALUES ('schema', '5')"],
+    }.items():
+        change("f", *statements)
+        refused(name, "f")
+        os.remove("f/results.sqlite")
+    # In use: with a log that has pages which the file lacks.
+    database = sqlite3.connect("f/results.sqlite")
+    database.execute("PRAGMA journal_mode=WAL")
+    database.execute("CREATE TABLE t (x)")
+    database.commit()
+    refused("with a log", "f")
+    database.close()
+    for name in os.listdir("f"):
+        os.remove("f/" + name)
+    # By a link, as it lies elsewhere.
+    change(".", "CREATE TABLE t (x)")
+    os.symlink("../results.sqlite", "f/results.sqlite")
+    refused("behind a link", "f")
+    os.remove("f/results.sqlite")
+    for name, content in {"text": b"no database, but long enough to be one\n" * 9, "the head alone": b"SQLite format 3\0"}.items():
+        with open("f/results.sqlite", "wb") as file:
+            file.write(content)
+        refused(name, "f")
+    os.remove("f/results.sqlite")
+    os.mkfifo("f/results.sqlite")
+    for verb in "export", "report", "run", "audit":
+        check(study(verb, "f").returncode == 3, f"a fifo: {verb}")
+    os.remove("f/results.sqlite")
+    shutil.copy("sound/results.sqlite", "f")
+    os.mkfifo("f/results.sqlite-wal")
+    for verb in "export", "report", "audit":
+        check(study(verb, "f").returncode == 3, f"a fifo for a log: {verb}")
+    shutil.rmtree("f")
+
+
+def schema():
+    for name, statement in {
+        "trigger": "CREATE TRIGGER t AFTER INSERT ON result BEGIN UPDATE result SET v0 = 0.0 WHERE id = new.id; END",
+        "trigger on a view": "CREATE TRIGGER t INSTEAD OF INSERT ON rows BEGIN SELECT 1; END",
+        "view": "CREATE VIEW mine AS SELECT 1",
+        "table": "CREATE TABLE more (x)",
+        "index": "CREATE INDEX more ON result (v0)",
+        "statistics": "ANALYZE",
+        "virtual table": "CREATE VIRTUAL TABLE v USING fts5(x)",
+        "column": "ALTER TABLE result ADD COLUMN v4 REAL",
+        "renamed": "ALTER TABLE run RENAME TO ran",
+        "less": "DROP VIEW rows",
+    }.items():
+        copy("s")
+        change("s", statement)
+        refused(name, "s")
+    # The same names with other meanings.
+    for name, table, text in (
+        ("a view for a table", "result", "CREATE VIEW result AS SELECT 1 AS id, 0 AS seed, 0.0 AS v0, 0.0 AS v1, 0.0 AS v2, 0.0 AS v3"),
+        ("without checks", "run", None),
+    ):
+        copy("s")
+        old = sqlite3.connect("s/results.sqlite").execute("SELECT sql FROM sqlite_schema WHERE name = ?", (table,)).fetchone()[0]
+        change("s", f"DROP TABLE {table}", text or old.replace("STRICT", ""))
+        refused(name, "s")
+    # Comments and blanks are free.
+    copy("s")
+    old = sqlite3.connect("s/results.sqlite").execute("SELECT sql FROM sqlite_schema WHERE name = 'run'").fetchone()[0]
+    change("s", "CREATE TEMP TABLE keep AS SELECT * FROM run", "DROP TABLE run", re.sub(r"--.*", "-- of mine", old).replace("  ", " \n "),
+           "INSERT INTO run SELECT * FROM keep")
+    check(study("export", "s").stdout == SOUND, "comments in the schema")
+
+
+# ---- Values ---------------------------------------------------------------------------------------------------
+
+
+def values():
+    """STRICT tables and CHECKs refuse these; so they are put in by the bytes of the file and by switched-off checks."""
+    for value in ("9e999", "-9e999"):
+        copy("v")
+        change("v", f"UPDATE result SET v0 = {value} WHERE id = (SELECT min(id) FROM result)", unchecked=True, sealed=True)
+        refused(f"v0 = {value}", "v")
+    for value in ("'abc'", "x'00'"):
+        copy("v")
+        try:
+            change("v", f"UPDATE result SET v0 = {value}")
+            check(False, f"the tables take {value} for a number")
+        except sqlite3.IntegrityError:
+            pass
+    # A table that is not strict, under the name and text of one that is.
+    copy("v")
+    database = sqlite3.connect("v/results.sqlite")
+    text = database.execute("SELECT sql FROM sqlite_schema WHERE name = 'result'").fetchone()[0]
+    database.execute("PRAGMA writable_schema=ON")
+    database.execute("UPDATE sqlite_schema SET sql = replace(sql, 'STRICT', '') WHERE name = 'result'")
+    database.commit()
+    database.close()
+    loose = copy("w")
+    shutil.copy("v/results.sqlite", "w")
+    for value in ("'abc'", "x'3ff0000000000000'", "''"):
+        shutil.copy("v/results.sqlite", "w")
+        change(loose, f"UPDATE result SET v0 = {value} WHERE id = (SELECT min(id) FROM result)", unchecked=True)
+        database = sqlite3.connect("w/results.sqlite")
+        database.execute("PRAGMA writable_schema=ON")
+        database.execute("UPDATE sqlite_schema SET sql = ? WHERE name = 'result'", (text,))
+        database.commit()
+        database.close()
+        refused(f"v0 = {value}", "w")
+
+
+def found(name, folder, in_words=""):
+    told = study("audit", folder, "--rows", "all")
+    check(told.returncode == 1 and "differs: " in told.stdout and in_words in told.stdout, f"{name}: {told}")
+
+
+def rows():
+    first = "(SELECT min(id) FROM result)"
+    edits = {
+        "value": (f"UPDATE result SET v0 = v0 * (1 + 2.3e-16) WHERE id = {first}", "is stored, and"),
+        "seed": (f"UPDATE result SET seed = seed + 1 WHERE id = {first}", "seed"),
+        "a row of another": ("UPDATE result SET v0 = (SELECT v0 FROM result ORDER BY id LIMIT 1 OFFSET 1)", "is stored, and"),
+        "added": ("INSERT INTO result SELECT id + (100 << 32), seed, v0, v1, v2, v3 FROM result LIMIT 1", "seed"),
+        "pattern": ("UPDATE series SET pattern = 'jittered', made_by = 'jittered 0' WHERE pattern = 'random' AND kind = 'discrepancy'", "seed"),
+        "measure": ("UPDATE series SET what = 'extreme', measured_by = 'extreme 0' WHERE what = 'star'", "is stored, and"),
+        "no pattern": ("UPDATE series SET pattern = 'none' WHERE pattern = 'random'", "can't be made again"),
+        "n": ("UPDATE series SET n = 16 WHERE n = 9", "seed"),
+        "scene": ("UPDATE series SET scene_hash = '00' WHERE kind = 'image'", "another one now"),
+        "size": ("UPDATE series SET width = 9 WHERE kind <> 'discrepancy'", "seed"),
+        "reference": ("UPDATE series SET what = 'r:jittered@5x2' WHERE kind <> 'discrepancy'", ""),
+        "hash": ("UPDATE reference SET pixels = replace(pixels, substr(pixels, 1, 3), 'abc')", "hash"),
+        "own error": ("UPDATE reference SET standard_error = standard_error * 2", "own error"),
+    }
+    for name, (statement, words) in edits.items():
+        copy("r")
+        change("r", statement)
+        refused(name, "r", ("export", "run"))
+        found(name, "r", "not those that runs wrote")
+        reseal("r")
+        check(study("export", "r").returncode == 0, f"{name}: sealed anew, it is exported")
+        found(name + ", sealed anew", "r", words)
+    copy("r")
+    change("r", f"DELETE FROM result WHERE id = {first}")
+    refused("removed", "r", ("export", "report", "run"))
+    found("removed", "r", "lost")
+    # Rows of another revision are not wrong, and not compared; a run makes those of its own beside them.
+    copy("r")
+    change("r", "UPDATE series SET made_by = 'random 1' WHERE made_by = 'random 0'", "UPDATE result SET v0 = 0.0 WHERE id & 4294967295 IN "
+           "(SELECT id FROM series WHERE made_by = 'random 1')", sealed=True)
+    told = study("audit", "r", "--rows", "all")
+    check(told.returncode == 0 and re.search(r"not compared: 20 rows of other revisions, such as random 1; .*\(here: random 0;", told.stdout),
+          f"another revision: {told}")
+    koksma("study", "run", "./plan.json", "-o", "r", "-q")
+    export = study("export", "r").stdout.split("\n")
+    check(sorted(r for r in export if "random 1" not in r) == sorted(SOUND.split("\n")), "rows beside those of another revision")
+    check(sum(",random 1," in r for r in export) == 20, "rows of another revision stay")
+
+
+def references():
+    name = "references/" + os.listdir("sound/references")[0]
+    copy("x")
+    koksma("render", "checker", "--size", "8x6", "-n", "1", "-q", "-o", "other.exr")
+    for content, words in ((open("other.exr", "rb").read(), "other pixels"), (b"no image", "")):
+        with open("x/" + name, "wb") as file:
+            file.write(content)
+        before = bytes_of("x")
+        for verb in "report", "run":
+            told = study(verb, "x")
+            check(told.returncode == 3 and name in told.stderr, f"another reference: {verb}: {told}")
+        check({k: v for k, v in bytes_of("x").items() if "results" not in k} ==
+              {k: v for k, v in before.items() if "results" not in k}, "another reference: files changed")
+        found("another reference", "x", words)
+    os.remove("x/" + name)
+    told = study("audit", "x")
+    check(told.returncode == 0 and "the files of 1 are not there" in told.stdout, f"no reference: {told}")
+    check(study("run", "x").returncode == 0, "a run makes a reference again")
+    koksma("study", "run", "./plan.json", "-o", "whole", "-q", "--trials", "7")
+    check(study("export", "x").stdout == study("export", "whole").stdout, "rows with a reference that was made again")
+
+
+def programs():
+    """Nothing that a stored spec names is started, and no device is read for ever."""
+    specs = ["program:touch started", "command:touch started", "exec:touch started", "|touch started", "file:|touch started",
+             "file:$(touch started)", "file:/dev/zero", "file:fifo", "`touch started`"]
+    os.mkfifo("fifo")
+    for spec in specs:
+        copy("p")
+        quoted = spec.replace("'", "''")
+        change("p", f"UPDATE series SET pattern = '{quoted}', made_by = 'file 0' WHERE pattern = 'random' AND kind = 'discrepancy'",
+               f"UPDATE series SET what = '{quoted}' WHERE what = 'star'", sealed=True)
+        found(spec, "p", "can't be made again")
+        for verb in "export", "report":
+            check(study(verb, "p").returncode in (0, 3), f"{spec}: {verb}")
+    copy("p")
+    change("p", "UPDATE series SET scene = '/dev/zero' WHERE scene = 'checker'", sealed=True)
+    found("a device for a scene", "p", "can't be made again")
+    check(not os.path.exists("started"), "a stored spec has started a program")
+
+
+# ---- Readers --------------------------------------------------------------------------------------------------
+
+
+def readers():
+    """As another user, in a folder that can't be written; also where a run was killed and its log holds rows."""
+    copy("sealed")
+    run = subprocess.Popen([KOKSMA, "study", "run", "./plan.json", "-o", "sealed", "-q", "--trials", "100000", "--threads", "1"])
+    try:
+        for _ in range(200):
+            if os.path.exists("sealed/results.sqlite-wal") and os.path.getsize("sealed/results.sqlite-wal") > 200000:
+                break
+            run.wait(0.05)
+    except subprocess.TimeoutExpired:
+        pass
+    while not (os.path.exists("sealed/results.sqlite-wal") and os.path.getsize("sealed/results.sqlite-wal") > 200000):
+        try:
+            run.wait(0.05)
+            break
+        except subprocess.TimeoutExpired:
+            pass
+    run.kill()
+    run.wait()
+    check(os.path.getsize("sealed/results.sqlite-wal") > 200000, "the killed run has left a log")
+    copy("plain")
+    prefix = ("setpriv", "--reuid", "65534", "--clear-groups") if os.getuid() == 0 and shutil.which("setpriv") else ()
+    os.chmod(".", 0o755)
+    for folder in "plain", "sealed":
+        for at, _, files in os.walk(folder):
+            os.chmod(at, 0o555)
+            for name in files:
+                os.chmod(os.path.join(at, name), 0o444)
+        before = bytes_of(folder)
+        told = koksma("study", "export", folder, prefix=prefix)
+        check(told.returncode == 0, f"export of {folder}: {told.stderr}")
+        check(all(row in told.stdout for row in SOUND.split("\n")), f"rows of {folder}")
+        told = koksma("study", "audit", folder, "--rows", "20", prefix=prefix)
+        check(told.returncode == 0 and "20 agree" in told.stdout, f"audit of {folder}: {told}")
+        told = koksma("study", "report", folder, prefix=prefix)
+        if prefix:
+            check(told.returncode == 4 and "report.json" in told.stderr, f"a report has nowhere to go: {told}")
+        check(bytes_of(folder) == before, f"{folder} was only read")
+        for at, _, _ in os.walk(folder):
+            os.chmod(at, 0o755)
+        for at, _, files in os.walk(folder):
+            for name in files:
+                os.chmod(os.path.join(at, name), 0o644)
+    # Readers do not wait for each other, and a run waits for none that is gone.
+    check(koksma("study", "run", "./plan.json", "-o", "sealed", "-q").returncode == 0, "a run goes on from the log")
+    check(sorted(os.listdir("sealed")) == ["references", "report.html", "report.json", "results.sqlite"], os.listdir("sealed"))
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as work:
+        os.chdir(work)
+        with open("plan.json", "w", encoding="ascii") as file:
+            file.write(PLAN)
+        assert koksma("study", "run", "./plan.json", "-o", "sound", "-q").returncode == 0
+        SOUND = study("export", "sound").stdout
+        for attack in foreign, schema, values, rows, references, programs, readers:
+            attack()
+    print(f"{problems} problems")
+    sys.exit(problems > 0)
