@@ -25,8 +25,27 @@ function(koksma_embed_folder header glob)
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from text files; do not edit. */\n${arrays}static const struct {\n    const char *name, *text;\n    size_t size;\n} embedded_texts[] = {\n${table}};\n" @ONLY)
 endfunction()
 
+# koksma_base64_sha256(OUT TEXT): the hash of a text as a Content-Security-Policy wants it. CMake writes hexadecimal: three
+# bytes are four letters.
+function(koksma_base64_sha256 out text)
+  set(letters ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/)
+  string(SHA256 hash "${text}")
+  set(result "")
+  foreach(at RANGE 0 60 6) # 32 bytes: the last group has two of three
+    string(SUBSTRING "${hash}0000" ${at} 6 group)
+    foreach(shift 18 12 6 0)
+      math(EXPR letter "(0x${group} >> ${shift}) & 63")
+      string(SUBSTRING ${letters} ${letter} 1 letter)
+      string(APPEND result ${letter})
+    endforeach()
+  endforeach()
+  string(SUBSTRING ${result} 0 43 result)
+  set(${out} "${result}=" PARENT_SCOPE)
+endfunction()
+
 # koksma_embed_page(HEADER PAGE MODULE...): a header with koksma__page_head and koksma__page_foot: PAGE up to {{data}} and
 # behind it, with the modules in their order in place of {{script}}. They are put into one: imports and the word export go.
+# {{script-hash}} is that of the element's text, for the page's Content-Security-Policy.
 function(koksma_embed_page header page)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${page} ${ARGN})
   set(script "")
@@ -37,6 +56,8 @@ function(koksma_embed_page header page)
     string(APPEND script "${text}")
   endforeach()
   file(READ ${page} text)
+  koksma_base64_sha256(hash "\n${script}")
+  string(REPLACE "{{script-hash}}" "${hash}" text "${text}")
   string(FIND "${text}" "{{data}}" at)
   string(SUBSTRING "${text}" 0 ${at} head)
   math(EXPR at "${at} + 8")

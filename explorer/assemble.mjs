@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // assemble.mjs WASM OUT: puts page/ and the WebAssembly file together into one HTML file. The modules are put one after the
 // other in the order of their imports; as all their names then stand in one scope, a name that two of them give is an error.
+import crypto from "node:crypto";
 import fs from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -52,6 +53,8 @@ const fill = {
   references: safe(JSON.stringify(references())),
   wasm: fs.readFileSync(wasm).toString("base64"),
 };
+// The page's Content-Security-Policy lets no other script run: this is the hash of the element's text.
+fill.hash = crypto.createHash("sha256").update(`\n${fill.main}\n`).digest("base64");
 const html = fs.readFileSync(path.join(page, "page.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (whole, name) => {
   if (!(name in fill)) throw new Error(`page.html wants ${name}`);
   return fill[name];

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Specs: what parses has a canonical text, which parses to the same; and small sets of it can be made. */
+/* Specs of patterns, measures and adaptive methods, and the patterns of a renderer's uses: what parses has a canonical
+   text, which parses to the same. */
+#include <koksma/adaptive.h>
+
 #include "target.h"
 
 static void check_round_trip(const koksma_spec *spec, koksma_status (*parse)(const char *, koksma_spec *))
@@ -13,6 +16,42 @@ static void check_round_trip(const koksma_spec *spec, koksma_status (*parse)(con
     koksma_spec_text(&again, second);
     if (strcmp(first, second)) {
         abort();
+    }
+}
+
+static void check_adaptive(const char *text)
+{
+    char first[KOKSMA_MAX_SPEC], second[KOKSMA_MAX_SPEC];
+    koksma_adaptive_options options;
+    const koksma_status status = koksma_adaptive_parse(text, &options);
+    fuzz_check_status(status);
+    if (!status) {
+        koksma_adaptive_text(&options, first);
+        if (koksma_adaptive_parse(first, &options)) {
+            abort();
+        }
+        koksma_adaptive_text(&options, second);
+        if (strcmp(first, second)) {
+            abort();
+        }
+    }
+}
+
+static void check_uses(const char *text)
+{
+    char first[KOKSMA_MAX_PATTERNS_TEXT], second[KOKSMA_MAX_PATTERNS_TEXT];
+    koksma_render_options options = {0}, again = {0};
+    const koksma_status status = koksma_render_patterns(text, &options);
+    fuzz_check_status(status);
+    if (!status && options.pattern.pattern) {
+        koksma_render_patterns_text(&options, first);
+        if (koksma_render_patterns(first, &again)) {
+            abort();
+        }
+        koksma_render_patterns_text(&again, second);
+        if (strcmp(first, second)) {
+            abort();
+        }
     }
 }
 
@@ -35,6 +74,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     if (!status) {
         check_round_trip(&spec, koksma_measure_spec);
     }
+    check_adaptive(text);
+    check_uses(text);
     free(text);
     return 0;
 }

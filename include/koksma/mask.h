@@ -53,6 +53,7 @@ KOKSMA_API koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, c
      random  a random word for this pixel and mask; koksma_words(key, KOKSMA_FOR_SHIFT, pixel, 1, w) gives four */
 KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_t random)
 {
+    KOKSMA_ASSERT(rank < pixels);
     return (uint32_t)(((uint64_t)rank << 32 | random) / pixels);
 }
 
@@ -75,6 +76,7 @@ KOKSMA_INLINE void koksma_mask_2d(const koksma_sobol *sequence, const uint32_t v
     const uint32_t x = koksma_mirror(koksma_owen_hash(i, sequence->seeds[0]));
     const uint32_t y = koksma_mirror(koksma_owen_hash(koksma_pascal(i) ^ pairing, sequence->seeds[1]));
     uint32_t shifts[2], m;
+    KOKSMA_ASSERT(s < spp);
     shifts[0] = values[0];
     shifts[1] = values[1];
     for (m = net; m; m >>= 1) {

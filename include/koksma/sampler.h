@@ -48,6 +48,9 @@
  *     koksma_r_2d        r-sequence:shuffle=1,shift=1
  *     koksma_z_rank      z-sampler (the order of the pixels)
  *
+ * These functions check nothing: pointers are not NULL, and what a comment says of an argument's range must hold. Define
+ * KOKSMA_ASSERT(condition) as assert(condition) before the header to have the ranges checked.
+ *
  * Coordinates are in [0,1). Cast them with koksma_to_float: (float)0.99999999 is 1.
  *
  * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
@@ -63,6 +66,10 @@
 #define KOKSMA_INLINE static __host__ __device__ inline
 #else
 #define KOKSMA_INLINE static inline
+#endif
+
+#if !defined(KOKSMA_ASSERT)
+#define KOKSMA_ASSERT(condition) ((void)0)
 #endif
 
 /* A stream of samples. Make one with the functions below; equal keys give equal samples. */
@@ -131,6 +138,7 @@ KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, ui
 /* Rounds x in [0,1) down to a multiple of 2^-24, so that the float is never 1. */
 KOKSMA_INLINE float koksma_to_float(double x)
 {
+    KOKSMA_ASSERT(x >= 0 && x < 1);
     return (float)(uint32_t)(x * 16777216.0) * (1.0f / 16777216.0f);
 }
 
@@ -223,6 +231,7 @@ KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
          0x0100011au, 0x030002a7u, 0x0400079eu, 0x0a000b6du, 0x1f001001u, 0x2e003003u, 0x45004004u, 0xc900a00au}};
     uint32_t x = 0;
     int b;
+    KOKSMA_ASSERT(dimension == 0 || dimension == 1);
     for (b = 0; b < 32; b++) {
         x ^= columns[dimension][b] & (0u - (i >> b & 1u));
     }
@@ -294,8 +303,8 @@ KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
 
-/* Returns `partner`: point 2^level + i shares its stratum of width 2^-level in coordinate k with point i ^
-   partner. */
+/* Returns `partner`: point 2^level + i shares its stratum of width 2^-level in coordinate k (0 or 1) with point
+   i ^ partner; level is below 32. */
 KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
 {
     static const uint32_t partners[2][32] = {
@@ -307,6 +316,7 @@ KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
          0x17,     0x13b,     0x367,     0x38b,     0x617,     0x183b,     0x2067,     0x8b,
          0x117,    0x1033b,   0x30767,   0x30b8b,   0x71617,   0x1b383b,   0x276067,   0xb808b,
          0x160117, 0x138033b, 0x3600767, 0x3800b8b, 0x6001617, 0x1800383b, 0x20006067, 0x808b}};
+    KOKSMA_ASSERT((k == 0 || k == 1) && level < 32);
     return partners[k][level];
 }
 
@@ -316,6 +326,7 @@ KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
 KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
 {
     uint32_t fraction = 0, above = 0xffffffffu, w[4];
+    KOKSMA_ASSERT(k == 0 || k == 1);
     for (;;) {
         uint32_t level = 0, own;
         koksma_words(key, KOKSMA_FOR_POINT, i / 4, (uint32_t)k, w);
@@ -353,6 +364,7 @@ KOKSMA_INLINE uint32_t koksma_permute(uint32_t i, uint32_t n, uint64_t key)
 {
     const uint32_t a = (uint32_t)key, b = (uint32_t)(key >> 32);
     uint32_t mask = n - 1, shift = 1;
+    KOKSMA_ASSERT(i < n && n >> 31 == 0);
     mask |= mask >> 1;
     mask |= mask >> 2;
     mask |= mask >> 4;
@@ -392,6 +404,7 @@ KOKSMA_INLINE void koksma_cmj_2d(koksma_domain domain, uint32_t i, uint32_t colu
 {
     uint32_t keys[4], more[4], w[4], s, c, r;
     const double cells = (double)columns * (double)rows;
+    KOKSMA_ASSERT(cells <= 536870912.0 && (double)i < cells);
     koksma_words(domain.key, KOKSMA_FOR_SHUFFLE, 0, 0, keys);
     koksma_words(domain.key, KOKSMA_FOR_SHUFFLE, 1, 0, more);
     koksma_words(domain.key, KOKSMA_FOR_POINT, i, 0, w);
@@ -431,10 +444,11 @@ KOKSMA_INLINE void koksma_r_2d(koksma_domain domain, uint64_t i, double xy[2])
 
 /* ---- Z-order ------------------------------------------------------------------------------------------- */
 
-/* Returns element j of the permutation of 0 .. 3 that a random word chooses. */
+/* Returns element j, 0 to 3, of the permutation of 0 .. 3 that a random word chooses. */
 KOKSMA_INLINE uint32_t koksma_permute4(uint32_t j, uint32_t word)
 {
     uint32_t order = 0xe4u, i; /* four fields of two bits */
+    KOKSMA_ASSERT(j < 4);
     for (i = 3; i > 0; i--) {
         const uint32_t other = (word & 0x3ffu) * (i + 1) >> 10;
         const uint32_t difference = (order >> 2 * i ^ order >> 2 * other) & 3u;
@@ -454,6 +468,7 @@ KOKSMA_INLINE uint32_t koksma_z_rank(koksma_domain domain, uint32_t x, uint32_t 
 {
     uint32_t rank = 0, path = 1;
     int l;
+    KOKSMA_ASSERT(levels >= 0 && levels <= 16);
     for (l = levels - 1; l >= 0; l--) {
         const uint32_t quadrant = (y >> l & 1u) << 1 | (x >> l & 1u);
         uint32_t w[4];

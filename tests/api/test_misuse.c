@@ -19,6 +19,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+static void asserted(const char *condition);
+#define KOKSMA_ASSERT(condition) ((condition) ? (void)0 : asserted(#condition))
+
 #include <koksma/adaptive.h>
 #include <koksma/mask.h>
 #include <koksma/series.h>
@@ -276,6 +279,12 @@ static void *a_study(void)
     return study;
 }
 
+static void *a_sequence(void)
+{
+    const koksma_sobol sequence = koksma_sobol_of((koksma_domain){7});
+    return a_copy(&sequence, sizeof sequence);
+}
+
 static void *rank_options(void)
 {
     const char *const patterns[] = {"random", "jittered"};
@@ -447,6 +456,17 @@ static void number_returned(double result)
     neutral_returned(isnan(result) || result == 0);
 }
 
+static jmp_buf after_assertion;
+
+/* An inline function's precondition does not hold. */
+static void asserted(const char *condition)
+{
+    if (now.expected == VALID) {
+        wrong(condition);
+    }
+    longjmp(after_assertion, 1);
+}
+
 #include "misuse_calls.h"
 
 /* ---- All cases ------------------------------------------------------------------------------------------------- */
@@ -483,7 +503,7 @@ static void run_cases(void)
             n_watched = 0;
             now.absent = false;
             setitimer(ITIMER_PROF, &limit, NULL);
-            if (!calls[shared->function].call(shared->k)) {
+            if (!setjmp(after_assertion) && !calls[shared->function].call(shared->k)) {
                 break;
             }
         }

@@ -48,6 +48,14 @@ const accessibility = () => {
   return [...new Set(found)];
 };
 
+// Waits for a condition in the page. Playwright's own waiting needs eval, which the page's Content-Security-Policy forbids.
+async function until(page, condition) {
+  for (let waits = 0; !(await page.evaluate(condition)); waits++) {
+    if (waits === 4800) throw new Error(`not reached: ${condition}`);
+    await new Promise(resolve => setTimeout(resolve, 50));
+  }
+}
+
 async function open(browser, { hash = "", colorScheme = "light", width = 1280, before, limit_s } = {}) {
   const context = await browser.newContext({ colorScheme, viewport: { width, height: 900 }, acceptDownloads: true });
   const page = await context.newPage();
@@ -57,13 +65,13 @@ async function open(browser, { hash = "", colorScheme = "light", width = 1280, b
   if (before) await page.addInitScript(before);
   await page.goto(address + hash);
   if (limit_s) {
-    await page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting"));
+    await until(page, () => globalThis.koksmaExplorer && !document.body.classList.contains("starting"));
     await page.evaluate(seconds => koksmaExplorer.limit(seconds), limit_s);
   }
   await idle(page);
   return page;
 }
-const idle = page => page.waitForFunction(() => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy(), null, { timeout: 240000 });
+const idle = page => until(page, () => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy());
 const set = async (page, selector, value) => {
   await page.locator(selector).fill(String(value));
   await page.locator(selector).press("Tab");
@@ -129,5 +137,5 @@ function report() {
 
 module.exports = {
   accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, open, playwright, refusal, report, run,
-  saved, screenshots, set, shell, table, values,
+  saved, screenshots, set, shell, table, until, values,
 };

@@ -6,8 +6,21 @@ const fs = require("fs");
 const path = require("path");
 const {
   accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, open, playwright, refusal, report, run,
-  saved, screenshots, set, shell, table, values,
+  saved, screenshots, set, shell, table, until, values,
 } = require("./harness.cjs");
+
+// A script that is not the page's does not run: the policy would say so on the console, too.
+async function policy(browser) {
+  const page = await open(browser);
+  page.removeAllListeners("console");
+  check(!(await page.evaluate(() => {
+    const script = document.createElement("script");
+    script.textContent = "globalThis.plantedRan = true";
+    document.body.append(script);
+    return Boolean(globalThis.plantedRan);
+  })), "a planted script ran: the Content-Security-Policy does nothing");
+  await page.close();
+}
 
 async function controls(page) {
   check((await page.locator("#a-pattern").inputValue()) === "n-rooks", "the pattern at the start");
@@ -260,9 +273,9 @@ async function guards(browser) {
   const page = await open(browser);
   await page.evaluate(() => koksmaExplorer.limit(0.5));
   await page.evaluate(() => { location.hash = "#a=random@8192&witness=edge"; });
-  await page.waitForFunction(() => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"), null, { timeout: 240000 });
+  await until(page, () => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"));
   await page.evaluate(() => { koksmaExplorer.limit(60); location.hash = "#a=random@32"; });
-  await page.waitForFunction(() => koksmaExplorer.hash().includes("random@32"));
+  await until(page, () => koksmaExplorer.hash().includes("random@32"));
   await idle(page);
   await compare(page, "a", "pattern:random@32");
   await page.context().close();
@@ -307,6 +320,7 @@ async function looks(browser) {
     await moving(page);
     await comparing(page);
     await page.context().close();
+    await policy(browser);
     await commandsOfStates(browser);
     await manyMoves(browser);
     await guards(browser);
