@@ -20,6 +20,7 @@ static uint32_t words[4 * BIG], found[4 * BIG];
 static _Alignas(64) double units[4 * BIG], out[4][4 * BIG + 64]; /* not all at one place of the cache's pages */
 static double sorted[N + 8], sums[8][16];
 static size_t sink;
+static uint64_t counts[208];
 
 typedef const koksma__kernel_table *table;
 
@@ -71,6 +72,7 @@ RUN(far_darts, N, sink += t->far_darts(&cells, 33000000, N, words, found))
 RUN(open_quarters, N, sink += t->open_quarters(&cells, 33000000, found))
 RUN(covers, 64, sink += t->covers(64, units, units + N, 0.5, 0.5, 0.02, 0.02, 0.01))
 RUN(nearest_offset, 100 * 64, t->nearest_offset(64, units, units + N, 100, units, 0.3, out[0]))
+RUN(pair_counts, N, t->pair_counts(N, units, units + N, 0.4, 0.6, 0.09, 600, 200, counts))
 RUN(gauss_force, 80, t->gauss_force(4, runs, units, units + N, 0.4, 0.6, -48, 0.25, sums[0]))
 RUN(extreme_strips, 16 * N, t->extreme_strips(N, units, sorted, (const double (*)[16])(units + N), sums[0], sums[1]))
 RUN(distances, N, sums[0][0] += t->distances(N, units, units + N, 0.4, 0.6))

@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "render/accel/intersect.h"
+#include "render/accel/accel_meshes.h"
 
 #if !defined KOKSMA_EMBREE
 
@@ -215,7 +215,7 @@ static rates measure(const koksma_scene *scene, const koksma__rays *blocks, bool
     rates best = {0};
     int32_t from[KOKSMA__BLOCK];
     memset(from, 0xff, sizeof from);
-    if (koksma__accel_embree(scene, &ours)) {
+    if (koksma__accel_meshes(scene, &ours)) {
         fprintf(stderr, "bench-meshes: %s\n", koksma_error_text());
         exit(1);
     }
@@ -302,7 +302,7 @@ int main(void)
     scene = open_scene(LARGE);
     const double loaded = now_s();
     koksma__geometry built;
-    if (!scene || koksma__accel_embree(scene, &built)) {
+    if (!scene || koksma__accel_meshes(scene, &built)) {
         return 1;
     }
     const double done = now_s();

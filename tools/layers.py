@@ -38,14 +38,15 @@ MAY_USE = {
     "api": "core patterns measures warps",
     "verify": "core patterns measures api",
     "optimise": "core kernels measures api",
-    "image": "core kernels stats",
+    "modules": "core",
+    "image": "core kernels stats modules",
     "meshes": "core json image",
-    "plot": "core patterns measures api",
-    "render": "core json kernels stats patterns warps image meshes api",
+    "plot": "core patterns measures api modules",
+    "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",
     "study/plan": "core json patterns measures warps scene render api",
     "study/store": "core study/plan",
-    "study/run": "core stats patterns measures warps image scene render study/plan study/store api",
+    "study/run": "core modules stats patterns measures warps image scene render study/plan study/store api",
     "study/ranking": "core stats image scene render study/plan study/run api",
     "study/images": "core stats image study/plan study/run",
     "study/report": "core stats patterns measures warps image plot render study/plan study/store study/run api",
@@ -314,6 +315,7 @@ def shrink(build):
 # ---- The drawing ---------------------------------------------------------------------------------------------
 
 ABOUT = {
+    "modules": "loads Cairo, OpenEXR, Embree, MPI",
     "core": "points, status, random numbers, threads, files, writers",
     "kernels": "fast loops per instruction set",
     "warps": "maps of the square to a domain", "json": "JSON reader with line numbers",

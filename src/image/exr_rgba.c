@@ -4,7 +4,6 @@
  * C++ library. It opens files by name only and gives half floats, so the bytes go through a file in memory. Its last
  * error is a variable that threads share: the text may be another's, the status is not.
  */
-#ifdef KOKSMA_EXR
 #define _GNU_SOURCE /* memfd_create */
 #include <errno.h>
 #include <math.h>
@@ -16,8 +15,8 @@
 
 #include <OpenEXR/ImfCRgbaFile.h>
 
-#include "core/status.h"
-#include "image/formats.h"
+#include "image/exr.h"
+#include "modules/module_side.h"
 
 static koksma_status fail(void)
 {
@@ -28,8 +27,8 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
 {
     int low_x, low_y, high_x, high_y;
     ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
-    const koksma_status status =
-        koksma__image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1, channels, size, 4096, out);
+    const koksma_status status = KOKSMA__EXR_HOST->image_claim(
+        (long long)high_x - low_x + 1, (long long)high_y - low_y + 1, channels, size, 4096, out);
     if (status) {
         return status;
     }
@@ -170,6 +169,3 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
     }
     return status;
 }
-#else
-typedef int koksma__no_exr; /* a C file is not empty */
-#endif

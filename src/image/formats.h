@@ -6,6 +6,8 @@
 
 #include <koksma/image.h>
 
+#include "modules/module.h"
+
 /* Bytes that grow. */
 typedef struct koksma__bytes {
     unsigned char *data;
@@ -25,6 +27,7 @@ typedef struct koksma__image_format {
     bool has_layers; /* a file holds all layers; else the first alone */
     double error; /* 0: every float is kept exactly; else numbers in [0,1] to within this, others as the nearer end */
     const char *left_out; /* the library that this build does without: there is no read, no write; else NULL */
+    const koksma__module *module; /* what read and write load; NULL: nothing */
 } koksma__image_format;
 
 #define FORMAT(name) extern const koksma__image_format koksma__format_##name;
@@ -47,11 +50,6 @@ koksma_status koksma__image_check_shape(int width, int height, int channels);
 
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
-
-/* exr_rgba.c: EXR files by way of half floats: those compressed by DWAA, DWAB, B44 and B44A, whose channels are R, G,
-   B or Y. wide: they have numbers that are no halves; one too large for a half is MALFORMED. */
-koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int channels, bool wide,
-                                    koksma_image *out);
 
 /* An image file in memory, known by its content. Errors name no file. */
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);

@@ -98,18 +98,25 @@ koksma_status koksma__image_claim(long long width, long long height, int channel
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
+/* The library that a format lacks, or NULL. */
+static const char *missing(const koksma__image_format *format)
+{
+    return format->module && !koksma__module_exists(format->module) ? format->module->library : format->left_out;
+}
+
 const char *koksma_image_format(size_t i, const char **left_out)
 {
     KOKSMA__REQUIRE_OR(NULL, left_out);
     const koksma__image_format *format = koksma__image_format_at(i);
-    *left_out = format ? format->left_out : NULL;
+    *left_out = format ? missing(format) : NULL;
     return format ? format->name : NULL;
 }
 
 static koksma_status no_library(const koksma__image_format *format)
 {
-    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no %s: it can't read or write .%s", format->left_out,
-                        format->name);
+    return format->module ? koksma__module_missing(format->module)
+                          : koksma__fail(KOKSMA_UNSUPPORTED, "this build has no %s: it can't read or write .%s",
+                                         format->left_out, format->name);
 }
 
 /* All names as in "exr, png or pfm": of each, `before` and its letters, capitals or small. */
@@ -134,7 +141,7 @@ static koksma_status find_format(const unsigned char *bytes, size_t size, const 
     for (size_t i = 0; formats[i]; i++) {
         if (formats[i]->recognises(bytes, size)) {
             *out = formats[i];
-            return formats[i]->left_out ? no_library(formats[i]) : KOKSMA_OK;
+            return missing(formats[i]) ? no_library(formats[i]) : KOKSMA_OK;
         }
     }
     return size ? koksma__fail(KOKSMA_MALFORMED, "neither %s",
@@ -237,7 +244,7 @@ koksma_status koksma_image_check_path(const char *path)
         return koksma__fail(KOKSMA_ARGUMENT, "%s: an image's name ends in %s", path,
                             list_names(".", false, ", ", " or ", names, sizeof names));
     }
-    return format->left_out ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;
+    return missing(format) ? koksma__fail_in(no_library(format), path) : KOKSMA_OK;
 }
 
 bool koksma_image_has_layers(const char *path)
@@ -289,8 +296,8 @@ koksma_status koksma_image_png_bytes(const koksma_image *image, unsigned char **
     const koksma_layer only = {"", image};
     koksma_status status = koksma__layers_check(&only, 1);
     if (!status) {
-        status = koksma__format_png.left_out ? no_library(&koksma__format_png)
-                                             : koksma__format_png.write(&only, 1, "", &out);
+        status = missing(&koksma__format_png) ? no_library(&koksma__format_png)
+                                              : koksma__format_png.write(&only, 1, "", &out);
     }
     if (status) {
         free(out.data);

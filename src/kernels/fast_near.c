@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Distances to points that are near, of several places at a time without branches: for maximal Poisson disks, whether
-   squares are covered; for pmj02bn, how far the nearest point is. */
+   squares are covered; for pmj02bn, how far the nearest point is; how many pairs there are by distance. */
 #include <string.h>
 
 #include "kernels/kernels.h"
@@ -10,6 +10,9 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
                                  double scale, double *least);
 unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
                              double h, double d2);
+
+void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
+                              double scale, size_t bins, uint64_t *counts);
 
 static inline bool any(lanes64_i mask)
 {
@@ -72,5 +75,32 @@ void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy
         }
         memcpy(found, best, sizeof found);
         memcpy(least + first, found, some * sizeof *found);
+    }
+}
+
+/* Those too far, and what fills up the last vector, go behind the bins, each lane to its own counter: a counter waits
+   for what was last added to it. */
+void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
+                              double scale, size_t bins, uint64_t *counts)
+{
+    const lanes64_d last = lanes64_splat_d((double)(bins - 1)), none = (double)bins + lanes64_whole(lanes64_count());
+    for (size_t i = 0; i < count; i += LANES64) {
+        lanes64_d px = lanes64_splat_d(INFINITY), py = px;
+        if (count - i >= LANES64) {
+            px = lanes64_load_d(xs + i);
+            py = lanes64_load_d(ys + i);
+        } else {
+            memcpy(&px, xs + i, (count - i) * sizeof *xs);
+            memcpy(&py, ys + i, (count - i) * sizeof *ys);
+        }
+        const lanes64_d a = lanes64_abs(x - px), b = lanes64_abs(y - py);
+        const lanes64_d dx = lanes64_min(a, 1 - a), dy = lanes64_min(b, 1 - b), d2 = dx * dx + dy * dy;
+        const lanes64_d bin = lanes64_min(lanes64_floor(lanes64_sqrt(d2) * scale), last);
+        const lanes64_d chosen = lanes64_chosen((lanes64_i)(d2 < r2), bin, none) + 0x1p52;
+        uint64_t at[LANES64];
+        memcpy(at, &chosen, sizeof at);
+        for (int l = 0; l < LANES64; l++) {
+            counts[at[l] & 0xfffffffffffffu]++;
+        }
     }
 }

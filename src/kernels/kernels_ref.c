@@ -141,6 +141,19 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
     }
 }
 
+void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
+                              double scale, size_t bins, uint64_t *counts)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double a = fabs(x - xs[i]), b = fabs(y - ys[i]), dx = a < 1 - a ? a : 1 - a, dy = b < 1 - b ? b : 1 - b;
+        const double d2 = dx * dx + dy * dy;
+        if (d2 < r2) {
+            const size_t bin = (size_t)(sqrt(d2) * scale);
+            counts[bin < bins ? bin : bins - 1]++;
+        }
+    }
+}
+
 double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0)
 {
     koksma__sum sum = {0};

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * The canvas of plots and charts, by cairo: an SVG, a PDF or a PNG in memory. The twin at the end is for builds
- * without cairo, whose functions return UNSUPPORTED.
- */
-#ifdef KOKSMA_CAIRO
+/* The module koksma-cairo.so: the strokes of canvas.h by cairo, into memory. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +9,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
-#include "core/status.h"
+#include "modules/module_side.h"
 #include "plot/canvas.h"
 
 struct koksma__canvas {
@@ -43,7 +39,7 @@ static cairo_status_t append(void *context, const unsigned char *data, unsigned 
     return CAIRO_STATUS_SUCCESS;
 }
 
-koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out)
+static koksma_status open_canvas(koksma_plot_format format, double width, double height, koksma__canvas **out)
 {
     koksma__canvas *canvas = *out = calloc(1, sizeof *canvas);
     if (!canvas) {
@@ -76,44 +72,43 @@ static void stroke_or_fill(koksma__canvas *canvas, double thickness, koksma__col
     }
 }
 
-void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height)
+static void clip(koksma__canvas *canvas, double x, double y, double width, double height)
 {
     cairo_reset_clip(canvas->cairo);
     cairo_rectangle(canvas->cairo, x, y, width, height);
     cairo_clip(canvas->cairo);
 }
 
-void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
-                         koksma__colour colour)
+static void line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
+                 koksma__colour colour)
 {
     cairo_move_to(canvas->cairo, x0, y0);
     cairo_line_to(canvas->cairo, x1, y1);
     stroke_or_fill(canvas, thickness, colour);
 }
 
-void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
-                        koksma__colour colour)
+static void box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
+                koksma__colour colour)
 {
     cairo_rectangle(canvas->cairo, x, y, width, height);
     stroke_or_fill(canvas, thickness, colour);
 }
 
-void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
-                           koksma__colour colour)
+static void circle(koksma__canvas *canvas, double x, double y, double radius, double thickness, koksma__colour colour)
 {
     cairo_new_sub_path(canvas->cairo);
     cairo_arc(canvas->cairo, x, y, radius, 0, 2 * M_PI);
     stroke_or_fill(canvas, thickness, colour);
 }
 
-void koksma__canvas_dash(koksma__canvas *canvas, koksma__dash dash, double along)
+static void dash(koksma__canvas *canvas, koksma__dash dash, double along)
 {
     static const double dashes[][2] = {{0, 0}, {9, 3}, {2, 2}, {4, 3}};
     cairo_set_dash(canvas->cairo, dashes[dash], dash == KOKSMA__DASH_WHOLE ? 0 : 2, along);
 }
 
-bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
-                           int rows, const unsigned char *rgb)
+static bool pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns, int rows,
+                   const unsigned char *rgb)
 {
     cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows);
     unsigned char *data = cairo_image_surface_get_data(image);
@@ -166,8 +161,8 @@ static char *as_utf8(const char *text)
     return out;
 }
 
-void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
-                         koksma__colour colour)
+static void put_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                     koksma__colour colour)
 {
     cairo_text_extents_t extents;
     char *shown = as_utf8(text);
@@ -185,7 +180,7 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
     free(shown);
 }
 
-koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
+static koksma_status close_canvas(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
 {
     if (canvas->format == KOKSMA_PLOT_PNG) {
         cairo_surface_write_to_png_stream(canvas->surface, append, canvas);
@@ -204,76 +199,13 @@ koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes
     return failed ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
 }
 
-const char *koksma_plot_library(void)
+static const char *library(void)
 {
     static _Thread_local char text[32];
     snprintf(text, sizeof text, "cairo %s", cairo_version_string());
     return text;
 }
 
-#else
-
-#include "core/status.h"
-#include "plot/canvas.h"
-
-const char *koksma_plot_library(void)
-{
-    return NULL;
-}
-
-koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, koksma__canvas **out)
-{
-    (void)format, (void)width, (void)height;
-    *out = NULL;
-    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no cairo: it can't plot");
-}
-
-/* Without a canvas none of these is reached. */
-void koksma__canvas_clip(koksma__canvas *canvas, double x, double y, double width, double height)
-{
-    (void)canvas, (void)x, (void)y, (void)width, (void)height;
-}
-
-void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
-                         koksma__colour colour)
-{
-    (void)canvas, (void)x0, (void)y0, (void)x1, (void)y1, (void)thickness, (void)colour;
-}
-
-void koksma__canvas_box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
-                        koksma__colour colour)
-{
-    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)thickness, (void)colour;
-}
-
-void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, double thickness,
-                           koksma__colour colour)
-{
-    (void)canvas, (void)x, (void)y, (void)radius, (void)thickness, (void)colour;
-}
-
-void koksma__canvas_dash(koksma__canvas *canvas, koksma__dash dash, double along)
-{
-    (void)canvas, (void)dash, (void)along;
-}
-
-bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns,
-                           int rows, const unsigned char *rgb)
-{
-    (void)canvas, (void)x, (void)y, (void)width, (void)height, (void)columns, (void)rows, (void)rgb;
-    return false;
-}
-
-void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
-                         koksma__colour colour)
-{
-    (void)canvas, (void)x, (void)y, (void)height, (void)anchor, (void)text, (void)colour;
-}
-
-koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
-{
-    (void)canvas, (void)bytes, (void)size;
-    return koksma__fail(KOKSMA_UNSUPPORTED, "this build has no cairo: it can't plot");
-}
-
-#endif
+static const koksma__canvas_functions functions = {open_canvas, clip,   line,     box,          circle,
+                                                   dash,        pixels, put_text, close_canvas, library};
+KOKSMA__MODULE(functions)

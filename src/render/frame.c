@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "render/accel/accel_meshes.h"
 #include "render/frame.h"
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */
@@ -105,7 +106,7 @@ static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *
     if (!cache->made) {
         koksma__geometry *geometry = malloc(sizeof *geometry);
         status = !geometry             ? koksma__fail_memory(sizeof *geometry)
-                 : scene->n_placements ? koksma__accel_embree(scene, geometry)
+                 : scene->n_placements ? koksma__accel_meshes(scene, geometry)
                                        : koksma__accel_shapes(scene, geometry);
         if (status) {
             free(geometry);

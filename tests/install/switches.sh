@@ -30,12 +30,13 @@ grep -q "folders: .*/src" "$work/log" || fail "the parent project saw no folders
 # KOKSMA_EMBREE as AUTO, then turned off and on in every spelling.
 build=$work/build
 configure -S "$source" -B "$build" || fail "configure"
-if grep -q -- -lembree "$build/koksma-lab.pc"; then
+module() { cmake --build "$build" --target help | grep -q koksma-embree; }
+if module; then
   for word in off 0 NO false; do
     configure "-DKOKSMA_EMBREE=$word" "$build" || fail "KOKSMA_EMBREE=$word"
-    ! grep -q -- -lembree "$build/koksma-lab.pc" || fail "KOKSMA_EMBREE=$word: koksma-lab.pc has -lembree"
+    ! module || fail "KOKSMA_EMBREE=$word: there is a module"
   done
-  configure -DKOKSMA_EMBREE=on "$build" && grep -q -- -lembree "$build/koksma-lab.pc" || fail "KOKSMA_EMBREE=on"
+  configure -DKOKSMA_EMBREE=on "$build" && module || fail "KOKSMA_EMBREE=on"
 fi
 ! configure -DKOKSMA_EMBREE=perhaps "$build" || fail "KOKSMA_EMBREE=perhaps was taken"
 grep -q "KOKSMA_EMBREE=PERHAPS: it takes AUTO, ON or OFF" "$work/log" || fail "KOKSMA_EMBREE=perhaps"

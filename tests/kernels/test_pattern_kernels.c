@@ -150,6 +150,16 @@ static void dart_cells(const koksma__kernel_table *t, size_t count, void *out)
     memcpy(found, open, kept * sizeof *open);
 }
 
+/* Some of the places are on the point itself; the widest circle reaches over the edge of the torus. */
+static void pair_counts(const koksma__kernel_table *t, size_t count, void *out)
+{
+    const size_t bins = 1 + count % 100;
+    const double r = 0.5 / (double)(1 + count % 5);
+    t->pair_counts(count, units, units + count % 7, units[count / 2], units[count / 2 + count % 7], r * r,
+                   (double)bins / r, bins, out);
+    memset((uint64_t *)out + bins, 0, 8 * sizeof(uint64_t));
+}
+
 static void nearest_offset(const koksma__kernel_table *t, size_t count, void *out)
 {
     t->nearest_offset(count % 30, units, units + 100, count, units, 0.3, out);
@@ -245,6 +255,7 @@ TEST(grow, MAX)
 TEST(covers, 250)
 TEST(dart_cells, 200)
 TEST(nearest_offset, MAX)
+TEST(pair_counts, MAX)
 TEST(nested_digits, MAX)
 TEST(permute, MAX)
 TEST(rooks_2d, 120)
@@ -254,15 +265,16 @@ TEST(rows_of_columns, 150)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotients_equals_reference),      cmocka_unit_test(steps_equals_reference),
-        cmocka_unit_test(fractions_equals_reference),      cmocka_unit_test(fraction_rows_equals_reference),
-        cmocka_unit_test(digital_equals_reference),        cmocka_unit_test(digital_rows_equals_reference),
-        cmocka_unit_test(digital_at_equals_reference),     cmocka_unit_test(owen_hash_equals_reference),
-        cmocka_unit_test(pascal_equals_reference),         cmocka_unit_test(grow_equals_reference),
-        cmocka_unit_test(covers_equals_reference),         cmocka_unit_test(dart_cells_equals_reference),
-        cmocka_unit_test(nearest_offset_equals_reference), cmocka_unit_test(nested_digits_equals_reference),
-        cmocka_unit_test(rooks_2d_equals_reference),       cmocka_unit_test(rows_of_columns_equals_reference),
-        cmocka_unit_test(gauss_force_equals_reference),    cmocka_unit_test(permute_equals_reference),
+        cmocka_unit_test(quotients_equals_reference),       cmocka_unit_test(steps_equals_reference),
+        cmocka_unit_test(fractions_equals_reference),       cmocka_unit_test(fraction_rows_equals_reference),
+        cmocka_unit_test(digital_equals_reference),         cmocka_unit_test(digital_rows_equals_reference),
+        cmocka_unit_test(digital_at_equals_reference),      cmocka_unit_test(owen_hash_equals_reference),
+        cmocka_unit_test(pascal_equals_reference),          cmocka_unit_test(grow_equals_reference),
+        cmocka_unit_test(covers_equals_reference),          cmocka_unit_test(dart_cells_equals_reference),
+        cmocka_unit_test(nearest_offset_equals_reference),  cmocka_unit_test(pair_counts_equals_reference),
+        cmocka_unit_test(nested_digits_equals_reference),   cmocka_unit_test(rooks_2d_equals_reference),
+        cmocka_unit_test(rows_of_columns_equals_reference), cmocka_unit_test(gauss_force_equals_reference),
+        cmocka_unit_test(permute_equals_reference),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

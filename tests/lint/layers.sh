@@ -22,7 +22,7 @@ only() {
   for file in $others; do complain "$file includes <$1; only $2 may"; done
 }
 only 'png\.h' src/image/png.c
-only 'openexr\.h' src/image/exr.c
+only 'openexr\.h' src/image/exr_openexr.c
 only 'OpenEXR/' src/image/exr_rgba.c
 only 'cairo' src/plot/cairo.c
 only 'sqlite3\.h' src/study/store/database.c

@@ -11,7 +11,7 @@
  * ways of choosing among lights, and by path tracing (which also meets lights by reflected rays), have one mean.
  */
 #include "kinds.h"
-#include "render/accel/intersect.h"
+#include "render/accel/accel_meshes.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
 
@@ -242,7 +242,7 @@ static void check_view(const view *v, uint64_t stream)
 static void open_geometry(const koksma_scene *scene, koksma__geometry *out)
 {
     if (scene->n_placements) {
-        assert_ok(koksma__accel_embree(scene, out));
+        assert_ok(koksma__accel_meshes(scene, out));
     } else {
         assert_ok(koksma__accel_shapes(scene, out));
     }

@@ -23,13 +23,14 @@
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/parallel.h"
 #include "core/status.h"
 #include "measures/shared/deadline.h"
 #include "measures/shared/orientation.h"
 
-enum { PIVOTS_PER_BLOCK = 16, RUN = 8 };
+enum { PIVOTS_PER_BLOCK = 16, DIGIT = 11 };
 
 /* Another point as the pivot sees it. key grows with the angle of (dx, dy) turned into the upper half-plane. */
 typedef struct ray {
@@ -78,38 +79,62 @@ static int turn(const double *xs, const double p[2], const ray *a, const ray *b)
     return a->flipped == b->flipped ? sign : -sign;
 }
 
-static void sort_rays(ray *rays, ray *spare, size_t n)
+/* A pass of radix sort by DIGIT bits from `shift` on; equal digits keep their order. */
+static void sort_digit(const uint64_t *from, uint64_t *to, size_t n, int shift)
 {
-    for (size_t first = 0; first < n; first += RUN) {
-        const size_t end = first + RUN < n ? first + RUN : n;
-        for (size_t i = first + 1; i < end; i++) {
-            const ray moving = rays[i];
-            size_t j = i;
-            for (; j > first && rays[j - 1].key > moving.key; j--) {
-                rays[j] = rays[j - 1];
-            }
-            rays[j] = moving;
+    uint32_t start[1 << DIGIT] = {0}, total = 0;
+    for (size_t i = 0; i < n; i++) {
+        start[from[i] >> shift & ((1 << DIGIT) - 1)]++;
+    }
+    for (size_t d = 0; d < 1 << DIGIT; d++) {
+        const uint32_t count = start[d];
+        start[d] = total;
+        total += count;
+    }
+    for (size_t i = 0; i < n; i++) {
+        to[start[from[i] >> shift & ((1 << DIGIT) - 1)]++] = from[i];
+    }
+}
+
+static void merge_sort(ray *rays, ray *spare, size_t n)
+{
+    if (n > 1) {
+        const size_t half = n / 2;
+        merge_sort(rays, spare, half);
+        merge_sort(rays + half, spare, n - half);
+        memcpy(spare, rays, half * sizeof *rays);
+        for (size_t i = 0, l = 0, r = half; l < half; i++) {
+            rays[i] = r < n && rays[r].key < spare[l].key ? rays[r++] : spare[l++];
         }
     }
-    ray *from = rays, *to = spare;
-    for (size_t width = RUN; width < n; width *= 2) {
-        for (size_t first = 0; first < n; first += 2 * width) {
-            const size_t middle = first + width < n ? first + width : n;
-            const size_t end = first + 2 * width < n ? first + 2 * width : n;
-            size_t l = first, r = middle;
-            for (size_t i = first; i < end; i++) {
-                const bool left = r >= end || (l < middle && from[l].key <= from[r].key);
-                to[i] = left ? from[l] : from[r];
-                l += left;
-                r += !left;
-            }
-        }
-        ray *const swap = from;
-        from = to;
-        to = swap;
+}
+
+/* By key, equal ones in the order that they have: the keys, rounded to 32 bits, by radix, and what these leave by
+   insertion; where they leave much, because points crowd in few directions, by merging. */
+static void sort_rays(ray *rays, ray *spare, uint64_t *items, size_t n)
+{
+    size_t moves = 0;
+    for (size_t i = 0; i < n; i++) {
+        items[i] = (uint64_t)((rays[i].key + 1) * 0x1.fffffffep30) << 32 | i;
     }
-    for (size_t i = 0; from != rays && i < n; i++) {
-        rays[i] = from[i];
+    sort_digit(items, items + n, n, 32);
+    sort_digit(items + n, items, n, 32 + DIGIT);
+    sort_digit(items, items + n, n, 32 + 2 * DIGIT);
+    for (size_t i = 0; i < n; i++) {
+        spare[i] = rays[(uint32_t)items[n + i]];
+    }
+    for (size_t i = 0; i < n; i++) {
+        const ray moving = spare[i];
+        size_t j = i;
+        for (; j > 0 && rays[j - 1].key > moving.key; j--, moves++) {
+            rays[j] = rays[j - 1];
+        }
+        rays[j] = moving;
+        if (moves > 4 * n) {
+            memcpy(rays + i + 1, spare + i + 1, (n - i - 1) * sizeof *rays);
+            merge_sort(rays, spare, n);
+            return;
+        }
     }
 }
 
@@ -207,7 +232,7 @@ static void try_pivot(const pivots *job, size_t pivot, ray *rays, best_line *bes
         left += apart && !flipped;
         count += apart;
     }
-    sort_rays(rays, rays + job->n, count);
+    sort_rays(rays, rays + job->n, (uint64_t *)(rays + 2 * job->n), count);
     settle_order(xs, p, rays, count);
     turn_line(job, pivot, rays, count, left, best);
 }
@@ -219,9 +244,10 @@ static koksma_status try_block(void *context, size_t block)
     if (block > 0 && atomic_load(&job->late)) {
         return KOKSMA_OK;
     }
-    ray *rays = malloc(2 * job->n * sizeof *rays);
+    const size_t bytes = 2 * job->n * (sizeof(ray) + sizeof(uint64_t));
+    ray *rays = malloc(bytes);
     if (!rays) {
-        return koksma__fail_memory(2 * job->n * sizeof *rays);
+        return koksma__fail_memory(bytes);
     }
     const size_t first = block * PIVOTS_PER_BLOCK;
     best_line best = {.value = -1};

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "measures/shared/torus_cells.h"
 
 /* Cells at least r wide, and about one point a cell at the least; 1 or 2 columns: every cell is a neighbour. */
@@ -41,24 +42,39 @@ typedef struct visit {
     double r2;
     bool torus;
     const koksma_run *run;
-    koksma__near_pair_function f;
-    void *context;
-    size_t unasked; /* pairs since run was asked whether to go on */
-    bool stopped;   /* by run */
+    double least; /* of all squares of distances below r2, unless there are counts */
+    double scale; /* of the bins */
+    size_t bins;
+    uint64_t *counts; /* of pairs by distance, and eight more of no meaning; or NULL */
+    size_t unasked;   /* pairs since run was asked whether to go on */
+    bool stopped;     /* by run */
 } visit;
 
-/* Points of cell c with those of cell d that come later; false: no more are wanted. */
-static bool pairs_of_cells(visit *v, size_t c, size_t d)
+/* Point i with points first .. end - 1. */
+static void pairs_of_point(visit *v, size_t i, size_t first, size_t end)
+{
+    const koksma__torus_cells *g = v->g;
+    if (v->counts && first < end) {
+        koksma__kernels()->pair_counts(end - first, g->xs + first, g->ys + first, g->xs[i], g->ys[i], v->r2, v->scale,
+                                       v->bins, v->counts);
+        return;
+    }
+    for (size_t j = first; j < end; j++) {
+        const double d2 = distance2(g->xs[i] - g->xs[j], g->ys[i] - g->ys[j], v->torus);
+        v->least = d2 < v->r2 && d2 < v->least ? d2 : v->least;
+    }
+}
+
+/* Points of cell c with those of cells d .. last that come later; false: no more are wanted. */
+static bool pairs_of_cells(visit *v, size_t c, size_t d, size_t last)
 {
     const koksma__torus_cells *g = v->g;
     for (size_t i = g->start[c]; i < g->start[c + 1]; i++) {
-        for (size_t j = d == c ? i + 1 : g->start[d]; j < g->start[d + 1]; j++) {
-            const double d2 = distance2(g->xs[i] - g->xs[j], g->ys[i] - g->ys[j], v->torus);
-            if (d2 < v->r2 && !v->f(v->context, d2)) {
-                return false;
-            }
+        pairs_of_point(v, i, d == c ? i + 1 : g->start[d], g->start[last + 1]);
+        if (!v->counts && v->least == 0) { /* no distance is below 0 */
+            return false;
         }
-        v->unasked += 1 + g->start[d + 1] - g->start[d];
+        v->unasked += 1 + g->start[last + 1] - g->start[d];
         if (v->unasked > PAIRS_PER_QUESTION) {
             v->unasked = 0;
             v->stopped = !koksma__keep_going(v->run, (double)c / (double)(g->columns * g->columns));
@@ -70,25 +86,34 @@ static bool pairs_of_cells(visit *v, size_t c, size_t d)
     return true;
 }
 
-/* Points of cell c with those of the neighbours, each once, that do not come before. */
+/* Points of cell c with those of the neighbours, each once, that do not come before. Cells that follow each other are
+   one run of points. */
 static bool pairs_of_cell(visit *v, size_t c)
 {
     const size_t m = v->g->columns;
-    size_t seen[9], n_seen = 0;
-    bool wanted = true;
-    for (int k = 0; k < 9 && wanted; k++) {
+    size_t cells[10], n = 0;
+    for (int k = 0; k < 9; k++) {
         const size_t x = (c % m + m + (size_t)(k % 3) - 1) % m, y = (c / m + m + (size_t)(k / 3) - 1) % m;
         const size_t d = y * m + x;
-        bool is_new = d >= c;
-        for (size_t i = 0; i < n_seen; i++) {
-            is_new = is_new && seen[i] != d;
+        size_t at = n;
+        while (at > 0 && cells[at - 1] > d) {
+            at--;
         }
-        if (is_new) {
-            seen[n_seen++] = d;
-            wanted = pairs_of_cells(v, c, d);
+        if (d >= c && (at == 0 || cells[at - 1] != d)) {
+            memmove(cells + at + 1, cells + at, (n++ - at) * sizeof *cells);
+            cells[at] = d;
         }
     }
-    return wanted;
+    for (size_t first = 0, end; first < n; first = end) {
+        end = first + 1;
+        while (end < n && cells[end] == cells[end - 1] + 1) {
+            end++;
+        }
+        if (!pairs_of_cells(v, c, cells[first], cells[end - 1])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static koksma_status visit_pairs(visit *v)
@@ -96,28 +121,6 @@ static koksma_status visit_pairs(visit *v)
     for (size_t c = 0; c < v->g->columns * v->g->columns && pairs_of_cell(v, c); c++) {
     }
     return v->stopped ? koksma__fail_interrupted() : KOKSMA_OK;
-}
-
-koksma_status koksma__near_pairs(const koksma_points *points, double r, bool torus, const koksma_run *run,
-                                 koksma__near_pair_function f, void *context)
-{
-    koksma__torus_cells g;
-    koksma_status status = open_grid(points, r, &g);
-    if (status) {
-        return status;
-    }
-    visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = f, .context = context};
-    status = visit_pairs(&v);
-    koksma__torus_cells_fini(&g);
-    return status;
-}
-
-/* No distance is below 0. */
-static bool keep_least(void *context, double d2)
-{
-    double *least = context;
-    *least = d2 < *least ? d2 : *least;
-    return *least > 0;
 }
 
 enum { CROWD = 64 };
@@ -138,16 +141,15 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
                                    double *distance)
 {
     koksma__torus_cells g;
-    double least = HUGE_VAL;
     koksma_status status = open_grid(points, r, &g);
     if (status) {
         return status;
     }
     const bool spread = is_spread(&g, points->n);
     if (spread) {
-        visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .f = keep_least, .context = &least};
+        visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .least = HUGE_VAL};
         status = visit_pairs(&v);
-        *distance = sqrt(least);
+        *distance = sqrt(v.least);
     }
     koksma__torus_cells_fini(&g);
     return spread ? status : koksma__closest_pair(points, torus, run, distance);
@@ -164,7 +166,7 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
         for (size_t i = 0; i < points->n; i++) {
             for (size_t j = 0; j < i; j++) {
                 const double *a = points->xs + 2 * i, *b = points->xs + 2 * j;
-                keep_least(&least, distance2(a[0] - b[0], a[1] - b[1], torus));
+                least = fmin(least, distance2(a[0] - b[0], a[1] - b[1], torus));
             }
         }
     } else {
@@ -173,20 +175,6 @@ koksma_status koksma__min_distance(const char *name, const koksma_points *points
     }
     *distance = sqrt(least);
     return KOKSMA_OK;
-}
-
-typedef struct histogram {
-    double scale;
-    size_t bins;
-    double *counts;
-} histogram;
-
-static bool count_pair(void *context, double d2)
-{
-    const histogram *h = context;
-    const size_t bin = (size_t)(sqrt(d2) * h->scale);
-    h->counts[bin < h->bins ? bin : h->bins - 1] += 1;
-    return true;
 }
 
 koksma_status koksma_pair_correlation(const koksma_points *points, double r_max, size_t bins, const koksma_run *run,
@@ -206,13 +194,24 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
     if (checked) {
         return checked;
     }
-    histogram h = {(double)bins / r_max, bins, values};
-    memset(values, 0, bins * sizeof *values);
-    const koksma_status status = koksma__near_pairs(points, r_max, true, run, count_pair, &h);
+    koksma__torus_cells g;
+    koksma_status status = open_grid(points, r_max, &g);
+    if (status) {
+        return status;
+    }
+    visit v = {.g = &g,
+               .r2 = r_max * r_max,
+               .run = run,
+               .scale = (double)bins / r_max,
+               .bins = bins,
+               .counts = calloc(bins + 8, sizeof *v.counts)};
+    status = v.counts ? visit_pairs(&v) : koksma__fail_memory((bins + 8) * sizeof *v.counts);
+    koksma__torus_cells_fini(&g);
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {
         const double share = M_PI * width * width * (2 * (double)b + 1);
-        values[b] = pairs > 0 ? values[b] / (pairs * share) : (double)NAN;
+        values[b] = pairs > 0 ? (double)v.counts[b] / (pairs * share) : (double)NAN;
     }
+    free(v.counts);
     return status;
 }

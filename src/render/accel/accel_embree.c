@@ -1,33 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Triangle meshes by Embree 3 or 4 (Wald et al. 2014), together with the analytic shapes: the closest of both, the
- * shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's position and normal are
- * made from its triangle, not from the ray, so that they are as exact as the vertices.
+ * The module koksma-embree.so: triangle meshes by Embree 3 or 4 (Wald et al. 2014), together with the analytic shapes:
+ * the closest of both, the shadow of both. Rays go in packets of 16 where the machine has them and else of 8; a hit's
+ * position and normal are made from its triangle, not from the ray, so that they are as exact as the vertices.
  *
  * The tree is built by one thread, so that it is the same on every machine; results are equal for any number of
  * threads, but not between versions of Embree or the instruction sets that it chooses by itself. The floating-point
  * mode (Embree would like denormals to be 0) is left as it is.
  */
-#include "core/status.h"
-#include "render/accel/intersect.h"
-
-#ifndef KOKSMA_EMBREE
-
-const char *koksma_mesh_tracer(void)
-{
-    return NULL;
-}
-
-koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out)
-{
-    (void)scene;
-    *out = (koksma__geometry){0};
-    return koksma__fail(KOKSMA_UNSUPPORTED, "the scene has meshes, and this build traces none: it was made without "
-                                            "Embree");
-}
-
-#else
-
 #if KOKSMA_EMBREE == 3
 #include <embree3/rtcore.h>
 #else
@@ -40,9 +20,12 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
 #include <string.h>
 
 #include "meshes/mesh.h"
+#include "modules/module_side.h"
+#include "render/accel/accel_meshes.h"
 #include "render/pipelines/batch.h"
 #include "render/vector3.h"
 
+#define HOST ((const koksma__mesh_host *)koksma__own_host->functions)
 #define PASTE_(a, b) a##b
 #define PASTE(a, b) PASTE_(a, b)
 #define SHADOW_END (1 - 0x1p-16f) /* as for the analytic shapes */
@@ -182,7 +165,7 @@ typedef struct starts {
     KOKSMA__LANES(float, z);
 } starts;
 
-const char *koksma_mesh_tracer(void)
+static const char *tracer(void)
 {
     return "Embree " RTC_VERSION_STRING;
 }
@@ -434,7 +417,7 @@ static part make_part(const koksma_scene *scene, const koksma__placement *from, 
               .light = from->light,
               .first = first};
     double normals[9];
-    koksma__normal_matrix(from->matrix, normals);
+    HOST->normal_matrix(from->matrix, normals);
     for (int i = 0; i < 12; i++) {
         p.matrix[i] = (float)from->matrix[i];
     }
@@ -554,7 +537,7 @@ static koksma_status build(const koksma_scene *scene, embree *e)
     return status;
 }
 
-koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out)
+static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
 {
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
@@ -568,9 +551,9 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
     e->n_meshes = scene->n_meshes;
     e->n_shapes = (int32_t)scene->n_shapes;
     e->shared = calloc(scene->n_meshes + 1, sizeof(RTCScene));
-    e->batch = koksma__batch();
+    e->batch = HOST->batch();
     e->device = rtcNewDevice("threads=1,set_affinity=0");
-    koksma_status status = koksma__accel_shapes(scene, &e->shapes);
+    koksma_status status = HOST->shapes(scene, &e->shapes);
     if (!status && (!e->device || !e->shared)) {
         status = koksma__fail(KOKSMA_SYSTEM, "Embree makes no device");
     }
@@ -587,4 +570,5 @@ koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *
     return status;
 }
 
-#endif
+static const koksma__mesh_functions functions = {tracer, make};
+KOKSMA__MODULE(functions)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What the renderer asks of geometry, whoever makes it: analytic shapes (accel_shapes.c), or these and meshes
- * (accel_embree.c). Primitives: the shapes by their numbers, then the triangles of the placements, one after the
+ * (accel_meshes.c). Primitives: the shapes by their numbers, then the triangles of the placements, one after the
  * other. A shadow ray starts on primitive hits->primitive and never hits it at t = 0.
  */
 #ifndef KOKSMA_RENDER_ACCEL_INTERSECT_H
@@ -27,8 +27,5 @@ typedef struct koksma__geometry {
 
 /* The scene's analytic shapes, all tried for every block. Errors: MEMORY. */
 koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *out);
-
-/* The scene's shapes and meshes. Errors: UNSUPPORTED (this build has no Embree), ARGUMENT, MEMORY, SYSTEM. */
-koksma_status koksma__accel_embree(const koksma_scene *scene, koksma__geometry *out);
 
 #endif

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The module koksma-exr.so: OpenEXR by the C library OpenEXRCore: reads the first part, scan lines or tiles, channels R G B or Y (or the only
+ * one); writes floats, ZIP-compressed. OpenEXRCore 3.1.5 has no DWAA and DWAB, and decodes B44 and B44A wrongly
+ * without a word: exr_rgba.c reads those four.
+ *
+ * OpenEXRCore 3.1.5 loses a chunk whose ZIP stream is exactly as long as its pixels: it writes the stream, and every
+ * reader takes that for uncompressed. So what is written is read back, and written raw if a bit differs.
+ */
+#include <openexr.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/exr.h"
+#include "modules/module_side.h"
+
+enum { SHORT_NAME = 31 }; /* the longest channel name, in bytes, that every EXR reader accepts */
+
+typedef struct source {
+    const unsigned char *bytes;
+    size_t size;
+    koksma__bytes *out;
+} source;
+
+/* The first error's. Not in a source: OpenEXRCore 3.1 calls the handler with a lock on the context that it writes by,
+   and asking the context for its source would wait for that lock. */
+static _Thread_local char message[256];
+
+/* OpenEXRCore calls "out of memory" what it can't decompress. */
+static _Thread_local bool exhausted;
+
+static void *allocate(size_t size)
+{
+    void *memory = malloc(size);
+    exhausted |= !memory;
+    return memory;
+}
+
+static void on_error(exr_const_context_t file, exr_result_t code, const char *text)
+{
+    (void)file;
+    (void)code;
+    if (!*message) {
+        strncpy(message, text, sizeof message - 1);
+    }
+}
+
+/* otherwise: of what has no status of its own. What is written goes into memory, so that it fails by lack of it. */
+static koksma_status fail(exr_result_t code, koksma_status otherwise)
+{
+    const char *text = *message ? message : exr_get_default_error_message(code);
+    return koksma__fail(exhausted || code == EXR_ERR_WRITE_IO ? KOKSMA_MEMORY : otherwise, "as an EXR: %s", text);
+}
+
+/* ---- Reading ------------------------------------------------------------------------------------------ */
+
+static int64_t read_bytes(exr_const_context_t file, void *user, void *buffer, uint64_t size, uint64_t offset,
+                          exr_stream_error_func_ptr_t error)
+{
+    (void)file;
+    (void)error;
+    const source *s = user;
+    if (offset >= s->size) {
+        return 0;
+    }
+    const uint64_t left = s->size - offset, count = size < left ? size : left;
+    memcpy(buffer, s->bytes + offset, count);
+    return (int64_t)count;
+}
+
+static int64_t query_size(exr_const_context_t file, void *user)
+{
+    (void)file;
+    return (int64_t)((const source *)user)->size;
+}
+
+/* Which colour a channel is in an image of 1 or 3 channels; -1: none. */
+static int colour(const char *name, int channels)
+{
+    static const char *const names[] = {"R", "G", "B"};
+    for (int k = 0; channels == 3 && k < 3; k++) {
+        if (!strcmp(name, names[k])) {
+            return k;
+        }
+    }
+    return channels == 1 && !strcmp(name, "Y") ? 0 : -1;
+}
+
+/* 3, 1 or 0 (no colour that we know). */
+static int count_channels(const exr_attr_chlist_t *list)
+{
+    int rgb = 0, y = 0;
+    for (int i = 0; i < list->num_channels; i++) {
+        rgb += colour(list->entries[i].name.str, 3) >= 0;
+        y += colour(list->entries[i].name.str, 1) >= 0;
+    }
+    return rgb == 3 ? 3 : y || list->num_channels == 1 ? 1 : 0;
+}
+
+/* exr_rgba.c knows channels by their names, and makes colours of Y beside others. */
+static koksma_status read_rgba(const source *s, const exr_attr_chlist_t *list, int channels, koksma_image *out)
+{
+    bool y = false, others = false, wide = false;
+    for (int i = 0; i < list->num_channels; i++) {
+        const char *name = list->entries[i].name.str;
+        y |= !strcmp(name, "Y");
+        others |= !strcmp(name, "RY") || !strcmp(name, "BY") || (channels == 1 && colour(name, 3) >= 0);
+        wide |= list->entries[i].pixel_type != EXR_PIXEL_HALF;
+    }
+    return others || y != (channels == 1)
+               ? koksma__fail(KOKSMA_MALFORMED, "as an EXR: B44 and DWA files are read for R, G, B or for Y alone")
+               : koksma__exr_rgba_read(s->bytes, s->size, channels, wide, out);
+}
+
+/* Points the decoder's channels at the pixels of the chunk whose first pixel is (x, y). */
+static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int y)
+{
+    const size_t pixel = sizeof(float) * (size_t)image->channels;
+    for (int c = 0; c < decoder->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &decoder->channels[c];
+        const int k = decoder->channel_count == 1 ? 0 : colour(channel->channel_name, image->channels);
+        channel->decode_to_ptr = NULL;
+        if (k >= 0) {
+            const size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels + (size_t)k;
+            channel->decode_to_ptr = (uint8_t *)(image->pixels + at);
+            channel->user_bytes_per_element = sizeof(float);
+            channel->user_data_type = EXR_PIXEL_FLOAT;
+            channel->user_pixel_stride = (int32_t)pixel;
+            channel->user_line_stride = (int32_t)(pixel * (size_t)image->width);
+        }
+    }
+}
+
+static exr_result_t decode(exr_const_context_t file, const exr_chunk_info_t *chunk, exr_decode_pipeline_t *decoder,
+                           bool first, koksma_image *image, int x, int y)
+{
+    exr_result_t r =
+        first ? exr_decoding_initialize(file, 0, chunk, decoder) : exr_decoding_update(file, 0, chunk, decoder);
+    if (!r) {
+        aim(decoder, image, x, y);
+        r = first ? exr_decoding_choose_default_routines(file, 0, decoder) : r;
+    }
+    return r ? r : exr_decoding_run(file, 0, decoder);
+}
+
+static exr_result_t read_lines(exr_const_context_t file, int top, exr_decode_pipeline_t *decoder, koksma_image *image)
+{
+    int32_t lines = 1;
+    exr_chunk_info_t chunk;
+    exr_result_t r = exr_get_scanlines_per_chunk(file, 0, &lines);
+    for (int y = 0; !r && y < image->height; y += lines) {
+        r = exr_read_scanline_chunk_info(file, 0, top + y, &chunk);
+        /* The decoder writes as many pixels as the chunk says it has. */
+        if (!r && (chunk.start_y != top + y || chunk.width != image->width || chunk.height > image->height - y)) {
+            r = EXR_ERR_CORRUPT_CHUNK;
+        }
+        r = r ? r : decode(file, &chunk, decoder, y == 0, image, 0, y);
+    }
+    return r;
+}
+
+static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *decoder, koksma_image *image)
+{
+    int32_t tile_x = 1, tile_y = 1;
+    exr_chunk_info_t chunk;
+    exr_result_t r = exr_get_tile_sizes(file, 0, 0, 0, &tile_x, &tile_y);
+    if (!r && (tile_x < 1 || tile_y < 1)) {
+        r = EXR_ERR_INVALID_ATTR;
+    }
+    for (int y = 0; !r && y < image->height; y += tile_y) {
+        for (int x = 0; !r && x < image->width; x += tile_x) {
+            r = exr_read_tile_chunk_info(file, 0, x / tile_x, y / tile_y, 0, 0, &chunk);
+            if (!r && (chunk.width > image->width - x || chunk.height > image->height - y)) {
+                r = EXR_ERR_CORRUPT_CHUNK;
+            }
+            r = r ? r : decode(file, &chunk, decoder, x == 0 && y == 0, image, x, y);
+        }
+    }
+    return r;
+}
+
+static koksma_status read_part(exr_const_context_t file, const source *s, koksma_image *out)
+{
+    exr_storage_t storage;
+    exr_attr_box2i_t window;
+    exr_compression_t compression;
+    const exr_attr_chlist_t *list;
+    exr_result_t r = exr_get_storage(file, 0, &storage);
+    r = r ? r : exr_get_compression(file, 0, &compression);
+    r = r ? r : exr_get_data_window(file, 0, &window);
+    r = r ? r : exr_get_channels(file, 0, &list);
+    if (r) {
+        return fail(r, KOKSMA_MALFORMED);
+    }
+    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: deep images are not read");
+    }
+    const int channels = count_channels(list);
+    if (!channels) {
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: no channels R, G, B and no channel Y");
+    }
+    for (int i = 0; i < list->num_channels; i++) {
+        if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1) {
+            return koksma__fail(KOKSMA_MALFORMED, "as an EXR: subsampled channels are not read");
+        }
+    }
+    if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
+        return read_rgba(s, list, channels, out);
+    }
+    const koksma_status status =
+        KOKSMA__EXR_HOST->image_claim((long long)window.max.x - window.min.x + 1,
+                                      (long long)window.max.y - window.min.y + 1, channels, s->size, 1032, out);
+    if (status) {
+        return status;
+    }
+    exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
+    r = storage == EXR_STORAGE_TILED ? read_tiles(file, &decoder, out)
+                                     : read_lines(file, window.min.y, &decoder, out);
+    exr_decoding_destroy(file, &decoder);
+    return r ? fail(r, KOKSMA_MALFORMED) : KOKSMA_OK;
+}
+
+static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
+{
+    source s = {.bytes = bytes, .size = size};
+    exr_context_t file;
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = on_error;
+    how.alloc_fn = allocate;
+    exhausted = false;
+    *message = 0;
+    how.user_data = &s;
+    how.read_fn = read_bytes;
+    how.size_fn = query_size;
+    how.max_image_width = how.max_image_height = KOKSMA_MAX_IMAGE_SIDE;
+    const exr_result_t r = exr_start_read(&file, "image", &how);
+    if (r) {
+        return fail(r, KOKSMA_MALFORMED);
+    }
+    const koksma_status status = read_part(file, &s, out);
+    exr_finish(&file);
+    return status;
+}
+
+/* ---- Writing ------------------------------------------------------------------------------------------ */
+
+static int64_t write_bytes(exr_const_context_t file, void *user, const void *buffer, uint64_t size, uint64_t offset,
+                           exr_stream_error_func_ptr_t error)
+{
+    (void)file;
+    (void)error;
+    return KOKSMA__EXR_HOST->bytes_put(((source *)user)->out, offset, buffer, size) ? (int64_t)size : -1;
+}
+
+static exr_result_t put_header(exr_context_t file, const koksma_layer *layers, size_t n, const char *metadata,
+                               exr_compression_t compression)
+{
+    int part;
+    char name[KOKSMA__CHANNEL_NAME];
+    const koksma_image *image = layers->image;
+    exr_result_t r = exr_add_part(file, NULL, EXR_STORAGE_SCANLINE, &part);
+    r = r ? r : exr_initialize_required_attr_simple(file, 0, image->width, image->height, compression);
+    for (size_t l = 0; l < n; l++) {
+        for (int k = 0; !r && k < layers[l].image->channels; k++) {
+            const exr_perceptual_treatment_t kind = l ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC;
+            KOKSMA__EXR_HOST->layer_channel(&layers[l], k, name);
+            r = strlen(name) > SHORT_NAME ? exr_set_longname_support(file, 1) : r;
+            r = r ? r : exr_add_channel(file, 0, name, EXR_PIXEL_FLOAT, kind, 1, 1);
+        }
+    }
+    if (!r && *metadata) {
+        r = exr_attr_set_string(file, 0, "comments", metadata);
+    }
+    return r ? r : exr_write_header(file);
+}
+
+static void aim_encoder(exr_encode_pipeline_t *encoder, const koksma_layer *layers, size_t n, int y)
+{
+    const size_t width = (size_t)layers->image->width;
+    for (int c = 0; c < encoder->channel_count; c++) {
+        exr_coding_channel_info_t *channel = &encoder->channels[c];
+        int k;
+        const koksma_image *image = layers[KOKSMA__EXR_HOST->layers_find(layers, n, channel->channel_name, &k)].image;
+        const size_t channels = (size_t)image->channels, pixel = sizeof(float) * channels;
+        channel->encode_from_ptr = (const uint8_t *)(image->pixels + (size_t)k + (size_t)y * width * channels);
+        channel->user_bytes_per_element = sizeof(float);
+        channel->user_data_type = EXR_PIXEL_FLOAT;
+        channel->user_pixel_stride = (int32_t)pixel;
+        channel->user_line_stride = (int32_t)(pixel * width);
+    }
+}
+
+static exr_result_t put_lines(exr_context_t file, const koksma_layer *layers, size_t n,
+                              exr_encode_pipeline_t *encoder)
+{
+    int32_t lines = 1;
+    exr_chunk_info_t chunk;
+    exr_result_t r = exr_get_scanlines_per_chunk(file, 0, &lines);
+    for (int y = 0; !r && y < layers->image->height; y += lines) {
+        r = exr_write_scanline_chunk_info(file, 0, y, &chunk);
+        r = r   ? r
+            : y ? exr_encoding_update(file, 0, &chunk, encoder)
+                : exr_encoding_initialize(file, 0, &chunk, encoder);
+        if (!r) {
+            aim_encoder(encoder, layers, n, y);
+            r = y ? r : exr_encoding_choose_default_routines(file, 0, encoder);
+        }
+        r = r ? r : exr_encoding_run(file, 0, encoder);
+    }
+    return r;
+}
+
+static koksma_status encode(const koksma_layer *layers, size_t n, const char *metadata, exr_compression_t compression,
+                            koksma__bytes *out)
+{
+    source s = {.out = out};
+    exr_context_t file;
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = on_error;
+    how.alloc_fn = allocate;
+    exhausted = false;
+    *message = 0;
+    how.user_data = &s;
+    how.write_fn = write_bytes;
+    exr_result_t r = exr_start_write(&file, "image", EXR_WRITE_FILE_DIRECTLY, &how);
+    if (!r) {
+        exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
+        r = put_header(file, layers, n, metadata, compression);
+        r = r ? r : put_lines(file, layers, n, &encoder);
+        exr_encoding_destroy(file, &encoder);
+        const exr_result_t finish = exr_finish(&file);
+        r = r ? r : finish;
+    }
+    return r ? fail(r, KOKSMA_IO) : KOKSMA_OK;
+}
+
+/* Errors: MEMORY. */
+static koksma_status read_back(const koksma__bytes *bytes, const koksma_image *image, bool *same)
+{
+    koksma_image back = {0};
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    const koksma_status status = read(bytes->data, bytes->size, &back);
+    *same = !status && back.width == image->width && back.height == image->height &&
+            back.channels == image->channels && !memcmp(back.pixels, image->pixels, count * sizeof *image->pixels);
+    KOKSMA__EXR_HOST->image_fini(&back);
+    return status == KOKSMA_MEMORY ? status : KOKSMA_OK;
+}
+
+static koksma_status write(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out)
+{
+    bool same = false;
+    koksma_status status = encode(layers, n, metadata, EXR_COMPRESSION_ZIP, out);
+    status = status ? status : read_back(out, layers->image, &same);
+    if (status || same) {
+        return status;
+    }
+    out->size = 0;
+    return encode(layers, n, metadata, EXR_COMPRESSION_NONE, out);
+}
+
+static const koksma__exr_functions functions = {read, write};
+KOKSMA__MODULE(functions)

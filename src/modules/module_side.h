@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* For the sources of modules, after all other headers: our functions by way of the host. One source of a module says
+   KOKSMA__MODULE(its functions). */
+#ifndef KOKSMA_MODULES_MODULE_SIDE_H
+#define KOKSMA_MODULES_MODULE_SIDE_H
+
+#include "modules/module.h"
+
+extern const koksma__host *koksma__own_host;
+
+#define koksma__fail koksma__own_host->fail
+#define koksma__fail_memory koksma__own_host->fail_memory
+
+#define KOKSMA__MODULE(functions)                                                                                    \
+    const koksma__host *koksma__own_host;                                                                            \
+    static const void *start_module(const koksma__host *host)                                                        \
+    {                                                                                                                \
+        koksma__own_host = host;                                                                                     \
+        return &(functions);                                                                                         \
+    }                                                                                                                \
+    extern const koksma__module_entry koksma__entry;                                                                 \
+    __attribute__((visibility("default"))) const koksma__module_entry koksma__entry = {KOKSMA_VERSION, start_module};
+
+#endif
