@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// assemble.mjs WASM OUT [DOCS]: puts page/ and the WebAssembly file together into one HTML file. The modules are put one after the
+// assemble.mjs WASM OUT: puts page/ and the WebAssembly file together into one HTML file. The modules are put one after the
 // other in the order of their imports; as all their names then stand in one scope, a name that two of them give is an error.
 import fs from "node:fs";
 import path from "node:path";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const page = path.join(here, "page");
-const [wasm, out, docs = "../docs/"] = process.argv.slice(2); // DOCS: where the site of make docs is, seen from OUT
+const [wasm, out] = process.argv.slice(2);
 
 // The text of a module with those that it imports before it, each once.
 function bundle(entry) {
@@ -46,7 +46,6 @@ function references() {
 
 const safe = script => script.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
 const fill = {
-  docs,
   style: fs.readFileSync(path.join(page, "style.css"), "utf8"),
   main: safe(bundle("main.mjs")),
   worker: safe(bundle("worker.mjs")),

@@ -36,20 +36,21 @@ export class Jobs {
     for (const place of this.places) {
       if (place.job?.key === key) place.job.stale = true;
     }
-    this.waiting.set(key, { key, rank, request, limited, late, done: this.inOrder(key, done) });
+    const serial = ++this.serial;
+    this.waiting.set(key, { key, rank, request, limited, late, serial, done: this.inOrder(key, serial, done) });
     this.startLate(key, late);
     this.dropStale();
     this.next();
   }
 
   // An answer that comes after that to a newer request of its key is not shown.
-  inOrder(key, done) {
-    const serial = ++this.serial;
+  inOrder(key, serial, done) {
     return answer => {
       if (serial < (this.shown.get(key) || 0)) return;
       this.shown.set(key, serial);
       this.stopLate(key);
-      const newer = this.waiting.get(key) || this.places.find(place => place.job?.key === key && !place.job.unwanted)?.job;
+      const newer = [this.waiting.get(key), ...this.places.map(place => place.job)]
+        .find(job => job?.key === key && job.serial > serial && !job.unwanted);
       if (newer) this.startLate(key, newer.late);
       done(answer);
     };

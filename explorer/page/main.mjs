@@ -59,7 +59,7 @@ function drawSets() {
 // The chosen measure beside the points, where the table is far from them.
 function showChosen() {
   byId("chosen").value = state.witness;
-  byId("chosen-values").replaceChildren(...shownNames().map(name =>
+  byId("chosen-values").replaceChildren(...(state.witness ? shownNames() : []).map(name =>
     element("output", { class: `set-${name}` }, (state.b ? `${name.toUpperCase()} ` : "") + measures.text(state.witness, name))));
   tour.showValues();
 }

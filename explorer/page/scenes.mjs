@@ -24,7 +24,8 @@ export function sizeFor(n) {
   return { width, height: width * 2 / 3 };
 }
 
-// The shift of a pixel along an axis, in [0, 1): 32 bits of Wellons' lowbias32 hash of 2 pixel + axis + 1.
+// The shift of a pixel along an axis, in [0, 1): a hash of 2 pixel + axis + 1, of the form and with the constants that are
+// listed best of two rounds by https://github.com/skeeto/hash-prospector (16, 21f0aaad, 15, 735a2d97, 15).
 export function shiftOf(pixel, axis) {
   let x = 2 * pixel + axis + 1;
   x = Math.imul(x ^ x >>> 16, 0x21f0aaad);

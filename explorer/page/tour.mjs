@@ -10,7 +10,7 @@ const steps = [
   { title: "Discrepancy", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
     text: "A box from the lower left corner should hold as large a share of the points as its area. The star discrepancy is the largest difference of the two, over all such boxes. The box that is drawn is the worst, and the line below the points counts it for you." },
   { title: "Move a point", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
-    text: "Drag a point into a hole, or choose one with n and move it with the arrow keys. The value is the exact one at every moment: it can only be lowered by mending the worst box, and then another box is the worst." },
+    text: "Drag a point into a hole, or go to the square, choose one with n and move it with the arrow keys. The value is the exact one at every moment: it can only be lowered by mending the worst box, and then another box is the worst." },
   { title: "Strata", hash: "a=jittered@16&a.seed=1&strata=grid:4x4&witness=star", at: ".set-a .strata-text", values: ["star"],
     text: "Jittered sampling puts one random point into each cell of a grid. Within its cell a point lies anywhere: of sixteen narrow columns some have two points, and some none. Choose “rooks” under Strata to see them." },
   { title: "All shapes of cell at once", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=elementary:2,1&witness=star", at: ".set-b .strata-text", values: ["star"],
@@ -44,6 +44,9 @@ export class Tour {
     this.node = byId("tour");
     this.node.append(this.title, this.words, this.values, element("div", { class: "buttons" }, this.back, this.next, button("Leave the tour", () => this.leave())));
     byId("start-tour").onclick = () => this.show(0);
+    // While answers come the page grows: what is pointed at is kept in sight, until the reader does something.
+    for (const act of ["wheel", "touchmove", "pointerdown", "keydown"]) addEventListener(act, () => { this.settling = false; }, { capture: true, passive: true });
+    new ResizeObserver(() => { if (this.pointed && this.settling) this.scroll(); }).observe(document.querySelector("main"));
     addEventListener("keydown", event => {
       if (event.key === "Escape" && this.step >= 0 && !event.target.closest?.(".plane")) this.leave();
     });
@@ -60,6 +63,7 @@ export class Tour {
     this.back.disabled = step === 0;
     this.next.textContent = step + 1 < steps.length ? "Next" : "Finish";
     this.showValues();
+    this.settling = true;
     this.point(document.querySelector(at));
     this.title.focus({ preventScroll: true });
   }
@@ -78,7 +82,11 @@ export class Tour {
     const box = node.getBoundingClientRect();
     this.node.classList.toggle("left", box.left > innerWidth / 2); // beside what it points at
     node.classList.add("pointed");
-    node.scrollIntoView({ block: box.height > innerHeight / 2 ? "start" : "center" });
+    this.scroll();
+  }
+
+  scroll() {
+    this.pointed.scrollIntoView({ block: this.pointed.matches("section") || this.pointed.getBoundingClientRect().height > innerHeight / 3 ? "start" : "center" });
   }
 
   leave() {

@@ -21,6 +21,7 @@ async function controls(page) {
   await compare(page, "a", "pattern:poisson-disk:d=0.12,torus=1@20", "--seed", "12345678901234567890");
   check((await page.locator(".set-a .cites").textContent()).includes("Stochastic Sampling"), "the source is not cited");
   check((await page.locator(".set-a .claims").textContent()).includes("min-distance"), "the claims are not shown");
+  check((await page.locator(".set-a .about a").getAttribute("href")) === "../docs/patterns/poisson-disk.html", "the pattern does not lead to its document");
   await page.locator(".set-a button", { hasText: "Next" }).click();
   await idle(page);
   check((await page.locator("#a-seed").inputValue()) === "12345678901234567891", "the next seed");
@@ -254,8 +255,9 @@ async function guards(browser) {
   }
   // What takes longer than the limit is stopped and says so; the rest goes on.
   const page = await open(browser);
-  await page.evaluate(() => koksmaExplorer.limit(0.5));
   await page.evaluate(() => { location.hash = "#a=random@8192&witness=edge"; });
+  await page.waitForFunction(() => document.querySelector(".set-a svg.plane .points")?.getAttribute("d").length > 8192 * 4);
+  await page.evaluate(() => koksmaExplorer.limit(0.5));
   await page.waitForFunction(() => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"), null, { timeout: 240000 });
   await page.evaluate(() => { koksmaExplorer.limit(60); location.hash = "#a=random@32"; });
   await page.waitForFunction(() => koksmaExplorer.hash().includes("random@32"));
