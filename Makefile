@@ -5,7 +5,8 @@
 #                    DEMO=DIR: where (demo); TRIALS=N: trials for each table row (fewer than in the papers)
 #   make install     install the release build; PREFIX=/usr/local, DESTDIR= as usual
 #   make explorer    build the page for a browser: build/explorer/koksma-explorer.html
-#   make docs        write a page for every pattern, measure, scene, material, ... to build/docs
+#   make docs        write the documents to build/docs: tutorial, commands, C and Python reference, a page for every pattern,
+#                    measure, scene, ..., findings; with the explorer if it is built
 #
 #   Develop
 #   make release     build the optimised program: build/release/koksma
@@ -67,6 +68,7 @@ explorer:
 	@scripts/explorer
 
 docs: release
+	@scripts/setup docs
 	@tools/make_docs.py build/release/koksma build/docs
 
 dist:

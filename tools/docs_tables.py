@@ -3,18 +3,18 @@
 import html
 import re
 
-from docs_site import ROOT, page
+from docs_site import ROOT
 
 
 def sections(site, kind, title, what, members):
     """One page for the members of a small table: (name, line, source keys, path, picture or "")."""
-    body = "<p>" + " · ".join(f"<a href='#{m[0]}'>{m[0]}</a>" for m in members) + "</p>"
+    body = ""
     for name, line, keys, path, picture in members:
         body += f"<h2 id='{name}'>{name}</h2><p>{html.escape(line)}</p>"
         body += site.comment(path, name) if path else ""
         body += f"<p><b>Source.</b> {site.cite(keys, name, kind)}</p>" if keys not in ("", "-") else ""
         body += site.parameters(name) + picture
-    site.write(f"{kind}/index.html", page(title, what, body))
+    site.write(f"{kind}/index.html", "", title, what, body)
 
 
 def integrator_source(name):
@@ -24,7 +24,7 @@ def integrator_source(name):
 
 
 def small_tables(site):
-    """Scenes, integrators, filters, adaptive methods, warps, materials, uses."""
+    """A step for each page: scenes, integrators, filters, adaptive methods, warps, materials, lights, uses."""
     program, size = site.program, ["--size", "48x36" if site.program.quick else "160x120"]
     spp = ["-n", "1" if program.quick else "16"]
 
@@ -34,25 +34,31 @@ def small_tables(site):
     def of(kind, key):
         return [(r, r[key]) for r in site.lists[kind]]
 
-    sections(site, "scenes", "Scenes", "those that ship; docs/scenes.md says how to write one",
-             [(n, r["what"], "", "", render(f"scene-{n}", n)) for r, n in of("scenes", "scene")])
-    sections(site, "integrators", "Integrators", "how light is followed: koksma render --integrator",
-             [(n, r["what"], r["source"], integrator_source(n),
-               render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])
-    sections(site, "filters", "Pixel filters", "koksma render --filter",
-             [(n, f"{r['what']}; radius {r['radius']}", r["source"], f"src/render/filters/filter_{n.replace('-', '_')}.c",
-               render(f"filter-{n}", "checker", "--filter", n)) for r, n in of("filters", "filter")])
-    sections(site, "adaptive", "Adaptive sampling", "where more samples go: koksma render --adaptive",
-             [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
-               counts(program, n, size)) for r, n in of("adaptive", "method")])
-    sections(site, "warps", "Warps", "from the square to a lens, a triangle, a hemisphere: koksma measure --warp",
-             [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
+    steps = []
+
+    def add(kind, title, what, members):
+        steps.append(lambda: sections(site, kind, title, what, members()))
+
+    add("scenes", "Scenes", "those that ship; <a href='../guide/scenes.html'>scene files</a> says how to write one",
+        lambda: [(n, r["what"], "", "", render(f"scene-{n}", n)) for r, n in of("scenes", "scene")])
+    add("integrators", "Integrators", "how light is followed: <code>koksma render --integrator</code>",
+        lambda: [(n, r["what"], r["source"], integrator_source(n),
+          render(f"integrator-{n}", "cornell", "--integrator", n)) for r, n in of("integrators", "integrator")])
+    add("filters", "Pixel filters", "<code>koksma render --filter</code>",
+        lambda: [(n, f"{r['what']}; radius {r['radius']}", r["source"], f"src/render/filters/filter_{n.replace('-', '_')}.c",
+          render(f"filter-{n}", "checker", "--filter", n)) for r, n in of("filters", "filter")])
+    add("adaptive", "Adaptive sampling", "where more samples go: <code>koksma render --adaptive</code>",
+        lambda: [(n, r["what"], r["source"], f"src/render/samples/adaptive/adapt_{n.replace('-', '_')}.c",
+          counts(program, n, size)) for r, n in of("adaptive", "method")])
+    add("warps", "Warps", "from the square to a lens, a triangle, a hemisphere: <code>koksma measure --warp</code>",
+        lambda: [(n, r["what"], r["source"], f"src/warps/{n.replace('-', '_')}.c", "") for r, n in of("warps", "warp")])
     for kind, macro, prefix in (("materials", "MATERIAL", "bsdf_"), ("lights", "LIGHT", "light_")):
         table = (ROOT / f"src/render/{kind}/{kind}.def").read_text(encoding="utf-8")
-        sections(site, kind, kind.capitalize(), "of scene files",
-                 [(n, "", "", f"src/render/{kind}/{prefix}{n}.c", "") for n in re.findall(rf"^{macro}\((\w+)\)", table, re.M)])
-    sections(site, "uses", "Uses of a sample", "each may have a pattern of its own: koksma render -p USE=PATTERN",
-             [(r["use"], f"{r['what']}; dimensions: {r['dim']}", "", "", "") for r in site.lists["uses"]])
+        members = [(n, "", "", f"src/render/{kind}/{prefix}{n}.c", "") for n in re.findall(rf"^{macro}\((\w+)\)", table, re.M)]
+        add(kind, kind.capitalize(), "of scene files", lambda members=members: members)
+    add("uses", "Uses of a sample", "each may have a pattern of its own: <code>koksma render -p USE=PATTERN</code>",
+        lambda: [(r["use"], f"{r['what']}; dimensions: {r['dim']}", "", "", "") for r in site.lists["uses"]])
+    return steps
 
 
 def counts(program, method, size):

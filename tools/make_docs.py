@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""make_docs.py PROGRAM FOLDER [--quick]: a page for every member of every table, as HTML in FOLDER.
+"""make_docs.py PROGRAM FOLDER [--quick]: the documents as one site of HTML pages in FOLDER, which needs no server.
 
-The text is the head comment of the member's source file, the entry is what `koksma list` prints, pictures and numbers are
-made by PROGRAM with the commands that stand beside them. --quick makes fewer and smaller ones.
+Documents are docs/*.md, commands are PROGRAM's manual pages, references are the comments of the public headers and the
+docstrings of the Python package. A page of a pattern or measure has the head comment of its source file, what `koksma list`
+prints, and pictures and numbers that PROGRAM makes with the commands that stand beside them. --quick makes fewer and
+smaller ones. The explorer is put in where make explorer has built it.
 """
 import argparse
 import html
@@ -15,7 +17,9 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 import docs_text as text
-from docs_site import STYLE, Program, Site, page, table
+from docs_guide import guide
+from docs_reference import c_reference, commands, python_reference
+from docs_site import ROOT, Program, Site, table
 from docs_tables import small_tables
 
 PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")  # the columns of a pattern's page
@@ -160,7 +164,7 @@ def pattern_page(site, row, numbers):
             "<h2>What it promises</h2><p>Each line is a test.</p>" + promised +
             f"<h2>Measured</h2><p>Means and standard errors over the sets of the seeds 0, 1, ..; {numbers['dim']} dimensions.</p>" +
             table(head, rows) + f"<pre>{commands}</pre><h2>Verified</h2>" + verified(site, row, 16 if site.program.quick else 256))
-    site.write(f"patterns/{name}.html", page(name, row["what"], body))
+    site.write(f"patterns/{name}.html", "pattern", name, text.formula(row["what"]), site.explorer_link(name) + body)
 
 
 def ranking(site, name, numbers):
@@ -198,9 +202,9 @@ def measure_page(site, row, numbers):
     chart = program.picture(f"{name}-n.svg", "plot", "--curve", "convergence", "-m", name, "--sizes", sizes, "--trials", trials,
                             *sources, alt=f"{name} against n")
     body = (site.comment("src/measures", name) + entry + f"<div class='row'>{witness}{chart}</div>" +
-            "<h2>Patterns by it</h2><p>Means over sets with standard errors, as on the pages of the patterns, which have the "
+            f"<h2>Patterns ranked by {name}</h2><p>Means over sets with standard errors, as on the pages of the patterns, which have the "
             "commands; the best first by the last column.</p>" + ranking(site, name, numbers))
-    site.write(f"measures/{name}.html", page(name, row["what"], body))
+    site.write(f"measures/{name}.html", "measure", name, text.formula(row["what"]), body)
 
 
 def references_page(site):
@@ -209,23 +213,41 @@ def references_page(site):
     body = ""
     for key, fields in sorted(site.references.items(), key=lambda item: (item[1]["author"].split(" and ")[0].split()[-1], item[1]["year"])):
         links = ", ".join(f"<a href='{places.get(kind, kind + '/index.html#{}').format(name)}'>{name}</a>"
-                          for kind, name in site.cited.get(key, []))
+                          for kind, name in sorted(site.cited.get(key, [])))
         body += f"<p id='{key}'>{text.long_reference(fields)}" + (f"<br><small>For {links}</small>" if links else "") + "</p>\n"
-    site.write("references.html", page("References", "docs/references.bib", body, up=""))
+    site.write("references.html", "", "References", "what patterns, measures and the other tables cite", body)
 
 
-def index_page(site):
-    """Thumbnails of patterns, and everything else by name."""
-    cards = "".join(f"<a href='patterns/{r['pattern']}.html'><img src='pictures/{r['pattern']}.svg' alt=''>{r['pattern']}"
+def index_pages(site):
+    """Thumbnails of the patterns, the table of the measures, and the first page with everything by name."""
+    cards = "".join(f"<a href='{r['pattern']}.html'><img src='../pictures/{r['pattern']}.svg' alt=''>{r['pattern']}"
                     f"<small>{html.escape(r['what'])}</small></a>" for r in site.lists["patterns"])
-    measures = table([], [[f"<a href='measures/{r['measure']}.html'>{r['measure']}</a>", html.escape(r["what"]), text.formula(r["cost"])]
-                          for r in site.lists["measures"]])
-    others = "".join(f"<li><a href='{kind}/index.html'>{title}</a></li>" for kind, title in (
-        ("scenes", "Scenes"), ("integrators", "Integrators"), ("filters", "Pixel filters"), ("adaptive", "Adaptive sampling"),
-        ("warps", "Warps"), ("materials", "Materials"), ("lights", "Lights"), ("uses", "Uses of a sample")))
-    body = (f"<h2>Patterns</h2><div class='cards'>{cards}</div><h2>Measures</h2>{measures}"
-            f"<h2>Rendering</h2><ul>{others}</ul><p><a href='references.html'>References</a></p>")
-    site.write("index.html", page("Koksma", "sampling patterns, exact measures, and the error of the images", body, up=""))
+    site.write("patterns/index.html", "", "Patterns", "rules that make a set of points", f"<div class='cards'>{cards}</div>")
+    measures = table(["measure", "what", "cost"], [[f"<a href='{r['measure']}.html'>{r['measure']}</a>", html.escape(r["what"]), text.formula(r["cost"])]
+                                                   for r in site.lists["measures"]])
+    site.write("measures/index.html", "", "Measures", "numbers for how uneven points are", measures)
+
+    def links(items):
+        return "<ul class='links'>" + "".join(f"<li><a href='{address}'>{name}</a>{': ' if what else ''}{what}</li>" for name, address, what in items) + "</ul>"
+    shown = (("star", "the largest error over boxes"), ("l2-star", "the mean square error over boxes"), ("edge", "over slanted edges"))
+    body = (
+        "<h2>Begin</h2>" + links([
+            ("Tutorial", "guide/tutorial.html", "from two commands to a study and your own sampler"),
+            ("Install", "guide/install.html", "what it needs, and the ways to build it"),
+            *([("Explorer", "explorer.html", "points, measures, pictures and spectra in the browser, with a tour of ten steps")] if site.explorer else []),
+            ("Guide", "guide/index.html", "every document, also for those who work on Koksma")]) +
+        "<h2>Look up</h2>" + links([
+            ("Commands", "commands/index.html", "options and examples of each"), ("C", "c/index.html", "the public headers"),
+            ("Python", "python/index.html", "the package koksma"), ("Scene files", "guide/scenes.html", "every field")]) +
+        "<h2>What there is</h2>" + links([
+            (f"{len(site.lists['patterns'])} patterns", "patterns/index.html", "each with its definition, spectrum, values and tested claims"),
+            (f"{len(site.lists['measures'])} measures", "measures/index.html",
+             ", ".join(f"<a href='measures/{name}.html'>{name}</a> {what}" for name, what in shown) + " ..."),
+            ("Scenes", "scenes/index.html", ""), ("Integrators", "integrators/index.html", ""), ("Pixel filters", "filters/index.html", ""),
+            ("Adaptive sampling", "adaptive/index.html", ""), ("Warps", "warps/index.html", ""), ("Materials", "materials/index.html", ""),
+            ("Lights", "lights/index.html", ""), ("Uses of a sample", "uses/index.html", ""), ("References", "references.html", "")]) +
+        "<h2>What was found</h2>" + links([("Findings", "findings/index.html", "studies with their numbers")]))
+    site.write("index.html", "", "Koksma documents", "sampling patterns, exact measures, and the error of the images", body)
 
 
 def main():
@@ -240,16 +262,25 @@ def main():
     program = Program(str(Path(arguments.program).resolve()), pictures, arguments.quick)
     program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", "from-elsewhere.csv")
     site = Site(program, arguments.folder)
-    patterns = site.lists["patterns"]
-    numbers = dict(zip([r["pattern"] for r in patterns], program.pool.map(lambda r: measured(site, r), patterns)))
-    list(program.pool.map(lambda r: pattern_page(site, r, numbers[r["pattern"]]), patterns))
-    list(program.pool.map(lambda r: measure_page(site, r, numbers), site.lists["measures"]))
-    small_tables(site)
+    patterns, progress, numbers = site.lists["patterns"], site.progress, {}
+
+    def run(steps):
+        return list(program.pool.map(lambda step: step(), steps))
+
+    texts = progress.of(lambda make: make(site), [guide, c_reference, python_reference, commands])
+    sets = progress.of(lambda row: measured(site, row), patterns)
+    pattern_pages = progress.of(lambda row: pattern_page(site, row, numbers[row["pattern"]]), patterns)
+    measure_pages = progress.of(lambda row: measure_page(site, row, numbers), site.lists["measures"])
+    tables = progress.of(lambda make: make(), small_tables(site))
+    run(texts)
+    numbers.update(zip([row["pattern"] for row in patterns], run(sets)))
+    run(pattern_pages + measure_pages + tables)
     references_page(site)
-    index_page(site)
-    site.write("style.css", STYLE.lstrip())
-    print(f"{arguments.folder}/index.html: {len(patterns)} patterns, {len(site.lists['measures'])} measures, "
-          f"{len(site.references)} references")
+    index_pages(site)
+    site.finish()
+    progress.end()
+    print(f"{arguments.folder}/index.html: {len(site.sections)} pages, {len(patterns)} patterns, {len(site.lists['measures'])} measures, "
+          f"{len(site.references)} references" + ("" if site.explorer else "; without the explorer (make explorer)"))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A measure against the number of points: sets of each size, or prefixes of the set that is shown.
 import { chart } from "./chart.mjs";
-import { byId, element } from "./dom.mjs";
+import { byId, element, short } from "./dom.mjs";
 
 // Sizes that some pattern is at home in: powers of two, squares (of primes, too), Fibonacci numbers, cubes.
 const sizeFamilies = [
@@ -39,9 +39,9 @@ function decayChart(place, measure, sets) {
 function lineText(label, line) {
   if (!line || line.slope === null) return `${label}: fewer than three values, no slope`;
   const exponents = [];
-  if (line.theory !== null) exponents.push(`theory has ${line.theory_text} for the pattern`);
-  if (line.best !== null) exponents.push(`the best that any points can have is ${line.best_text}`);
-  return `${label}: slope ${line.slope_text} (± ${line.slope_error_text})` +
+  if (line.theory !== null) exponents.push(`theory has ${short(line.theory)} for the pattern`);
+  if (line.best !== null) exponents.push(`the best that any points can have is ${short(line.best)}`);
+  return `${label}: slope ${short(line.slope)} (± ${short(line.slope_error, 2)})` +
     (exponents.length ? `; powers of logarithms left out, ${exponents.join(", ")}` : "");
 }
 

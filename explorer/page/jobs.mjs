@@ -4,11 +4,12 @@
 import { openService } from "./service.mjs";
 
 const patience_ms = 150; // a request that is no longer wanted may run on for so long, as starting a worker costs, too
+const late_ms = 100; // an answer that comes sooner takes the place of an older one at once, as while a point is dragged
 
 export class Jobs {
   // limit_s: how long an answer may take.
   constructor(module, workerScript, limit_s) {
-    Object.assign(this, { module, limit_s, waiting: new Map(), places: [], shown: new Map(), serial: 0, inPage: false });
+    Object.assign(this, { module, limit_s, waiting: new Map(), places: [], shown: new Map(), timers: new Map(), serial: 0, inPage: false });
     try {
       this.url = URL.createObjectURL(new Blob([workerScript], { type: "text/javascript" }));
       const count = Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 2), 4); // two: quick ones pass slow ones
@@ -28,30 +29,46 @@ export class Jobs {
     return place;
   }
 
-  // done(answer) is called once, unless the request is replaced or dropped before. Without a limit only what the page cannot
-  // do without: a machine that is slow to start is not one that failed.
-  ask(key, rank, request, done, limited = true) {
+  // done(answer) is called once, unless the request is replaced or dropped before. late() is called when the page has shown
+  // an older answer for late_ms. Not limited is only what the page cannot do without: a machine that is slow to start is not
+  // one that failed.
+  ask(key, rank, request, done, { limited = true, late = null } = {}) {
     for (const place of this.places) {
       if (place.job?.key === key) place.job.stale = true;
     }
-    this.waiting.set(key, { key, rank, request, limited, done: this.inOrder(key, done) });
+    const serial = ++this.serial;
+    this.waiting.set(key, { key, rank, request, limited, late, serial, done: this.inOrder(key, serial, done) });
+    this.startLate(key, late);
     this.dropStale();
     this.next();
   }
 
   // An answer that comes after that to a newer request of its key is not shown.
-  inOrder(key, done) {
-    const serial = ++this.serial;
+  inOrder(key, serial, done) {
     return answer => {
       if (serial < (this.shown.get(key) || 0)) return;
       this.shown.set(key, serial);
+      this.stopLate(key);
+      const newer = [this.waiting.get(key), ...this.places.map(place => place.job)]
+        .find(job => job?.key === key && job.serial > serial && !job.unwanted);
+      if (newer) this.startLate(key, newer.late);
       done(answer);
     };
+  }
+
+  startLate(key, late) {
+    if (late && !this.timers.has(key)) this.timers.set(key, setTimeout(late, late_ms));
+  }
+
+  stopLate(key) {
+    clearTimeout(this.timers.get(key));
+    this.timers.delete(key);
   }
 
   // No more answers for keys that begin like this.
   drop(prefix) {
     for (const key of [...this.waiting.keys()]) if (key.startsWith(prefix)) this.waiting.delete(key);
+    for (const key of [...this.timers.keys()]) if (key.startsWith(prefix)) this.stopLate(key);
     for (const place of this.places) if (place.job?.key.startsWith(prefix)) place.job.stale = place.job.unwanted = true;
     this.dropStale();
   }

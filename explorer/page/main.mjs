@@ -6,16 +6,19 @@ import { commands, save, svgFile } from "./export.mjs";
 import { Inequality } from "./inequality.mjs";
 import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
+import { Pictures } from "./pictures.mjs";
+import { sizeFor } from "./scenes.mjs";
 import { SetView } from "./set_view.mjs";
 import { parseSpec, prefixesAreSets } from "./specs.mjs";
 import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
 import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mjs";
 import { exponent, strataOf } from "./strata.mjs";
+import { Tour } from "./tour.mjs";
 
-const ranks = { points: 0, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
+const ranks = { points: 0, picture: 2, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
 const names = ["a", "b"];
 const inequality = new Inequality();
-let state = fromHash(location.hash), tables, jobs, measures, decay, hashTimer = 0;
+let state = fromHash(location.hash), tables, jobs, measures, decay, pictures, tour, shown = [], hashTimer = 0;
 const views = {}, spectra = {}, frames = new Set();
 
 const shownNames = () => names.filter(name => state[name]);
@@ -50,6 +53,34 @@ function drawSets() {
     view.showPoint();
     if (!view.waiting) view.showCommands(commandLines(name), view.points && set.edits.size ? fileOf(name) : "");
   }
+  showChosen();
+}
+
+// The chosen measure beside the points, where the table is far from them.
+function showChosen() {
+  byId("chosen").value = state.witness;
+  byId("chosen-values").replaceChildren(...(state.witness ? shownNames() : []).map(name =>
+    element("output", { class: `set-${name}` }, (state.b ? `${name.toUpperCase()} ` : "") + measures.text(state.witness, name))));
+  tour.showValues();
+}
+
+// Another choice of rows, digits, or of the measure whose witness is drawn.
+function chooseRows() {
+  const before = shown;
+  shown = measures.choose({ all: state.all.measures, chosen: state.witness, digits: state.all.digits ? 9 : 4 });
+  for (const name of shownNames()) {
+    if (!views[name].current) continue;
+    for (const measure of measures.rows.keys()) {
+      if (!shown.includes(measure)) jobs.drop(`${name}/measure/${measure}/`);
+      else if (!before.includes(measure)) measureOne(name, measure, true);
+    }
+  }
+  byId("all-measures").checked = state.all.measures;
+  byId("all-digits").checked = state.all.digits;
+  for (const row of measures.rows.values()) row.radio.checked = row.member.name === state.witness;
+  byId("witness-none").checked = !state.witness;
+  soon(drawSets);
+  keepHash();
 }
 
 function drawSpectra() {
@@ -59,7 +90,7 @@ function drawSpectra() {
 function commandLines(name) {
   const set = state[name], view = views[name];
   if (!view.points) return "";
-  const asked = measures.values(name).map(value => value.measure);
+  const asked = measures.values(name).map(answer => answer.measure);
   return commands({
     set, file: fileOf(name), measures: asked, witness: measures.witness(state.witness, name) ? measures.spec(state.witness) : "",
     axes: axesOf(set), layout: strataOf(state.strata, set.n, limits),
@@ -99,12 +130,15 @@ function keepHash() {
 
 // ---- What is asked for
 
-function measureAll(name) {
+// fresh: the set is another one, and not the same with a point moved: nothing known stays until the answers come.
+function measureAll(name, fresh = false) {
   const set = state[name], points = views[name].points;
-  measures.wait(name);
-  for (const measure of measures.rows.keys()) measureOne(name, measure);
+  for (const measure of shown) measureOne(name, measure, fresh);
+  const late = () => inequality.show(name, null);
+  if (fresh) late();
   jobs.ask(`${name}/inequality`, ranks.inequality, { kind: "inequality", points, axes: axesOf(set) },
-    answer => inequality.show(name, answer));
+    answer => inequality.show(name, answer), { late });
+  drawPictures(name, fresh);
   const reason = Spectrum.reason(set);
   if (reason) {
     jobs.drop(`${name}/spectrum`);
@@ -112,8 +146,10 @@ function measureAll(name) {
     soon(drawSpectra);
     return;
   }
+  const wait = () => { spectra[name].wait(titleOf(name)); soon(drawSpectra); };
+  if (fresh) wait();
   const ask = (key, rank, half, done) =>
-    jobs.ask(`${name}/spectrum/${key}`, rank, { kind: "spectrum", points, half, axes: axesOf(set) }, done);
+    jobs.ask(`${name}/spectrum/${key}`, rank, { kind: "spectrum", points, half, axes: axesOf(set) }, done, { late: key === "power" ? wait : null });
   ask("power", ranks.spectrum, halfOf(set.n), answer => {
     spectra[name].show(titleOf(name), answer);
     soon(drawSpectra);
@@ -121,18 +157,41 @@ function measureAll(name) {
   });
 }
 
-function measureOne(name, measure) {
-  const key = `${name}/measure/${measure}`, { min_dim, max_dim } = measures.rows.get(measure).member;
+// The pictures of a set; both sets have them in one size.
+function drawPictures(name, fresh) {
+  const set = state[name];
+  jobs.drop(set.dim < 2 ? `${name}/picture` : "none");
+  if (set.dim < 2 || !views[name].points) return;
+  const size = sizeFor(Math.max(...shownNames().map(other => state[other].n)));
+  pictures.names.forEach((scene, i) => {
+    const late = () => pictures.show(scene, name, null);
+    if (fresh) late();
+    jobs.ask(`${name}/picture/${scene}`, ranks.picture + i / 10,
+      { kind: "picture", scene, size, points: views[name].points, axes: axesOf(set), shifted: state.shifted },
+      answer => pictures.show(scene, name, answer), { late });
+  });
+}
+
+function choosePictures() {
+  const names = shownNames().filter(name => state[name].dim > 1);
+  byId("picture-shift").checked = state.shifted;
+  pictures.choose(names, names.length ? "" : "Pictures take two coordinates.");
+}
+
+function measureOne(name, measure, fresh = false) {
+  const key = `${name}/measure/${measure}/`, { min_dim, max_dim } = measures.rows.get(measure).member;
   if (!measures.serves(measure, state[name].dim)) {
     jobs.drop(key);
     measures.show(measure, name, { error: min_dim === max_dim ? `takes ${min_dim} dimensions` : `takes ${min_dim} to ${max_dim} dimensions` });
     return;
   }
   const request = { kind: "measure", points: views[name].points, measure: measures.spec(measure) };
+  const late = () => { measures.wait(measure, name); soon(drawSets); };
+  if (fresh) late();
   jobs.ask(key, measures.rank(measure, state.witness), request, answer => {
     measures.show(measure, name, answer);
     soon(drawSets);
-  });
+  }, { late });
 }
 
 // A set has another pattern, number, seed: everything anew.
@@ -140,25 +199,31 @@ function refresh(name) {
   const { spec, n, dim, seed } = state[name], view = views[name];
   jobs.drop(`${name}/`);
   view.wait(true);
+  for (const measure of shown) measures.wait(measure, name);
+  for (const scene of pictures.names) pictures.show(scene, name, null);
+  inequality.show(name, null);
+  spectra[name].wait(titleOf(name));
+  choosePictures();
   jobs.ask(`${name}/points`, ranks.points, { kind: "generate", spec, n, dim, seed: BigInt(seed) }, answer => {
     view.fail(answer.error || "");
     view.points = answer.points || null;
     view.original = answer.points ? answer.points.xs.slice() : null;
     view.wait(false);
-    measures.forget(name);
     if (answer.error) {
       measures.clear(name);
-      inequality.show(name, null);
       spectra[name].say("");
       decay.forget(name);
       soon(drawSpectra);
     } else {
       for (const [i, xs] of state[name].edits) view.points.xs.set(xs, i * dim);
-      measureAll(name);
+      measureAll(name, true);
       decay.ask(name);
+      const other = name === "a" ? "b" : "a"; // its pictures may have another size now
+      if (state[other] && views[other].current) drawPictures(other, false);
     }
     soon(drawSets);
   });
+  soon(drawSets);
   showStrataControls();
   showAxes();
   keepHash();
@@ -234,8 +299,8 @@ function showAll() {
       decay.forget(name);
     }
   }
-  for (const row of measures.rows.values()) row.radio.checked = row.member.name === state.witness;
-  byId("witness-none").checked = !state.witness;
+  choosePictures();
+  chooseRows();
   byId("decay-measure").value = state.decay.measure;
   byId("decay-of").value = state.decay.of;
   soon(drawSpectra);
@@ -268,16 +333,30 @@ function wire() {
       keepHash();
     };
   });
-  byId("witness-none").onchange = () => { state.witness = ""; soon(drawSets); keepHash(); };
+  const choose = name => { state.witness = name; chooseRows(); };
+  byId("witness-none").onchange = () => choose("");
+  byId("chosen").onchange = event => choose(event.target.value);
+  for (const what of ["measures", "digits"]) {
+    byId(`all-${what}`).onchange = event => { state.all[what] = event.target.checked; chooseRows(); };
+  }
+  byId("picture-shift").onchange = event => {
+    state.shifted = event.target.checked;
+    for (const name of shownNames()) drawPictures(name, true);
+    keepHash();
+  };
   byId("decay-measure").onchange = event => { state.decay.measure = event.target.value; decay.askAll(); keepHash(); };
   byId("decay-of").onchange = event => { state.decay.of = event.target.value; decay.askAll(); keepHash(); };
   addEventListener("resize", () => { soon(drawSpectra); decay.draw(); });
-  addEventListener("hashchange", () => {
-    if (location.hash.slice(1) === toHash(state)) return;
-    state = fromHash(location.hash);
-    takeMeasures();
-    showAll();
+  addEventListener("hashchange", event => {
+    const { hash } = new URL(event.newURL); // keepHash may have put an older one into the address since
+    if (hash.slice(1) !== toHash(state)) go(hash);
   });
+}
+
+function go(hash) {
+  state = fromHash(hash);
+  takeMeasures();
+  showAll();
 }
 
 // The parameters of measures that the address has; those of names that are unknown are left out.
@@ -292,17 +371,16 @@ async function start() {
   const bytes = Uint8Array.from(atob(byId("wasm").textContent.trim()), c => c.charCodeAt(0));
   jobs = new Jobs(await WebAssembly.compile(bytes), byId("worker").textContent, limits.answer_s);
   byId("in-page").hidden = !jobs.inPage;
-  tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done, false));
+  tables = await new Promise(done => jobs.ask("tables", 0, { kind: "tables" }, done, { limited: false }));
   if (tables.error) throw new Error(tables.error);
   tables.references = JSON.parse(byId("references").textContent);
   measures = new Measures(byId("measures"), tables.measures, name => {
     state.witness = name;
-    soon(drawSets);
-    keepHash();
+    chooseRows();
   }, (name, spec) => {
     if (spec === name) delete state.measures[name];
     else state.measures[name] = spec;
-    for (const which of shownNames()) if (views[which].points) measureOne(which, name);
+    for (const which of shownNames()) if (views[which].points && shown.includes(name)) measureOne(which, name, true);
     if (name === state.decay.measure) decay.askAll();
     keepHash();
   });
@@ -313,7 +391,11 @@ async function start() {
   };
   decay = new Decay(jobs, ranks.decay, () => state, name => views[name].points, measures.spec, isSequence, () => soon(drawSets));
   names.forEach(openSet);
-  byId("decay-measure").replaceChildren(...tables.measures.map(m => element("option", { value: m.name }, m.name)));
+  pictures = new Pictures();
+  tour = new Tour(go, (measure, name) => state[name] ? measures.text(measure, name) : "");
+  const options = () => tables.measures.map(m => element("option", { value: m.name }, m.name));
+  byId("decay-measure").replaceChildren(...options());
+  byId("chosen").replaceChildren(element("option", { value: "" }, "no witness"), ...options());
   byId("version").textContent = tables.version;
   takeMeasures();
   wire();
@@ -321,9 +403,10 @@ async function start() {
   document.body.classList.remove("starting");
 }
 
-// The tests wait for this.
+// The tests wait for this, and ask it for values in full.
 globalThis.koksmaExplorer = {
   busy: () => !jobs || jobs.busy || frames.size > 0, hash: () => toHash(state), limit: seconds => jobs.setLimit(seconds),
+  values: name => measures.values(name), pictures: () => pictures.results(),
 };
 
 start().catch(error => {

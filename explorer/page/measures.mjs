@@ -7,12 +7,16 @@ import { witnessText } from "./plane.mjs";
 // Rough work of each measure, least first: what is asked for first when all are wanted at once.
 const slow = ["t-value", "edge-sampled", "extreme", "edge", "l2-edge", "l2-disk", "disk-sampled", "star-lower", "disk"];
 
+// What is shown unless all is: a box, the mean over boxes, slanted edges, distances.
+const first = ["star", "l2-star", "edge", "min-distance"];
+const computing = "…";
+
 export class Measures {
   // chosen(name): the witness to draw; changed(name, spec): a measure has other parameters now.
   constructor(body, members, chosen, changed) {
-    this.rows = new Map();
+    Object.assign(this, { rows: new Map(), digits: 4 });
     for (const member of members) {
-      const row = { member, answers: {}, cells: {} };
+      const row = { member, answers: {}, cells: {}, waits: {} };
       const id = `witness-${member.name}`;
       row.radio = element("input", { type: "radio", name: "witness", id, value: member.name });
       row.radio.onchange = () => chosen(member.name);
@@ -43,13 +47,23 @@ export class Measures {
     return dim >= min_dim && dim <= max_dim;
   }
 
-  wait(which) {
-    for (const row of this.rows.values()) row.cells[which].classList.add("waiting");
+  // Which rows and digits are shown: the rows that are, by name.
+  choose({ all, chosen, digits }) {
+    this.digits = digits;
+    for (const [name, row] of this.rows) {
+      row.node.hidden = !(all || first.includes(name) || name === chosen);
+      if (row.node.hidden) row.answers = {}; // a value of points that may be gone
+      for (const which of ["a", "b"]) this.draw(row, which);
+    }
+    return [...this.rows.keys()].filter(name => !this.rows.get(name).node.hidden);
   }
 
-  // The set is another one: what its witnesses were means nothing any more.
-  forget(which) {
-    for (const row of this.rows.values()) row.answers[which] = null;
+  // The value is being computed: what is known is of other points.
+  wait(name, which) {
+    const row = this.rows.get(name);
+    row.answers[which] = null;
+    row.waits[which] = true;
+    this.draw(row, which);
   }
 
   clear(which) {
@@ -58,12 +72,25 @@ export class Measures {
 
   // answer: null for nothing to say.
   show(name, which, answer) {
-    const row = this.rows.get(name), cell = row.cells[which];
+    const row = this.rows.get(name);
     row.answers[which] = answer;
-    cell.classList.remove("waiting");
+    row.waits[which] = false;
+    this.draw(row, which);
+  }
+
+  // A value as it is shown: four digits, or all that the program prints.
+  text(name, which) {
+    const row = this.rows.get(name), answer = row?.answers[which];
+    if (!answer) return row?.waits[which] ? computing : "";
+    return answer.error ? "–" : this.digits < 9 && Number.isFinite(answer.value) ? short(answer.value, this.digits) : answer.value_text;
+  }
+
+  draw(row, which) {
+    const cell = row.cells[which], answer = row.answers[which];
+    cell.classList.toggle("waiting", Boolean(row.waits[which]));
     cell.title = answer && !answer.error ? String(answer.value) : "";
     if (answer?.error) cell.replaceChildren(element("span", { class: "why" }, answer.error));
-    else cell.textContent = answer ? answer.value_text : "";
+    else cell.textContent = this.text(row.member.name, which);
     const a = row.answers.a?.value, b = row.answers.b?.value;
     row.cells.ratio.textContent = Number.isFinite(a) && Number.isFinite(b) && a !== 0 ? short(b / a) : "";
     const both = Object.values(row.answers).filter(Boolean);
@@ -78,12 +105,13 @@ export class Measures {
   // A sentence about the witness that is drawn.
   sentence(name, which, n) {
     const answer = this.rows.get(name)?.answers[which];
-    if (!answer || answer.error) return "";
-    return answer.witness ? `${name} = ${answer.value_text}: ${witnessText(answer.witness, n)}` : `${name} = ${answer.value_text} has no single region as its witness.`;
+    if (!answer || answer.error) return answer ? "" : `${name} = ${this.text(name, which)}`;
+    const value = `${name} = ${this.text(name, which)}`;
+    return answer.witness ? `${value}: ${witnessText(answer.witness, n)}` : `${value} has no single region as its witness.`;
   }
 
   values(which) {
     return [...this.rows.values()].filter(row => row.answers[which] && !row.answers[which].error)
-      .map(row => ({ measure: row.answers[which].measure, text: row.answers[which].value_text }));
+      .map(row => ({ measure: row.answers[which].measure, value: row.answers[which].value }));
   }
 }

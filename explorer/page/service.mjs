@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What can be asked of the library, in a worker or, where a browser has none for this page, in the page itself.
 import { openKoksma } from "./module.mjs";
+import { picture } from "./scenes.mjs";
 
 // A function from a request { kind, .. } to its answer; an error is an answer { error }.
 export async function openService(module) {
   let koksma = await openKoksma(module);
   const ask = {
     ...koksma,
+    picture,
     // A measure of a fresh set of each seed, in one go: what `koksma measure pattern:..@n` gives.
     sample: ({ measure, ...set }) => ({ n: set.n, ...koksma.measure({ points: koksma.generate(set).points, measure }) }),
     // A measure of the first n points.

@@ -15,7 +15,7 @@ const button = (text, title, click) => {
 export class SetView {
   // events: changed(), moved(i, place), unmoved(), saveSvg(), saveCsv(), copy(text), removed() for a set that can go
   constructor(name, patterns, references, events) {
-    Object.assign(this, { name, patterns, references, events, label: name.toUpperCase() });
+    Object.assign(this, { name, patterns, references, events, docs: document.querySelector("meta[name=docs]").content, label: name.toUpperCase() });
     this.plane = new Plane(name, (i, place) => events.moved(i, place), () => this.showPoint());
     const id = part => `${name}-${part}`;
     this.pattern = element("select", { id: id("pattern") },
@@ -152,7 +152,9 @@ export class SetView {
       ...(member.params.length ? [element("ul", { "aria-label": "Parameters" },
         ...member.params.map(p => element("li", {}, element("b", {}, p.name), " ", p.help)))] : []),
       ...(cites.length ? [element("ul", { class: "cites", "aria-label": "Sources" },
-        ...cites.map(key => element("li", {}, this.references[key] || key)))] : []));
+        ...cites.map(key => element("li", {}, this.references[key] || key)))] : []),
+      element("p", {}, element("a", { href: `${this.docs}patterns/${member.name}.html` }, `${member.name} in the documents`),
+        ": its definition, spectrum, measured values and tested claims"));
   }
 
   fail(text) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The power spectrum: a picture for each set, and the radial means of all in one chart.
-import { element } from "./dom.mjs";
+import { element, short } from "./dom.mjs";
 import { chart } from "./chart.mjs";
 import { limits } from "./state.mjs";
 
@@ -45,7 +45,15 @@ export class Spectrum {
     this.caption.textContent = text;
   }
 
+  // It is being computed: what is known is another set's.
+  wait(label) {
+    this.rings = null;
+    this.canvas.classList.add("waiting");
+    this.caption.textContent = `${label}: …`;
+  }
+
   show(label, answer) {
+    this.canvas.classList.remove("waiting");
     if (answer.error) return this.say(answer.error);
     this.canvas.hidden = false;
     this.rings = answer.rings;
@@ -57,9 +65,9 @@ export class Spectrum {
 
   showQuality(answer) {
     if (answer.error || !this.rings) return;
-    const part = (name, text) => text === "-" ? "" : `; ${name} ${text}`;
-    this.caption.textContent = this.caption.textContent.split("; effective")[0] + part("effective Nyquist frequency", answer.effective_nyquist_text) +
-      part("over √n/2", answer.relative_nyquist_text) + part("oscillation", answer.oscillation_text);
+    const part = (name, value) => value === null ? "" : `; ${name} ${short(value)}`;
+    this.caption.textContent = this.caption.textContent.split("; effective")[0] + part("effective Nyquist frequency", answer.effective_nyquist) +
+      part("over √n/2", answer.relative_nyquist) + part("oscillation", answer.oscillation);
   }
 }
 

@@ -12,6 +12,8 @@ export const newState = () => ({
   strata: { kind: "grid", columns: 0, rows: 0, base: 2, split: 1 }, // 0: as many as go with the points
   witness: "star", axes: [0, 1],
   measures: {}, // { name: spec } where its parameters are not the defaults
+  shifted: true, // whether each pixel of the pictures has the points shifted at random
+  all: { measures: false, digits: false }, // what is shown of the table
   decay: { measure: "l2-star", of: "sets" },
 });
 
@@ -56,6 +58,9 @@ export function toHash(state) {
   query.set("witness", state.witness || "none");
   if (String(state.axes) !== "0,1") query.set("axes", state.axes.join(","));
   query.set("decay", `${state.decay.measure}:${state.decay.of}`);
+  if (!state.shifted) query.set("pixels", "equal");
+  const all = Object.keys(state.all).filter(what => state.all[what]);
+  if (all.length) query.set("all", all.join(","));
   const changed = Object.values(state.measures);
   if (changed.length) query.set("measures", changed.join("|"));
   return String(query).replace(/%(3A|3B|40|2C|3D|7C)/g, decodeURIComponent);
@@ -84,6 +89,8 @@ export function fromHash(text) {
   if (axes.length === 2 && axes.every(k => Number.isInteger(k) && k >= 0 && k < limits.dim)) state.axes = axes;
   const decay = /^([a-z0-9-]+):(sets|prefixes)$/.exec(query.get("decay") || "");
   if (decay) state.decay = { measure: decay[1], of: decay[2] };
+  state.shifted = query.get("pixels") !== "equal";
+  for (const what of (query.get("all") || "").split(",")) if (what in state.all) state.all[what] = true;
   for (const spec of (query.get("measures") || "").split("|").filter(Boolean)) state.measures[spec.split(":")[0]] = spec;
   return state;
 }

@@ -22,7 +22,9 @@ let checks = 0;
 const check = (good, text) => { checks++; if (!good) problems.push(text); };
 const run = (...words) => execFileSync(program, words.map(String), { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], cwd: folder });
 const refusal = (...words) => { try { run(...words); return ""; } catch (error) { return error.stderr.trim(); } };
-const table = text => text.trim().split("\n").slice(1).map(line => line.split(/ {2,}/));
+const jsonLines = text => text.trim().split("\n").map(line => JSON.parse(line));
+const records = (...words) => jsonLines(run(...words, "--json"));
+const rounded = (value, digits) => value === null ? null : +value.toPrecision(digits);
 
 // Text against what is behind it, as WCAG 2.1 counts it; names of pictures and controls; ids.
 const accessibility = () => {
@@ -71,6 +73,12 @@ async function open(browser, { hash = "", colorScheme = "light", width = 1280, b
   await idle(page);
   return page;
 }
+// Another address in the same page, loaded anew.
+const visit = async (page, hash) => {
+  await page.goto("about:blank");
+  await page.goto(address + hash);
+  await idle(page);
+};
 const idle = page => until(page, () => globalThis.koksmaExplorer && !document.body.classList.contains("starting") && !koksmaExplorer.busy());
 const set = async (page, selector, value) => {
   await page.locator(selector).fill(String(value));
@@ -78,10 +86,23 @@ const set = async (page, selector, value) => {
   await idle(page);
 };
 const choose = async (page, selector, value) => { await page.locator(selector).selectOption(value); await idle(page); };
-const values = (page, which) => page.evaluate(column => Object.fromEntries([...document.querySelectorAll("#measures tr")].map(row => {
-  const cell = row.cells[column];
-  return [row.dataset.measure, cell.querySelector(".why") ? { why: cell.textContent } : cell.textContent];
-})), which === "b" ? 2 : 1);
+// The page's values to nine digits; { why } for a reason, "" for none, "…" for one that is being computed.
+const values = async (page, which) => {
+  const shown = await page.evaluate(([column, name]) => {
+    const full = Object.fromEntries(koksmaExplorer.values(name).map(answer => [answer.measure.split(":")[0], answer.value]));
+    return [...document.querySelectorAll("#measures tr")].map(row => ({ name: row.dataset.measure, text: row.cells[column].textContent,
+      why: Boolean(row.cells[column].querySelector(".why")), value: full[row.dataset.measure], all: document.getElementById("all-digits").checked }));
+  }, [which === "b" ? 2 : 1, which]);
+  return Object.fromEntries(shown.map(({ name, text, why, value, all }) => {
+    if (value === undefined) return [name, why ? { why: text } : text];
+    if (value !== null) check(Number(text) === rounded(value, all ? 9 : 4), `${name} is shown as ${text}, ${value} in full`);
+    return [name, rounded(value, 9)];
+  }));
+};
+const unfold = async page => {
+  await page.locator("#all-measures").check();
+  await idle(page);
+};
 const saved = async (page, which, button) => {
   const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`.set-${which} button`, { hasText: button }).click()]);
   await file.saveAs(path.join(folder, file.suggestedFilename()));
@@ -92,9 +113,12 @@ const shell = line => execSync(line, { cwd: folder, encoding: "utf8", stdio: ["i
 
 // All values of a set of the page, beside the program's for source.
 async function compare(page, which, source, ...args) {
-  const ours = await values(page, which), theirs = table(run("measure", source, "-m", "all", ...args));
-  for (const row of theirs) check(ours[row[3].split(":")[0]] === row[4], `${source} ${row[3]}: page ${JSON.stringify(ours[row[3]])}, program ${row[4]}`);
-  const served = theirs.map(row => row[3]);
+  await unfold(page);
+  const ours = await values(page, which), theirs = records("measure", source, "-m", "all", ...args);
+  for (const { measure, value } of theirs) {
+    check(ours[measure.split(":")[0]] === rounded(value, 9), `${source} ${measure}: page ${JSON.stringify(ours[measure])}, program ${value}`);
+  }
+  const served = theirs.map(record => record.measure);
   for (const [name, value] of Object.entries(ours)) if (!served.includes(name)) check(value.why, `${source} ${name}: the program doesn't serve it, the page says ${value}`);
   return ours;
 }
@@ -113,15 +137,15 @@ async function commandsAgree(page, which, what) {
   const kinds = [];
   for (const line of (await commandLines(page, which)).filter(Boolean)) {
     let out = "";
-    try { out = shell(line); } catch (error) { check(false, `${what}: ${line}: ${error.stderr}`); continue; }
+    try { out = shell(/^koksma (plot|generate)/.test(line) ? line : line + " --json"); } catch (error) { check(false, `${what}: ${line}: ${error.stderr}`); continue; }
     const kind = (/--prefixes/.exec(line) || /^koksma \w+/.exec(line))[0], again = kinds.includes(kind);
     kinds.push(again ? "sets" : kind);
     if (kind === "--prefixes" || again) {
-      const rows = table(out), given = rows.find(row => row[3].startsWith("slope"));
-      const slope = given ? +given[4] : slopeOf(rows.map(row => [+row[1], +row[4]]));
-      check(Math.abs(slope - Number((/slope (\S+)/.exec(slopes) || [])[1])) < 2e-4, `${what}: ${line} has the slope ${slope}; the page: ${slopes}`);
+      const rows = jsonLines(out), given = rows.find(row => row.measure.startsWith("slope"));
+      const slope = given ? given.value : slopeOf(rows.map(row => [row.n, row.value]));
+      check(Math.abs(slope - Number((/slope (\S+)/.exec(slopes) || [])[1])) < 2e-3 * Math.abs(slope), `${what}: ${line} has the slope ${slope}; the page: ${slopes}`);
     } else if (kind === "koksma measure") {
-      for (const row of table(out)) check(shown[row[3].split(":")[0]] === row[4], `${what}: ${line}: ${row[3]} ${row[4]}`);
+      for (const { measure, value } of jsonLines(out)) check(shown[measure.split(":")[0]] === rounded(value, 9), `${what}: ${line}: ${measure} ${value}`);
     }
   }
   return kinds.map(kind => kind.replace("koksma ", "")).join(" ");
@@ -136,6 +160,6 @@ function report() {
 }
 
 module.exports = {
-  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, open, playwright, refusal, report, run,
-  saved, screenshots, set, shell, table, until, values,
+  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, jsonLines, open,
+  playwright, records, refusal, report, rounded, run, saved, screenshots, set, shell, unfold, until, values, visit,
 };

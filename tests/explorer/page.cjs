@@ -2,11 +2,12 @@
 // page.cjs PROGRAM PAGE [SCREENSHOTS]: the explorer in headless Chromium, every control used, every number beside the program's.
 // Exit code 77: skipped.
 "use strict";
+const definitions = require("./definitions.cjs");
 const fs = require("fs");
 const path = require("path");
 const {
-  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, open, playwright, refusal, report, run,
-  saved, screenshots, set, shell, table, until, values,
+  accessibility, address, check, choose, chromium, commandLines, commandsAgree, compare, folder, idle, jsonLines, open,
+  playwright, records, refusal, report, rounded, run, saved, screenshots, set, shell, unfold, until, values, visit,
 } = require("./harness.cjs");
 
 // A script that is not the page's does not run: the policy would say so on the console, too.
@@ -33,6 +34,7 @@ async function controls(page) {
   await compare(page, "a", "pattern:poisson-disk:d=0.12,torus=1@20", "--seed", "12345678901234567890");
   check((await page.locator(".set-a .cites").textContent()).includes("Stochastic Sampling"), "the source is not cited");
   check((await page.locator(".set-a .claims").textContent()).includes("min-distance"), "the claims are not shown");
+  check((await page.locator(".set-a .about a").getAttribute("href")) === "../docs/patterns/poisson-disk.html", "the pattern does not lead to its document");
   await page.locator(".set-a button", { hasText: "Next" }).click();
   await idle(page);
   check((await page.locator("#a-seed").inputValue()) === "12345678901234567891", "the next seed");
@@ -67,9 +69,7 @@ async function controls(page) {
 }
 
 async function strataAndWitness(page) {
-  await page.goto(address + "#a=sobol@16&strata=grid:4x4");
-  await page.reload();
-  await idle(page);
+  await visit(page, "#a=sobol@16&strata=grid:4x4");
   const text = () => page.locator(".set-a .strata-text").textContent();
   check((await text()) === "16 of 16 cells of 4 × 4 hold one point", "strata: " + await text());
   await set(page, "#columns", 2);
@@ -89,6 +89,7 @@ async function strataAndWitness(page) {
   await set(page, "#rows", "");
   check(/ of 15 cells of 5 × 3 /.test(await text()), "strata: " + await text());
   // The witness in the picture is where the program has it.
+  await unfold(page);
   const side = 400;
   for (const [measure, shape] of [["star", "rect"], ["extreme", "rect"], ["edge", "polygon"], ["disk", "circle"]]) {
     await page.locator(`#witness-${measure}`).check();
@@ -118,13 +119,11 @@ async function strataAndWitness(page) {
   // A measure with another parameter.
   await page.locator('[data-measure="disk"] summary').click();
   await set(page, "#measure-disk-r", 0.1);
-  check((await values(page, "a")).disk === table(run("measure", "pattern:sobol@15", "-m", "disk:r=0.1"))[0][4], "disk:r=0.1");
+  check((await values(page, "a")).disk === rounded(records("measure", "pattern:sobol@15", "-m", "disk:r=0.1")[0].value, 9), "disk:r=0.1");
 }
 
 async function moving(page) {
-  await page.goto(address + "#a=n-rooks@16&a.seed=7&strata=rooks&decay=l2-star:prefixes");
-  await page.reload();
-  await idle(page);
+  await visit(page, "#a=n-rooks@16&a.seed=7&strata=rooks&decay=l2-star:prefixes");
   const before = await compare(page, "a", "pattern:n-rooks@16", "--seed", 7);
   const untouched = await saved(page, "a", "Save CSV");
   run("generate", "n-rooks", "-n", 16, "--seed", 7, "-o", "theirs.csv");
@@ -148,8 +147,8 @@ async function moving(page) {
   const lines = await commandLines(page, "a");
   check(lines.length === 4 && lines.every(line => line.includes("koksma-a.csv")), "commands: " + lines);
   lines.slice(0, 3).forEach(shell);
-  const slope = table(shell(lines[3])).find(row => row[3].startsWith("slope"));
-  check((await page.locator("#decay-text").textContent()).includes(`slope ${slope[4]} (± `), `the slope ${slope[4]} is not on the page`);
+  const slope = jsonLines(shell(lines[3] + " --json")).find(row => row.measure.startsWith("slope"));
+  check((await page.locator("#decay-text").textContent()).includes(`slope ${rounded(slope.value, 4)} (± `), `the slope ${slope.value} is not on the page`);
   // Its address gives the same again.
   await page.waitForTimeout(300);
   const again = await open(page.context().browser(), { hash: "#" + await page.evaluate(() => koksmaExplorer.hash()) });
@@ -173,9 +172,7 @@ async function moving(page) {
 }
 
 async function comparing(page) {
-  await page.goto(address + "#a=jittered@64&a.seed=2");
-  await page.reload();
-  await idle(page);
+  await visit(page, "#a=jittered@64&a.seed=2");
   await page.locator("#compare").click();
   await idle(page);
   await choose(page, "#b-pattern", "dart-throwing");
@@ -187,8 +184,8 @@ async function comparing(page) {
   for (const which of ["a", "b"]) {
     const source = which === "a" ? ["pattern:jittered@64", "--seed", 2] : ["pattern:dart-throwing@64", "--seed", 9];
     const caption = await page.locator("#spectra figcaption").nth(which === "a" ? 0 : 1).textContent();
-    const [, , nyquist, relative, oscillation] = table(run("curve", "quality", ...source))[0];
-    check(caption.includes(`effective Nyquist frequency ${nyquist}; over √n/2 ${relative}` + (oscillation === "-" ? "" : `; oscillation ${oscillation}`)), `quality ${nyquist} ${relative} ${oscillation}; the page: ${caption}`);
+    const [nyquist, relative, oscillation] = ["effective_nyquist", "relative_nyquist", "oscillation"].map(key => rounded(records("curve", "quality", ...source)[0][key], 4));
+    check(caption.includes(`effective Nyquist frequency ${nyquist}; over √n/2 ${relative}` + (oscillation === null ? "" : `; oscillation ${oscillation}`)), `quality ${nyquist} ${relative} ${oscillation}; the page: ${caption}`);
     (await commandLines(page, which)).forEach(line => { try { shell(line); } catch (error) { check(false, `${line}: ${error.stderr}`); } });
     const svg = fs.readFileSync(await saved(page, which, "Save SVG"), "utf8");
     const parts = await page.evaluate(text => {
@@ -243,8 +240,8 @@ async function manyMoves(browser) {
     await page.waitForTimeout(300);
     const hash = await page.evaluate(() => location.hash), said = await page.locator(".set-a .lost").textContent();
     check(hash.includes(`moved=${moves}`) === fit && said.includes("too long") !== fit, `${n} moved points: "${said}" ${hash.slice(0, 80)}`);
-    const row = table(run("measure", await saved(page, "a", "Save CSV"), "-m", "l2-star"))[0];
-    check((await values(page, "a"))["l2-star"] === row[4], `${n} moved points: l2-star is ${row[4]}`);
+    const { value } = records("measure", await saved(page, "a", "Save CSV"), "-m", "l2-star")[0];
+    check((await values(page, "a"))["l2-star"] === rounded(value, 9), `${n} moved points: l2-star is ${value}`);
     await page.context().close();
   }
   // A move while another set is on its way is none of that set.
@@ -266,13 +263,14 @@ async function guards(browser) {
     const page = await open(browser, { hash, limit_s: 2 }); // of 16384 points some measures take longer than any limit
     const a = await values(page, "a");
     if (hash.includes("nonsense")) check((await page.locator(".set-a .problem").textContent()).includes("nonsense"), "an unknown pattern is not named");
-    else check(typeof a["l2-star"] === "string" && a["l2-star"] !== "", hash + ": no values");
+    else check(typeof a["l2-star"] === "number", hash + ": no values");
     await page.context().close();
   }
   // What takes longer than the limit is stopped and says so; the rest goes on.
   const page = await open(browser);
-  await page.evaluate(() => koksmaExplorer.limit(0.5));
   await page.evaluate(() => { location.hash = "#a=random@8192&witness=edge"; });
+  await until(page, () => document.querySelector(".set-a svg.plane .points")?.getAttribute("d").length > 8192 * 4);
+  await page.evaluate(() => koksmaExplorer.limit(0.5));
   await until(page, () => document.querySelector('[data-measure="edge"] td').textContent.includes("stopped after"));
   await page.evaluate(() => { koksmaExplorer.limit(60); location.hash = "#a=random@32"; });
   await until(page, () => koksmaExplorer.hash().includes("random@32"));
@@ -286,26 +284,148 @@ async function guards(browser) {
   await alone.context().close();
 }
 
+const pointsOf = csv => fs.readFileSync(csv, "utf8").trim().split("\n").slice(1).map(line => line.split(",").map(Number));
+
+// The errors under the pictures, of points as they are shown and moved, are those of the definitions.
+async function pictures(browser) {
+  const page = await open(browser, { hash: "#a=n-rooks@16&a.seed=7&b=regular@9&pixels=equal" });
+  const agree = async (what, ...names) => {
+    const results = await page.evaluate(() => Object.fromEntries(Object.entries(koksmaExplorer.pictures()).map(([scene, sets]) =>
+      [scene, Object.fromEntries(Object.entries(sets).map(([name, { size, mean_error, rms_error }]) => [name, { size, mean_error, rms_error }]))])));
+    check(Object.keys(results).join() === definitions.scenes.join(), `${what}: pictures of ${Object.keys(results)}`);
+    for (const name of names) {
+      const points = pointsOf(await saved(page, name, "Save CSV"));
+      for (const [i, scene] of definitions.scenes.entries()) {
+        const { size, mean_error, rms_error } = results[scene][name];
+        const expected = definitions.errors(definitions.pixels(scene, size, points), definitions.pixels(scene, size, definitions.many(1024)));
+        check(Math.abs(rms_error - expected.rms_error) < 0.03 * expected.rms_error && Math.abs(mean_error - expected.mean_error) < 0.06 * expected.mean_error,
+          `${what}, ${scene} ${name}: mean ${mean_error}, RMS ${rms_error}; from the definition ${expected.mean_error}, ${expected.rms_error}`);
+        const shown = await page.locator(".scene").nth(i).locator(".numbers").nth(name === "a" ? 0 : 1).textContent();
+        check(shown === `mean ${rounded(mean_error, 3)}, RMS ${rounded(rms_error, 3)}`, `${what}, ${scene} ${name}: "${shown}" is not ${mean_error}, ${rms_error}`);
+      }
+    }
+    return results;
+  };
+  const before = await agree("two sets", "a", "b");
+  check(before["zone plate"].a.size.width === before["zone plate"].b.size.width, "the pictures of two sets have other sizes");
+  await page.locator(".set-a svg.plane").focus();
+  for (const key of ["n", "Shift+ArrowRight", "Shift+ArrowUp"]) await page.keyboard.press(key);
+  await idle(page);
+  const after = await agree("a moved point", "a");
+  check(definitions.scenes.every(scene => after[scene].a.rms_error !== before[scene].a.rms_error), "a moved point does not change the errors");
+  check(definitions.scenes.every(scene => after[scene].b.rms_error === before[scene].b.rms_error), "a moved point of A changes the errors of B");
+  await page.locator("#picture-shift").check();
+  await idle(page);
+  const noise = await page.evaluate(() => koksmaExplorer.pictures()["zone plate"].b.rms_error);
+  check(noise !== before["zone plate"].b.rms_error && !(await page.evaluate(() => koksmaExplorer.hash())).includes("pixels"), "shifting the pixels changes nothing");
+  await set(page, "#a-n", 4096);
+  check(await page.evaluate(() => { const { size } = koksmaExplorer.pictures()["zone plate"].b; return size.width * size.height * 4096 < 2e6; }), "the pictures of 4,096 points are as large as those of few");
+  await set(page, "#a-dim", 1);
+  check(await page.locator(".set-a .problem").textContent() || await page.locator("#pictures").isVisible(), "set B has lost its pictures");
+  await page.context().close();
+}
+
+// A value that is not known yet is shown as "…", and no old number stays beside it.
+async function waiting(browser) {
+  const page = await open(browser, { hash: "#a=random@64&witness=edge", limit_s: 60 });
+  const cells = () => page.locator("#measures tr:not([hidden]) td:nth-of-type(1)").allTextContents();
+  const known = await cells();
+  check(known.length === 4 && known.every(text => /^\d/.test(text)), "four measures at the start: " + known);
+  await page.evaluate(() => { location.hash = "#a=random@4096&witness=edge"; });
+  await until(page, () => koksmaExplorer.hash().includes("4096"));
+  const meanwhile = await cells();
+  check(meanwhile.includes("…") && !meanwhile.some(text => known.includes(text)), "values of 64 points beside 4096: " + meanwhile);
+  check((await page.locator("#chosen-values").textContent()) === meanwhile[2] || (await cells())[2] !== "…", "the chosen value is another one than the table's");
+  check(await page.locator("svg.plane .witness").count() === 0, "the witness of other points is drawn");
+  await page.context().close();
+}
+
+// On a narrow screen the points and the chosen value are seen together, and change together.
+async function narrow(browser) {
+  const page = await open(browser, { hash: "#a=random@16&witness=l2-star", width: 400 });
+  await page.setViewportSize({ width: 400, height: 700 });
+  await page.locator(".set-a svg.plane").scrollIntoViewIfNeeded();
+  const whole = id => page.locator(id).evaluate(node => { const box = node.getBoundingClientRect(); return box.top >= 0 && box.bottom <= innerHeight && box.right <= innerWidth; });
+  check(await whole(".set-a svg.plane") && await whole("#chosen-values"), "at 400 px the points and the value are not seen together");
+  const value = () => page.locator("#chosen-values").textContent(), before = await value();
+  await page.locator(".set-a svg.plane").focus();
+  for (const key of ["n", "Shift+ArrowLeft", "Shift+ArrowUp", "n", "Shift+ArrowRight"]) await page.keyboard.press(key);
+  await idle(page);
+  check(await value() !== before && /^0\.\d+$/.test(await value()), `the value beside the points: ${before}, then ${await value()}`);
+  await choose(page, "#chosen", "min-distance");
+  check(Number(await value()) === rounded((await values(page, "a"))["min-distance"], 4), "the chosen value is not the table's");
+  await page.context().close();
+}
+
+// The ten steps by keyboard alone: each sets the state, points at something that is seen, and can be left.
+async function tour(browser) {
+  for (const [width, colorScheme] of [[1280, "dark"], [400, "light"]]) {
+    const page = await open(browser, { width, colorScheme });
+    for (let i = 0; i < 5 && !await page.evaluate(() => document.activeElement.id === "start-tour"); i++) await page.keyboard.press("Tab");
+    await page.keyboard.press("Enter");
+    const states = new Set();
+    for (let step = 1; step <= 10; step++) {
+      await idle(page);
+      check((await page.locator("#tour-title").textContent()).startsWith(`${step} of 10: `), `step ${step}: ${await page.locator("#tour-title").textContent()}`);
+      check(await page.evaluate(() => document.activeElement.id === "tour-title"), `step ${step}: the focus is elsewhere`);
+      const seen = await page.evaluate(() => {
+        const box = document.querySelector(".pointed")?.getBoundingClientRect(), card = document.getElementById("tour").getBoundingClientRect();
+        return box && box.top < innerHeight && box.bottom > 0 && card.bottom <= innerHeight + 1 && card.top >= 0;
+      });
+      check(seen, `${width} px, step ${step}: what it points at, or its text, is not seen`);
+      states.add(await page.evaluate(() => koksmaExplorer.hash()));
+      check(!(await page.locator(".problem").allTextContents()).join(""), `step ${step}: ${await page.locator(".problem").allTextContents()}`);
+      (await page.evaluate(accessibility)).forEach(text => check(false, `tour, step ${step}, ${width} px: ${text}`));
+      if (screenshots) await page.screenshot({ path: `${screenshots}/tour-${width}-${step}.png` });
+      if (step === 10) break;
+      for (let i = 0; i < 3 && !await page.evaluate(() => document.activeElement.textContent === "Next"); i++) await page.keyboard.press("Tab");
+      await page.keyboard.press("Enter");
+    }
+    check(states.size >= 9, `ten steps show ${states.size} states`);
+    await page.keyboard.press("Escape");
+    check(!await page.locator("#tour").isVisible() && await page.evaluate(() => document.activeElement.id === "start-tour"), "Escape does not leave the tour");
+    check(await page.locator(".pointed").count() === 0, "something is still pointed at");
+    await page.context().close();
+  }
+  // What the steps say is so: the inequality holds in the Sobol's bounds are the smaller ones.
+  const page = await open(browser, { hash: "#a=random@16&a.seed=3&b=sobol:scramble=owen@16" });
+  const rows = await page.locator("#inequality tr").evaluateAll(lines => lines.map(line => [...line.cells].map(cell => parseFloat(cell.innerText))));
+  const bounded = rows.filter(row => Number.isFinite(row[3]));
+  check(bounded.length >= 8 && bounded.every(row => row[2] <= row[3] && row[4] <= row[5] && row[5] < row[3]), "the tour's inequality does not hold: " + rows);
+  check(bounded.filter(row => row[4] < row[2]).length > bounded.length / 2, "set B does not have mostly the smaller errors: " + rows);
+  // The three other ways in.
+  for (const link of await page.locator("header nav a").all()) {
+    await link.focus();
+    await page.keyboard.press("Enter");
+    await until(page, () => document.querySelectorAll("svg.plane .points").length === 2);
+    await idle(page);
+    check(!(await page.locator(".problem").allTextContents()).join("") && await page.locator(".set-b svg.plane .points").isVisible(), `${await link.textContent()} shows no two sets`);
+  }
+  await page.context().close();
+}
+
 async function looks(browser) {
   const hash = "#a=pmj02@64&a.seed=1&b=random@64&b.seed=4&strata=elementary:2,3&witness=edge&decay=star:sets";
   for (const colorScheme of ["light", "dark"]) {
-    for (const [width, view] of [[1280, hash], [1280, ""], [390, hash]]) {
+    for (const [width, view] of [[1280, hash], [1280, ""], [400, hash], [400, "#a=poisson-disk@16&all=measures,digits"]]) {
       const page = await open(browser, { colorScheme, width, hash: view });
       await page.locator("details").evaluateAll(nodes => nodes.forEach(n => { n.open = true; }));
       (await page.evaluate(accessibility)).forEach(text => check(false, `${colorScheme}, ${width}: ${text}`));
       await page.locator("details").evaluateAll(nodes => nodes.forEach(n => { n.open = false; }));
-      if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-${width}${view ? "-two" : ""}.png`, fullPage: true });
+      if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-${width}${view === hash ? "-two" : ""}.png`, fullPage: true });
       await page.context().close();
     }
   }
-  // Everything that can be used is reached by Tab.
+  // Everything that can be used is reached by Tab. Of a pattern without parameters one row holds all controls.
   const page = await open(browser);
+  const tops = await page.locator(".set-a .controls input, .set-a .controls select, .set-a .controls button").evaluateAll(nodes => nodes.map(node => node.getBoundingClientRect().bottom));
+  check(Math.max(...tops) - Math.min(...tops) < 16, "the controls at 1280 px stand in rows: " + tops);
   const reached = new Set();
   for (let i = 0; i < 120; i++) {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""));
   }
-  for (const name of ["strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
+  for (const name of ["start-tour", "all-measures", "all-digits", "picture-shift", "strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
     check(reached.has(name) || [...reached].some(text => text.startsWith(name)), `Tab does not reach ${name}`);
   }
   await page.context().close();
@@ -324,6 +444,10 @@ async function looks(browser) {
     await commandsOfStates(browser);
     await manyMoves(browser);
     await guards(browser);
+    await pictures(browser);
+    await waiting(browser);
+    await narrow(browser);
+    await tour(browser);
     await looks(browser);
   } catch (error) {
     check(false, error.stack);

@@ -12,4 +12,5 @@ done
 "$here/../../scripts/explorer" || exit 1
 build=$here/../../build/explorer
 node "$here/numbers.mjs" "$program" "$build/koksma.wasm" || exit 1
+node "$here/pictures.mjs" || exit 1
 node "$here/page.cjs" "$program" "$build/koksma-explorer.html" ${3:+"$3"}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A guided tour: each step sets what the page shows, by its address, and points at a part of it. Keys: Enter on the buttons,
+// Escape leaves.
+import { byId, element } from "./dom.mjs";
+
+// hash: the state; at: what is pointed at; values: measures whose values the step shows.
+const steps = [
+  { title: "A pixel is a mean", hash: "a=random@16&a.seed=3&strata=none&witness=none", at: ".set-a .plane",
+    text: "A renderer takes the mean of a few samples for each pixel, and each sample has a point of the unit square: a place in the pixel, or on a light. These sixteen are independent and random. They leave holes and form clumps: what lies in a hole counts too little, what lies in a clump too much." },
+  { title: "Discrepancy", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
+    text: "A box from the lower left corner should hold as large a share of the points as its area. The star discrepancy is the largest difference of the two, over all such boxes. The box that is drawn is the worst, and the line below the points counts it for you." },
+  { title: "Move a point", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
+    text: "Drag a point into a hole, or go to the square, choose one with n and move it with the arrow keys. The value is the exact one at every moment: it can only be lowered by mending the worst box, and then another box is the worst." },
+  { title: "Strata", hash: "a=jittered@16&a.seed=1&strata=grid:4x4&witness=star", at: ".set-a .strata-text", values: ["star"],
+    text: "Jittered sampling puts one random point into each cell of a grid. Within its cell a point lies anywhere: of sixteen narrow columns some have two points, and some none. Choose “rooks” under Strata to see them." },
+  { title: "All shapes of cell at once", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=elementary:2,1&witness=star", at: ".set-b .strata-text", values: ["star"],
+    text: "Set B is Sobol’s sequence with Owen’s scrambling. Move the slider “Split”: squares, columns, rows, each cell of 1/16 holds one point. Compare the star discrepancy of both sets." },
+  { title: "Koksma’s inequality", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=none&witness=star", at: "#inequality-section",
+    text: "Why discrepancy matters: the error of a mean is at most V(f) D*, the variation of the function times the star discrepancy of the points. The table has functions with known integrals: each error stands beside its bound. Set B has the smaller bounds, and mostly the smaller errors." },
+  { title: "Where the bound ends", hash: "a=random@64&a.seed=3&b=sobol:scramble%3Dowen@64&strata=none&witness=edge", at: "#pictures-section", values: ["star", "edge"],
+    text: "Pictures have slanted edges and shadows, whose variation is infinite: the inequality says nothing about them. Look at the errors themselves, and at the measure edge, which takes the worst slanted line instead of the worst box. Move a point, and the pictures follow." },
+  { title: "Spectra", hash: "a=random@256&a.seed=1&b=poisson-disk:d%3D0.045@256&strata=none&witness=none", at: "#spectrum-section",
+    text: "The power spectrum says which frequencies of a picture become error. Random points have the power 1 everywhere. Set B keeps its points apart: around the middle it is dark, so slow changes over a pixel cost little, and the error goes to where the ring is bright." },
+  { title: "Aliasing", hash: "a=regular@16&strata=grid:4x4&witness=none&pixels=equal", at: "#pictures-section",
+    text: "The regular grid has a spectrum of isolated spikes. Frequencies of the picture near a spike look like low ones: the zone plate gets rings where there are none, and the floor gets bands. This is aliasing, an error with a shape, which the eye forgives least." },
+  { title: "Bands become noise", hash: "a=regular@16&strata=grid:4x4&witness=none", at: "#pictures-section",
+    text: "The same grid, shifted at random in each pixel: much the same RMS error in the zone plate, and no false rings. The error has become noise. Good sampling patterns do both: a small error, and one without a shape. Leave the tour here and try any pattern." },
+];
+
+export class Tour {
+  // go(hash) sets the state; text(measure, set): its value as shown, or ""
+  constructor(go, text) {
+    Object.assign(this, { go, text, step: -1, pointed: null });
+    this.title = element("h2", { id: "tour-title", tabindex: -1 });
+    this.words = element("p", {});
+    this.values = element("p", { class: "values" });
+    const button = (label, click) => {
+      const node = element("button", { type: "button" }, label);
+      node.onclick = click;
+      return node;
+    };
+    this.back = button("Back", () => this.show(this.step - 1));
+    this.next = button("Next", () => this.step + 1 < steps.length ? this.show(this.step + 1) : this.leave());
+    this.node = byId("tour");
+    this.node.append(this.title, this.words, this.values, element("div", { class: "buttons" }, this.back, this.next, button("Leave the tour", () => this.leave())));
+    byId("start-tour").onclick = () => this.show(0);
+    // While answers come the page grows: what is pointed at is kept in sight, until the reader does something.
+    for (const act of ["wheel", "touchmove", "pointerdown", "keydown"]) addEventListener(act, () => { this.settling = false; }, { capture: true, passive: true });
+    new ResizeObserver(() => { if (this.pointed && this.settling) this.scroll(); }).observe(document.querySelector("main"));
+    addEventListener("keydown", event => {
+      if (event.key === "Escape" && this.step >= 0 && !event.target.closest?.(".plane")) this.leave();
+    });
+  }
+
+  show(step) {
+    const { title, hash, at, text } = steps[step];
+    this.step = step;
+    this.go(hash);
+    this.node.hidden = false;
+    document.body.classList.add("touring");
+    this.title.textContent = `${step + 1} of ${steps.length}: ${title}`;
+    this.words.textContent = text;
+    this.back.disabled = step === 0;
+    this.next.textContent = step + 1 < steps.length ? "Next" : "Finish";
+    this.showValues();
+    this.settling = true;
+    this.point(document.querySelector(at));
+    this.title.focus({ preventScroll: true });
+  }
+
+  showValues() {
+    if (this.step < 0) return;
+    const { values = [] } = steps[this.step];
+    this.values.textContent = values.map(measure => `${measure}: ` + ["a", "b"].map(set => this.text(measure, set)).filter(Boolean)
+      .map((text, i, both) => both.length > 1 ? `${"AB"[i]} ${text}` : text).join(", ")).join("; ");
+  }
+
+  point(node) {
+    this.pointed?.classList.remove("pointed");
+    this.pointed = node;
+    if (!node) return;
+    const box = node.getBoundingClientRect();
+    this.node.classList.toggle("left", box.left > innerWidth / 2); // beside what it points at
+    node.classList.add("pointed");
+    this.scroll();
+  }
+
+  scroll() {
+    this.pointed.scrollIntoView({ block: this.pointed.matches("section") || this.pointed.getBoundingClientRect().height > innerHeight / 3 ? "start" : "center" });
+  }
+
+  leave() {
+    this.step = -1;
+    this.node.hidden = true;
+    document.body.classList.remove("touring");
+    this.point(null);
+    byId("start-tour").focus();
+  }
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// browser.cjs SITE: every page of make docs in headless Chromium, opened from disk: none is wider than a window of 400 px, in
+// dark mode text can be read (WCAG 2.1: 4.5 to 1), and the search finds by keyboard. Exit code 77: no browser.
+"use strict";
+const fs = require("fs");
+const path = require("path");
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
+let playwright;
+try { playwright = require(require.resolve("playwright-core", { paths: [process.env.KOKSMA_NODE || "."] })); } catch { playwright = null; }
+if (!chromium || !playwright) process.exit(77);
+const site = fs.realpathSync(process.argv[2]), problems = [];
+const pages = fs.readdirSync(site, { recursive: true }).filter(file => file.endsWith(".html") && file !== "explorer.html");
+
+const contrasts = () => {
+  const parse = c => (c.match(/[\d.]+/g) || []).map(Number), found = new Set();
+  const light = rgb => rgb.slice(0, 3).map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const behind = e => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.length === 3 || c[3] > 0) return c; } return [255, 255, 255]; };
+  for (const e of document.querySelectorAll("body *")) {
+    if (![...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) || !e.checkVisibility()) continue;
+    const [ink, paper] = [light(parse(getComputedStyle(e).color)), light(behind(e))];
+    const ratio = (Math.max(ink, paper) + 0.05) / (Math.min(ink, paper) + 0.05);
+    if (ratio < 4.5) found.add(`${e.tagName} "${e.textContent.slice(0, 20)}": contrast ${ratio.toFixed(2)}`);
+  }
+  return [...found];
+};
+
+(async () => {
+  const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
+  const page = await (await browser.newContext({ viewport: { width: 400, height: 800 }, colorScheme: "dark" })).newPage();
+  page.on("pageerror", e => problems.push("error: " + e.stack));
+  page.on("request", r => { if (!r.url().startsWith("file:")) problems.push("network: " + r.url()); });
+  for (const file of pages) {
+    await page.goto("file://" + path.join(site, file), { waitUntil: "domcontentloaded" });
+    const width = await page.evaluate(() => { document.querySelectorAll("details").forEach(node => { node.open = true; }); return document.documentElement.scrollWidth; });
+    if (width > 400) problems.push(`${file}: ${width} px wide in a window of 400`);
+    (await page.evaluate(contrasts)).forEach(text => problems.push(`${file}: ${text}`));
+  }
+  // From a page in a folder, by keyboard: the first of what is found is the page of that name.
+  for (const [query, wanted] of [["l2-star", "measures/l2-star.html"], ["koksma rank", "commands/rank.html"], ["koksma_generate", "c/koksma.html#koksma_generate"],
+    ["spectrum python", "python/index.html#spectrum"], ["lens_radius", "guide/scenes.html"]]) {
+    await page.goto("file://" + path.join(site, "patterns/n-rooks.html"));
+    for (let i = 0; i < 20 && !await page.evaluate(() => document.activeElement.type === "search"); i++) await page.keyboard.press("Tab");
+    await page.keyboard.type(query);
+    await page.waitForSelector("#found a");
+    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    if (width > 400) problems.push(`the search for ${query} makes the page ${width} px wide`);
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(from => location.href !== from, "file://" + path.join(site, "patterns/n-rooks.html"));
+    const at = decodeURI(page.url()).replace(`file://${site}/`, "");
+    if (!at.startsWith(wanted)) problems.push(`the search for "${query}" leads to ${at}, not ${wanted}`);
+  }
+  await page.goto("file://" + path.join(site, "index.html"));
+  await page.locator("#search input").fill("zzxxqq");
+  await page.waitForSelector("#found li");
+  if (!(await page.locator("#found").textContent()).startsWith("Nothing has")) problems.push("nonsense is found");
+  await browser.close();
+  problems.forEach(text => console.log(text));
+  process.exit(problems.length ? 1 : 0);
+})();

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Search over all pages: the index (search-index.js) is a script, as a page that is opened from disk may fetch nothing, and is
+// loaded with the first letter. A section is found when each word of the query begins a word of it; those with the words in
+// their titles come first, and before them one of that name.
+"use strict";
+(() => {
+  const up = document.documentElement.dataset.up, input = document.querySelector("#search input"), list = document.getElementById("found");
+  let sections = null;
+
+  const escape = text => text.replace(/[\\^$.*+?()[\]{}|]/g, "\\$&");
+  const begins = word => new RegExp(`(^|[^\\p{L}\\p{N}])${escape(word)}`, "iu");
+
+  function load() {
+    if (sections) return;
+    sections = [];
+    const script = document.createElement("script");
+    script.src = up + "search-index.js";
+    script.onload = () => { sections = globalThis.koksmaSections; show(); };
+    script.onerror = () => { say("The index of the search, search-index.js, is missing."); };
+    document.head.append(script);
+  }
+
+  function say(text) {
+    list.replaceChildren(Object.assign(document.createElement("li"), { textContent: text }));
+    list.hidden = false;
+  }
+
+  // [address, title of the page, heading, text]
+  function score([, title, heading, text], words, query) {
+    let sum = 0;
+    for (const word of words) {
+      const here = (word.test(title) ? 8 : 0) + (heading && word.test(heading) ? 6 : 0) + (word.test(text) ? 1 : 0) +
+        (new RegExp(`^${word.source}$`, "iu").test(heading || title) ? 6 : 0);
+      if (!here) return 0;
+      sum += here;
+    }
+    const name = `${title} ${heading}`, whole = (heading || title).toLowerCase() === query.join(" ").toLowerCase();
+    return sum + (heading ? 0 : 0.5) + (words.every(word => word.test(name)) ? 10 : 0) + (whole ? 20 : 0);
+  }
+
+  function snippet(text, words) {
+    const at = Math.max(0, Math.min(...words.map(word => text.search(word)).filter(i => i >= 0), text.length) - 40);
+    const part = document.createElement("small"), cut = (at ? "… " : "") + text.slice(at, at + 180);
+    const marks = new RegExp(words.map(word => word.source).join("|"), "giu");
+    let from = 0;
+    for (const match of cut.matchAll(marks)) {
+      const begin = match.index + (/^[\p{L}\p{N}]/u.test(match[0]) ? 0 : 1), end = match.index + match[0].length;
+      if (end <= begin) continue;
+      part.append(cut.slice(from, begin), Object.assign(document.createElement("mark"), { textContent: cut.slice(begin, end) }));
+      from = end;
+    }
+    part.append(cut.slice(from));
+    return part;
+  }
+
+  function show() {
+    const query = input.value.trim().split(/\s+/).filter(Boolean), words = query.map(begins);
+    list.hidden = !words.length;
+    if (!words.length) return;
+    const found = sections.map(section => [score(section, words, query), section]).filter(([points]) => points > 0).sort((a, b) => b[0] - a[0]);
+    if (!found.length) return void say(`Nothing has ${query.join(" ")}.`);
+    list.replaceChildren(...found.slice(0, 12).map(([, [address, title, heading, text]]) => {
+      const item = document.createElement("li"), link = document.createElement("a");
+      link.href = up + address;
+      link.textContent = title + (heading ? ` › ${heading}` : "");
+      link.onclick = () => { list.hidden = true; };
+      item.append(link, snippet(text, words));
+      return item;
+    }));
+  }
+
+  input.addEventListener("input", () => { load(); show(); });
+  document.getElementById("search").addEventListener("submit", event => {
+    event.preventDefault();
+    list.querySelector("a")?.click();
+  });
+  document.getElementById("search").addEventListener("keydown", event => {
+    if (event.key === "Escape") {
+      list.hidden = true;
+      input.focus();
+    }
+    const links = [...list.querySelectorAll("a")], at = links.indexOf(document.activeElement);
+    const next = { ArrowDown: at + 1, ArrowUp: at - 1 }[event.key];
+    if (next === undefined || list.hidden) return;
+    (links[next] || input).focus();
+    event.preventDefault();
+  });
+  document.addEventListener("click", event => { if (!event.target.closest("#search")) list.hidden = true; });
+  document.querySelector("#search").hidden = false;
+})();
