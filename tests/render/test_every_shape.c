@@ -17,7 +17,7 @@
  */
 #include "core/vector.h"
 #include "kinds.h"
-#include "render/accel/intersect.h"
+#include "render/accel/accel_meshes.h"
 #include "render/shapes/shapes.h"
 
 enum { TRIALS = 24, STEPS = 2000 };
@@ -418,7 +418,7 @@ static void geometries_agree(void **state)
             koksma__hits a = {0}, b = {0};
             koksma__shadows shadows[3];
             assert_ok(koksma__accel_shapes(scene, &plain));
-            assert_ok(embree ? koksma__accel_embree(scene, &both) : koksma__accel_shapes(scene, &both));
+            assert_ok(embree ? koksma__accel_meshes(scene, &both) : koksma__accel_shapes(scene, &both));
             make_rays(scene->shapes, 4000 + 100 * kind + trial, &rays);
             plain.closest(&plain, &rays, NULL, KOKSMA__BLOCK, &a);
             both.closest(&both, &rays, NULL, KOKSMA__BLOCK, &b);

@@ -302,9 +302,10 @@ static bool call_back(koksma__contest *c)
 static void set_share(koksma__contest *c, double part)
 {
     const double left_s = c->control->end_s - koksma__now_s();
-    c->share_ns = c->control->end_s > 0 && c->n > 1
-                      ? (unsigned long long)fmax(1e9 * part * left_s * c->control->run.threads / (double)c->n, 1)
-                      : 0;
+    c->share_ns =
+        c->control->end_s > 0 && c->n > 1
+            ? (unsigned long long)fmin(fmax(1e9 * part * left_s * c->control->run.threads / (double)c->n, 1), 1e18)
+            : 0;
 }
 
 koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
