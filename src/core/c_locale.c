@@ -9,6 +9,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include "core/decimal.h"
+
 static locale_t c_locale;
 
 /* Kept for ever. libcs have this locale at hand (glibc and musl without allocating); were it refused all the same,
@@ -28,6 +30,14 @@ static locale_t enter(void)
 
 double koksma__strtod(const char *text, char **end)
 {
+    double quick;
+    char *stop;
+    if (koksma__decimal_read(text, &stop, &quick)) {
+        if (end) {
+            *end = stop;
+        }
+        return quick;
+    }
     const locale_t before = enter();
     const double value = strtod(text, end);
     uselocale(before);

@@ -8,16 +8,20 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/decimal.h"
 #include "core/parallel.h"
 #include "core/points_io.h"
 #include "core/status.h"
 
-enum { MAX_LINE = 1 << 18, SHOWN = 40 };
+enum { MAX_LINE = 1 << 18, BLOCK = 2 * MAX_LINE, SHOWN = 40 };
 
 typedef struct reader {
     FILE *stream;
     const char *name;
-    char *line; /* MAX_LINE + 1 bytes */
+    char *block; /* BLOCK + 1 bytes: those from at to held are to come */
+    size_t at, held;
+    bool at_end;
+    char *line; /* in the block */
     size_t line_number, length;
     uint64_t bytes; /* of all lines */
     bool header_seen;
@@ -36,31 +40,34 @@ static koksma_status malformed(const reader *r, const char *reason)
 /* Reads one line without its end. False at the end of the file. */
 static bool read_line(reader *r, koksma_status *status)
 {
-    size_t n = 0;
-    int c;
-    while ((c = getc_unlocked(r->stream)) != EOF && c != '\n') {
-        if (n == MAX_LINE) {
-            r->line_number++;
-            *status = malformed(r, "longer than 262144 characters");
-            return false;
-        }
-        r->line[n++] = (char)c;
+    char *end;
+    while (!(end = memchr(r->block + r->at, '\n', r->held - r->at)) && r->held - r->at <= MAX_LINE && !r->at_end) {
+        r->held -= r->at;
+        memmove(r->block, r->block + r->at, r->held);
+        r->at = 0;
+        const size_t got = fread(r->block + r->held, 1, BLOCK - r->held, r->stream);
+        r->held += got;
+        r->at_end = got == 0;
     }
-    if (c == EOF && n == 0) {
+    r->line = r->block + r->at;
+    r->length = (end ? (size_t)(end - r->block) : r->held) - r->at;
+    const bool any = end || r->length;
+    r->line_number += any;
+    if (r->length > MAX_LINE) {
+        *status = malformed(r, "longer than 262144 characters");
         return false;
     }
-    if (n && r->line[n - 1] == '\r') {
-        n--;
+    r->at += r->length + (end != NULL);
+    if (r->length && r->line[r->length - 1] == '\r') {
+        r->length--;
     }
-    r->line[n] = '\0';
-    r->length = n;
-    r->line_number++;
-    r->bytes += n;
-    if (r->bytes > koksma__file_most(KOKSMA__FILE_POINTS)) { /* a pipe without end, of comments */
+    r->line[r->length] = '\0';
+    r->bytes += r->length + 1;
+    if (r->bytes > koksma__file_most(KOKSMA__FILE_POINTS)) { /* a pipe without end, of comments or empty lines */
         *status = koksma__file_too_long(r->name, KOKSMA__FILE_POINTS);
         return false;
     }
-    return true;
+    return any;
 }
 
 static bool is_separator(char c)
@@ -229,11 +236,13 @@ static koksma_status read_row(reader *r, const char *s)
 
 static koksma_status take_line(reader *r)
 {
+    bool control = false;
     for (size_t i = 0; i < r->length; i++) {
         const unsigned char c = (unsigned char)r->line[i];
-        if (c < 0x20 && c != '\t') {
-            return malformed(r, "not text (a control character)");
-        }
+        control |= (c < 0x20) & (c != '\t');
+    }
+    if (control) {
+        return malformed(r, "not text (a control character)");
     }
     const bool marked = r->line_number == 1 && !strncmp(r->line, "\xef\xbb\xbf", 3); /* as Excel writes UTF-8 */
     const char *s = skip_blanks(r->line + (marked ? 3 : 0));
@@ -277,8 +286,8 @@ static koksma_status check_promises(const reader *r, size_t n)
 koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_points *points)
 {
     *points = (koksma_points){0};
-    reader r = {.stream = stream, .name = name, .points = points, .line = malloc(MAX_LINE + 1)};
-    koksma_status status = r.line ? KOKSMA_OK : koksma__fail_memory(MAX_LINE);
+    reader r = {.stream = stream, .name = name, .points = points, .block = malloc(BLOCK + 1)};
+    koksma_status status = r.block ? KOKSMA_OK : koksma__fail_memory(BLOCK + 1);
     while (!status && read_line(&r, &status)) {
         status = take_line(&r);
     }
@@ -289,7 +298,7 @@ koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_po
         points->n /= points->dim ? (size_t)points->dim : 1;
         status = check_promises(&r, points->n);
     }
-    free(r.line);
+    free(r.block);
     if (status) {
         koksma_points_fini(points);
     }
@@ -298,15 +307,24 @@ koksma_status koksma__points_read_text(FILE *stream, const char *name, koksma_po
 
 static koksma_status write_rows(FILE *stream, const koksma_points *points, char separator, const koksma_run *run)
 {
+    char text[256 * (KOKSMA__DECIMAL_ROOM + 1)];
+    size_t length = 0;
     for (size_t i = 0; i < points->n && !ferror(stream); i++) {
         if (i % 256 == 0 && !koksma__keep_going(run, (double)i / (double)points->n)) {
             return koksma__fail_interrupted();
         }
         for (int k = 0; k < points->dim; k++) {
-            koksma__fprintf(stream, "%.17g%c", points->xs[i * (size_t)points->dim + (size_t)k],
-                            k + 1 < points->dim ? separator : '\n');
+            const double x = points->xs[i * (size_t)points->dim + (size_t)k];
+            const size_t quick = koksma__decimal_write(x, text + length);
+            length += quick ? quick : (size_t)koksma__snprintf(text + length, KOKSMA__DECIMAL_ROOM, "%.17g", x);
+            text[length++] = k + 1 < points->dim ? separator : '\n';
+            if (length > sizeof text - KOKSMA__DECIMAL_ROOM - 1) {
+                fwrite(text, 1, length, stream);
+                length = 0;
+            }
         }
     }
+    fwrite(text, 1, length, stream);
     return KOKSMA_OK;
 }
 

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Decimal numbers to doubles and back by exact arithmetic in 128 bits: no table of approximate powers, and no case that
+ * is in doubt. What does not fit, and everything where there are no such integers, goes by libc.
+ *
+ * Reading w 10^-k, w < 2^64, k <= 27: 5^k fits into 64 bits. With w and 5^k shifted so that their top bits are set, the
+ * quotient of w 2^63 by 5^k has 63 or 64 bits; its lowest bit is set if there is a remainder, which is all that rounding
+ * to 53 bits needs to know.
+ *
+ * Writing x = m 2^e from 1e-4 to 1 with 17 digits: p is such that x 10^p has 17 digits, 17 <= p <= 20, and m 5^p fits into
+ * 100 bits: so x 10^p = m 5^p 2^(e + p) is that number shifted, and the bits shifted out decide the rounding, ties to
+ * even as printf's.
+ */
+#include "core/decimal.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 wide;
+
+/* 5^k, k <= 27 */
+static uint64_t power_of_5(unsigned k)
+{
+    static const uint32_t low[8] = {1, 5, 25, 125, 625, 3125, 15625, 78125};
+    static const uint64_t high[4] = {1, 390625, 152587890625, 59604644775390625};
+    return low[k % 8] * high[k / 8];
+}
+
+static double quotient(uint64_t w, unsigned k)
+{
+    if (w == 0 || k == 0) {
+        return (double)w;
+    }
+    const uint64_t five = power_of_5(k);
+    const int up_w = __builtin_clzll(w), up_five = __builtin_clzll(five);
+    const wide numerator = (wide)(w << up_w) << 63;
+    const uint64_t divisor = five << up_five;
+    uint64_t q = (uint64_t)(numerator / divisor);
+    q |= numerator != (wide)q * divisor;
+    const uint64_t scale = (uint64_t)(1023 + up_five - up_w - (int)k - 63) << 52;
+    double power;
+    memcpy(&power, &scale, sizeof power);
+    return (double)q * power;
+}
+
+bool koksma__decimal_read(const char *text, char **end, double *out)
+{
+    enum { MOST = 19 };
+    uint64_t w = 0;
+    const char *s = text, *point = NULL, *first = NULL; /* the point; the first digit that is not 0 */
+    for (;; s++) {
+        const unsigned digit = (unsigned)*s - '0';
+        if (digit <= 9) {
+            first = first || !digit ? first : s;
+            w = 10 * w + digit; /* too long a number wraps around and is refused below */
+        } else if (*s == '.' && !point) {
+            point = s;
+        } else {
+            break;
+        }
+    }
+    const ptrdiff_t digits = s - text - (point != NULL), behind = point ? s - point - 1 : 0;
+    const ptrdiff_t significant = first ? s - first - (point && point > first) : 0;
+    const char next = (char)(*s | 32);
+    if (digits < 1 || significant > MOST || behind > 27 || next == 'e' || next == 'x') {
+        return false;
+    }
+    *end = (char *)s;
+    *out = quotient(w, (unsigned)behind);
+    return true;
+}
+
+/* Digits 16 .. 0 of d < 10^17, in pairs. */
+static void put_digits(uint64_t d, char text[17])
+{
+    for (int i = 15; i > 0; i -= 2) {
+        const unsigned pair = (unsigned)(d % 100);
+        d /= 100;
+        text[i] = (char)('0' + pair / 10);
+        text[i + 1] = (char)('0' + pair % 10);
+    }
+    text[0] = (char)('0' + d);
+}
+
+size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM])
+{
+    if (x >= 1e-4 && x < 1) {
+        const unsigned zeros = (x < 1e-1) + (x < 1e-2) + (x < 1e-3), p = 17 + zeros;
+        uint64_t bits;
+        memcpy(&bits, &x, sizeof bits);
+        const wide product = (wide)((bits & 0xfffffffffffffu) | 0x10000000000000u) * power_of_5(p);
+        const int shift = 1075 - (int)(bits >> 52) - (int)p; /* 33 to 50 */
+        const uint64_t rest = (uint64_t)product & (((uint64_t)1 << shift) - 1), half = (uint64_t)1 << (shift - 1);
+        uint64_t digits = (uint64_t)(product >> shift);
+        digits += rest > half || (rest == half && digits % 2);
+        if (digits < 100000000000000000u) {
+            memcpy(text, "0.000", 5);
+            put_digits(digits, text + 2 + zeros);
+            size_t length = 2 + zeros + 17;
+            while (text[length - 1] == '0') {
+                length--;
+            }
+            return length;
+        }
+    }
+    return 0;
+}
+#else
+bool koksma__decimal_read(const char *text, char **end, double *out)
+{
+    (void)text, (void)end, (void)out;
+    return false;
+}
+
+size_t koksma__decimal_write(double x, char text[KOKSMA__DECIMAL_ROOM])
+{
+    (void)x, (void)text;
+    return 0;
+}
+#endif
