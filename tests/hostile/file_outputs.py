@@ -41,6 +41,14 @@ def leftovers(folder):
     return glob.glob(os.path.join(folder, "**", ".koksma-*"), recursive=True)
 
 
+def size(path):
+    """0 where the file is gone."""
+    try:
+        return os.stat(path).st_size
+    except FileNotFoundError:
+        return 0
+
+
 def good(checks, what, done):
     return checks.check(done is not None and done.code == 0, f"{what}: {done and (done.code, done.err)}")
 
@@ -175,9 +183,10 @@ def check_others(checks, program, folder):
 def check_living(checks, program, folder):
     """The temporary file of a run that lives stays, and becomes its output."""
     process = subprocess.Popen([program, *POINTS, "-n", "1000000", "-o", "long.txt"], cwd=folder)
-    while not leftovers(folder) and process.poll() is None:
-        time.sleep(0.001)
+    while not any(map(size, leftovers(folder))) and process.poll() is None:
+        time.sleep(0.001)  # an empty file may have no lock yet; its writer then takes another name
     process.send_signal(signal.SIGSTOP)
+    os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)  # it may be in a call that ends first
     found = leftovers(folder)
     if found:  # else it was faster than this test
         good(checks, "beside a living run", files.run(program, *POINTS, "-n", "4", "-o", "out.txt", cwd=folder))
