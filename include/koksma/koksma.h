@@ -17,9 +17,10 @@
  * These rules hold for every function of every header of this directory:
  *
  *   Errors     A function that can fail returns a koksma_status, KOKSMA_OK (0) for success. "Errors:" lists the
- * others              that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names
- * the thing              and the reason. After an error the results are not set, unless the function's comment says
- * otherwise.   Results    go through out-pointers, which are the last parameters.
+ *              others that it returns, without the prefix KOKSMA_. koksma_error_text() then has one line that names
+ *              the thing and the reason. After an error the results are not set, unless the function's comment says
+ *              otherwise.
+ *   Results    go through out-pointers, which are the last parameters.
  *   Pointers   must not be NULL unless the comment says "may be NULL".
  *   Memory     The caller owns every struct. koksma_NOUN_init, and functions that say "allocates", take memory that
  *              koksma_NOUN_fini frees; koksma_NOUN_open goes with koksma_NOUN_close. Both accept NULL.
