@@ -126,6 +126,20 @@ def _names(code):
     return list(dict.fromkeys(names))
 
 
+def _listed(lines):
+    """Lines that are set in: "name  what it is" with its lines below is a row of a table, everything else keeps its form."""
+    rows = []
+    for line in lines:
+        row = re.match(r"([\w*,. ]*[\w*]) {2,}(\S.*)$", line)
+        if row:
+            rows.append([f"<code>{row[1]}</code>", row[2]])
+        elif rows and line.startswith("  "):
+            rows[-1][1] += " " + line.strip()
+        elif line.strip():
+            return "<pre>" + "\n".join(lines).rstrip() + "</pre>"
+    return table([], rows)
+
+
 def prose(comment):
     """A comment: paragraphs; lines that are set in keep their form."""
     if not comment:
@@ -136,11 +150,11 @@ def prose(comment):
 
     def end():
         if text:
-            parts.append(f"<p>{' '.join(text)}</p>")
+            parts.append(f"<p>{' '.join(text)}</p>".replace(" Errors: ", "</p><p><b>Errors:</b> ").replace("<p>Errors: ", "<p><b>Errors:</b> "))
             text.clear()
         if apart:
             cut = min(len(a) - len(a.lstrip()) for a in apart if a.strip())
-            parts.append("<pre>" + "\n".join(a[cut:] for a in apart).rstrip() + "</pre>")
+            parts.append(_listed([a[cut:] for a in apart]))
             apart.clear()
 
     for i, line in enumerate(lines):
@@ -220,7 +234,7 @@ def _docstring(node):
 def _signature(name, node, method=False):
     arguments = ast.unparse(node.args)
     arguments = re.sub(r"^self(, )?", "", arguments) if method else arguments
-    result = f" -> {ast.unparse(node.returns)}" if node.returns else ""
+    result = f" -> {ast.unparse(node.returns)}" if node.returns and node.name != "__init__" else ""
     return f"<pre>{html.escape(f'{name}({arguments}){result}', quote=False)}</pre>"
 
 

@@ -20,7 +20,7 @@ const shadow = {
 
 // As many samples in each picture as take some ten milliseconds.
 export function sizeFor(n) {
-  const width = [96, 72, 48].find(w => w * w * 2 / 3 * n <= 1 << 20) || 24;
+  const width = [96, 72, 60, 48, 36].find(w => w * w * 2 / 3 * n <= 1 << 20) || 24;
   return { width, height: width * 2 / 3 };
 }
 

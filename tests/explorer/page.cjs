@@ -352,6 +352,12 @@ async function narrow(browser) {
   for (const key of ["n", "Shift+ArrowLeft", "Shift+ArrowUp", "n", "Shift+ArrowRight"]) await page.keyboard.press(key);
   await idle(page);
   check(await value() !== before && /^0\.\d+$/.test(await value()), `the value beside the points: ${before}, then ${await value()}`);
+  await page.evaluate(() => { location.hash += "&b=sobol@16"; });
+  await page.waitForFunction(() => document.querySelectorAll("svg.plane .points").length === 2);
+  await idle(page);
+  const bar = await page.locator("#chosen-bar").boundingBox();
+  check(bar.height < 64 && await page.locator("#chosen-values output").count() === 2, `two values beside the points take ${bar.height} px`);
+  await page.locator(".set-b button", { hasText: "Remove" }).click();
   await choose(page, "#chosen", "min-distance");
   check(Number(await value()) === rounded((await values(page, "a"))["min-distance"], 4), "the chosen value is not the table's");
   await page.context().close();
