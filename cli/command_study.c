@@ -451,7 +451,8 @@ const cli_command cli_command_study = {
         "report: writes DIR/report.html.\n"
         "audit: makes rows of DIR again, and all reference images, and compares them bit for bit; prints what\n"
         "differs, and below which part of all rows is wrong with 95 % confidence. The exit code is 1 if anything\n"
-        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. It changes\n"
+        "differs. Rows that another revision of a pattern, measure or the renderer made are counted apart. It "
+        "changes\n"
         "nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces. 'koksma compare --help' explains coherence.\n",
