@@ -55,7 +55,7 @@ wanted = set()
 cmake = re.sub(r"#.*", "", open("cmake/libraries.cmake", encoding="utf-8").read())
 for arguments in re.findall(r"pkg_check_modules\(([^)]*)\)", cmake) + re.findall(r"koksma_optional\(((?!name)[^)]*)\)", cmake):
     words = re.sub(r'"[^"]*"', "", arguments).split()
-    wanted.update(w.lower() for w in words[1:] if w not in ("REQUIRED", "IMPORTED_TARGET") and "$" not in w)
+    wanted.update(w.lower().split(">=")[0] for w in words[1:] if w not in ("REQUIRED", "IMPORTED_TARGET") and "$" not in w)
 wanted.update(re.findall(r"npm install.* ([a-z][a-z-]+)\b", open("scripts/setup", encoding="utf-8").read()))
 for name in sorted(wanted):
     if re.sub(r"^(cairo)-.*", r"\1", name) not in text.lower():
