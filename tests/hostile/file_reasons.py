@@ -100,8 +100,8 @@ def check_exr(checks, program, folder):
     tried = 0
     for name, compression in (("rle", RLE), ("zips", ZIPS), ("zip", ZIP), ("piz", PIZ), ("pxr24", PXR24)):
         made, at = exr(compression)
-        damaged = [made[:i] + bytes([made[i] ^ bits]) + made[i + 1:] for i in range(at, len(made), 5) for bits in (1, 255)]
-        damaged += [made[:i] for i in range(at, len(made), 23)]
+        damaged = [made[:i] + bytes([made[i] ^ bits]) + made[i + 1:] for i in range(at, len(made), 11) for bits in (1, 255)]
+        damaged += [made[:i] for i in range(at, len(made), 41)]
         for i, data in enumerate([made] * (compression in (PIZ, PXR24)) + damaged):
             done = files.run(program, "compare", put(folder, f"{name}.exr", data), good, cwd=folder)
             if done is None or done.code or compression in (PIZ, PXR24):
