@@ -8,6 +8,7 @@
  * reader takes that for uncompressed. So what is written is read back, and written raw if a bit differs.
  */
 #ifdef KOKSMA_EXR
+#include <math.h>
 #include <openexr.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -180,6 +181,17 @@ static exr_result_t read_tiles(exr_const_context_t file, exr_decode_pipeline_t *
     return r;
 }
 
+/* Whether a tile is no larger than the image, or 2048 x 2048 pixels: the C++ library takes memory for whole tiles. */
+static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
+{
+    uint32_t width, height;
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    const double image = ((double)window->max.x - window->min.x + 1) * ((double)window->max.y - window->min.y + 1);
+    return !exr_get_tile_descriptor(file, 0, &width, &height, &levels, &rounding) &&
+           (double)width * height <= fmax(image, 2048.0 * 2048.0);
+}
+
 static koksma_status read_part(exr_const_context_t file, const source *s, koksma_image *out)
 {
     exr_storage_t storage;
@@ -204,6 +216,9 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1) {
             return koksma__fail(KOKSMA_UNSUPPORTED, "as an EXR: subsampled channels are not read");
         }
+    }
+    if (storage == EXR_STORAGE_TILED && !tiles_fit(file, &window)) {
+        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: its tiles are larger than the image");
     }
     if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
         return read_rgba(s, list, channels, out);

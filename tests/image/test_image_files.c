@@ -343,6 +343,16 @@ static void pfm_heads_end_as_writers_end_them(void **state)
     koksma_image_fini(&image);
 }
 
+/* Its 846 bytes claim an image of 13 x 11 pixels in tiles of 8,388,616 x 4, which the C++ library makes room for. */
+static void tiles_beyond_the_image_are_refused(void **state)
+{
+    (void)state;
+    koksma_image image;
+    assert_int_equal(koksma_image_read(KOKSMA_TESTS "/../fuzz/corpus/image_exr/tiles_beyond.exr", &image),
+                     KOKSMA_MALFORMED);
+    assert_non_null(strstr(koksma_error_text(), "tiles are larger than the image"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,6 +361,7 @@ int main(void)
         cmocka_unit_test(png_levels_have_their_curve),
         cmocka_unit_test(png_transparency_is_dropped),
         cmocka_unit_test(pfm_heads_end_as_writers_end_them),
+        cmocka_unit_test(tiles_beyond_the_image_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
