@@ -13,6 +13,7 @@ from ._compare import Comparison, compare
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
+from ._optimise import Optimum, optimise
 from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
                       write)
 from ._rank import Ranked, Ranking, SizeCheck, rank
@@ -22,7 +23,7 @@ from ._spectrum import Spectrum, spectrum
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Comparison", "Engine", "Error", "Finding", "MalformedError", "Member", "MissingError",
-    "OutOfMemoryError", "Ranked", "Ranking", "SizeCheck", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical",
-    "compare", "generate", "measure", "measures", "patterns", "rank", "read", "read_image", "render", "scenes", "spectrum",
+    "Optimum", "OutOfMemoryError", "Ranked", "Ranking", "SizeCheck", "Spectrum", "UnsupportedError", "Value", "Witness", "canonical",
+    "compare", "generate", "measure", "measures", "optimise", "patterns", "rank", "read", "read_image", "render", "scenes", "spectrum",
     "verify", "version", "write",
 ]

@@ -36,7 +36,7 @@ enum { MAX_N = 4096, PATIENCE = 3000, ACCEPTED = 8, CYCLES = 128, MAX_EDGES = 16
 /* Corners looked at in one search: some tenths of a second. */
 static double budget_of(size_t n)
 {
-    return 1e8 + 1e6 * (double)n;
+    return 1e7 + 1e6 * (double)n;
 }
 
 /* Violations below this many points are rounding. */
@@ -307,7 +307,7 @@ static bool relax(plane *s, uint32_t node, double F)
             return false;
         }
     }
-    s->work += (double)side + 32;
+    s->work += (double)side + 256;
     return true;
 }
 
@@ -442,6 +442,7 @@ static bool move(plane *s, double limit)
 {
     swap w[2];
     const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
+    s->work += 1000;
     if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, limit, &w[0]))) {
         return false;
     }
