@@ -14,6 +14,7 @@
 
 #include "measures/measures.h"
 #include "measures/shared/l2.h"
+#include "measures/shared/l2_gradient.h"
 
 static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
 {

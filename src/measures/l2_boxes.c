@@ -9,8 +9,10 @@
  * and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or of 106 bits, and the value
  * is good to 1e-11 of itself at 10^6 points; in more the square is good to about 1e-16 of its terms (l2-star: 1e-17).
  */
+#include "measures/l2_boxes.h"
+
 #include "measures/measures.h"
-#include "measures/shared/l2.h"
+#include "measures/shared/l2_gradient.h"
 
 /* koksma__measure_l2_KIND: whether it is on the torus, c12, a24, g, q and r of its kernel, and what is listed. */
 #define L2(kind, title_, cite_, torus_, c12_, ...)                                                                   \

@@ -14,7 +14,7 @@
  */
 #include <math.h>
 
-#include "measures/shared/l2.h"
+#include "measures/l2_boxes.h"
 #include "optimise/methods.h"
 
 /* Coordinates looked at in one search: some tenths of a second. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * star-plane: the star discrepancy of the plane, by a search over permutations with exact coordinates.
+ * Long because the solver of constraints and the search, which share all state, are one.
  *
  * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f. Then
  * coordinates with D* <= f exist if and only if
@@ -545,7 +546,7 @@ static void draw_start(plane *s, double *xs)
     double a = koksma__next_unit(random);
     for (int k = 0; k < 24; k++) {
         double quotient = 1;
-        while (quotient < 20 && koksma__next_unit(random) > 0.75) {
+        while (quotient < 20 && koksma__next_unit(random) > 0.85) {
             quotient++;
         }
         a = 1 / (quotient + a);
@@ -579,7 +580,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
             draw_start(&s, xs);
         }
         status = take_points(&s, xs, order);
-        double limit = (again ? 1 : 1.05) * best;
+        double limit = (again ? 1 : 1.02) * best;
         if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
             if (F < best) {
                 best = F;

@@ -29,9 +29,6 @@ typedef struct koksma__l2_row {
 
 enum { KOKSMA__L2_DIVIDE_DIM = 4 };
 
-/* The row of a measure of l2_boxes.c; NULL for others. */
-const koksma__l2_row *koksma__l2_row_of(const koksma_measure *measure);
-
 /* f[0] + f[1] z + f[2] z^2 + f[3] |z|, z = u - 1/2. */
 double koksma__l2_polynomial(const double f[4], double u);
 koksma__dd koksma__l2_polynomial_dd(const double f[4], double z); /* of z, in 106 bits */
@@ -48,10 +45,6 @@ koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points,
    of doubles. DIM: so is the value, or a product over the first coordinates of a point. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
-
-/* The square by pairs, and its derivatives by the coordinates. O(n^2 d). Errors: MEMORY. */
-koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, double *square,
-                                  double *gradient);
 
 /* The ways by themselves; tests compare them. Sorting: one or two dimensions, n < 2^28, and in multiples of 1/16 the
    coefficients of a24 and g but the first, and r; it is summing pairs where the compiler has no integers of 128 bits.

@@ -9,11 +9,12 @@
  * Products without one factor are those of the factors before it and behind it. For point i all others are in rows, one a
  * coordinate, that the compiler works on in lanes; sums are in index order.
  */
+#include "measures/shared/l2_gradient.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "measures/shared/l2.h"
 
 /* The derivative of koksma__l2_polynomial. */
 static double slope(const double f[4], double u)
