@@ -544,9 +544,10 @@ static void draw_start(plane *s, double *xs)
 {
     koksma__stream *random = &s->random;
     double a = koksma__next_unit(random);
+    const double ones = 0.6 + 0.35 * koksma__next_unit(random); /* the share of quotients of 1 */
     for (int k = 0; k < 24; k++) {
         double quotient = 1;
-        while (quotient < 20 && koksma__next_unit(random) > 0.85) {
+        while (quotient < 20 && koksma__next_unit(random) > ones) {
             quotient++;
         }
         a = 1 / (quotient + a);
@@ -580,7 +581,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
             draw_start(&s, xs);
         }
         status = take_points(&s, xs, order);
-        double limit = (again ? 1 : 1.02) * best;
+        double limit = (again ? 1 : 1.015 + 2 / (double)n) * best;
         if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
             if (F < best) {
                 best = F;
