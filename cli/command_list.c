@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma list`: the members of the library's tables, one function a table. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -155,6 +156,20 @@ static void list_methods(cli_rows *rows)
     }
 }
 
+static void list_records(cli_rows *rows)
+{
+    const koksma_record *r;
+    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
+        cli_row_text(rows, "measure", r->measure);
+        cli_row_whole(rows, "dim", (uint64_t)r->dim);
+        cli_row_whole(rows, "n", r->n);
+        cli_row_number(rows, "value", r->value);
+        cli_row_number(rows, "published", r->published > 0 ? r->published : (double)NAN);
+        cli_row_text(rows, "source", r->source);
+        cli_row_end(rows);
+    }
+}
+
 static void put_range(cli_rows *rows, const koksma_param *p)
 {
     char text[256] = "";
@@ -216,10 +231,10 @@ static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},       {"measures", list_measures}, {"scenes", list_scenes},
-    {"integrators", list_integrators}, {"filters", list_filters},   {"uses", list_uses},
-    {"adaptive", list_adaptive},       {"warps", list_warps},       {"methods", list_methods},
-    {"parameters", list_parameters},
+    {"patterns", list_patterns},       {"measures", list_measures},     {"scenes", list_scenes},
+    {"integrators", list_integrators}, {"filters", list_filters},       {"uses", list_uses},
+    {"adaptive", list_adaptive},       {"warps", list_warps},           {"methods", list_methods},
+    {"records", list_records},         {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)
