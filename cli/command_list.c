@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma list`: the members of the library's tables, one function a table. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -137,6 +138,20 @@ static void list_methods(cli_rows *rows)
     }
 }
 
+static void list_records(cli_rows *rows)
+{
+    const koksma_record *r;
+    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
+        cli_row_text(rows, "measure", r->measure);
+        cli_row_whole(rows, "dim", (uint64_t)r->dim);
+        cli_row_whole(rows, "n", r->n);
+        cli_row_number(rows, "value", r->value);
+        cli_row_number(rows, "published", r->published > 0 ? r->published : (double)NAN);
+        cli_row_text(rows, "source", r->source);
+        cli_row_end(rows);
+    }
+}
+
 static void put_range(cli_rows *rows, const koksma_param *p)
 {
     char text[256] = "";
@@ -192,8 +207,9 @@ static const struct {
     {"scenes", list_scenes},         {"materials", list_materials}, {"lights", list_lights},
     {"shapes", list_shapes},         {"formats", list_formats},     {"integrators", list_integrators},
     {"pipelines", list_pipelines},   {"filters", list_filters},     {"uses", list_uses},
-    {"adaptive", list_adaptive},     {"methods", list_methods},     {"plans", list_plans},
-    {"questions", list_questions},   {"sections", list_sections},   {"parameters", list_parameters},
+    {"adaptive", list_adaptive},     {"methods", list_methods},     {"records", list_records},
+    {"plans", list_plans},           {"questions", list_questions}, {"sections", list_sections},
+    {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)

@@ -144,7 +144,7 @@ static int run(const cli_arguments *arguments)
         status = koksma_optimise(&measure, &j.options, &j.work.run, &best);
         cli_work_end(&j.work);
         status = j.written ? j.written : status;
-        if (best.points.n) {
+        if (best.points.n && !j.written) {
             code = report(&j, &best);
         }
         code = status ? cli_fail(arguments, status) : code;
@@ -157,7 +157,7 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
-    {0, "from", "PATTERN|FILE", "the first set (default: latin-hypercube; with --keep net: sobol)"},
+    {0, "from", "FILE", "the first set, also a PATTERN (default: latin-hypercube; with --keep net: sobol)"},
     {0, "keep", "none|latin|net", "what the points may not lose (default: none)"},
     {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
@@ -172,7 +172,7 @@ static const cli_option options[] = {
 const cli_command cli_command_optimise = {
     .name = "optimise",
     .summary = "search for points with a small value of a measure",
-    .synopsis = "MEASURE -n N [-d DIM] [--from PATTERN|FILE] [--keep WHAT] [--steps K] -o FILE",
+    .synopsis = "MEASURE -n N [-d DIM] [--from FILE] [--keep WHAT] [--steps K] -o FILE",
     .details = "MEASURE is any with exact values, such as star or l2-disk:law=area; a distance is made large. Equal "
                "arguments\n"
                "with --steps give equal sets, on any number of threads; after a time limit the row says how many "

@@ -307,6 +307,11 @@ struct koksma_measure {
     koksma_answer answer;
     bool larger_is_better; /* a distance; for all other measures smaller means more even */
     int revision;          /* 0, and one more with every change of any bit of its values, as of a pattern */
+    bool on_torus;         /* shifting all points on the torus does not change it */
+    /* The square of the measure and its n * dim derivatives by the coordinates, for args->run as eval; where two points
+       or a point and a plane coincide at which it has a kink, a value between those of the sides. NULL: it has no
+       derivative, or none is known. */
+    koksma_status (*gradient)(const koksma_points *points, const koksma_args *args, double *square, double *gradient);
 };
 
 /* Returns measure i of the table, or the measure with this name; NULL if there is none. */

@@ -75,6 +75,19 @@ KOKSMA_API const koksma_method *koksma_method_find(const char *name);
 KOKSMA_API koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                                          const koksma_run *run, koksma_optimum *out);
 
+/* A set of points that the pattern `record` has. */
+typedef struct koksma_record {
+    const char *measure;
+    size_t n;
+    int dim;
+    double value;       /* of the set */
+    double published;   /* the best published value that was at hand, to the digits published; 0: none was */
+    const char *source; /* of it: a key of docs/references.bib, or "-" */
+} koksma_record;
+
+/* Returns record i, in order of measure and n; NULL past the end. */
+KOKSMA_API const koksma_record *koksma_record_at(size_t i);
+
 /* Frees the points and zeroes the struct. best may be NULL, or zeroed. */
 KOKSMA_API void koksma_optimum_fini(koksma_optimum *best);
 

@@ -112,6 +112,8 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_warp_evaluate", c_void_p, spec, points, run, POINTER(s.Value))
     _declare(library, c_int, "koksma_verify", points, run, POINTER(s.Findings))
     _declare(library, None, "koksma_findings_fini", POINTER(s.Findings))
+    _declare(library, c_int, "koksma_optimise", spec, POINTER(s.OptimiseOptions), run, POINTER(s.Optimum))
+    _declare(library, None, "koksma_optimum_fini", POINTER(s.Optimum))
     spectrum = POINTER(s.Spectrum)
     _declare(library, c_int, "koksma_spectrum_init", spectrum, c_int)
     _declare(library, None, "koksma_spectrum_fini", spectrum)

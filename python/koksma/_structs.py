@@ -36,7 +36,7 @@ class Pattern(Structure):
 class Measure(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
                 ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("answer", c_int), ("larger_is_better", c_bool),
-                ("revision", c_int)]
+                ("revision", c_int), ("on_torus", c_bool), ("gradient", c_void_p)]
 
 
 class Spec(Structure):
@@ -61,6 +61,19 @@ class Finding(Structure):
 
 class Findings(Structure):
     _fields_ = [("count", c_size_t), ("capacity", c_size_t), ("items", POINTER(Finding))]
+
+
+class Optimum(Structure):
+    _fields_ = [("points", Points), ("value", c_double), ("lower", c_double), ("steps", c_uint64),
+                ("last_gain", c_uint64), ("method", c_char_p)]
+
+
+OptimiseProgress = CFUNCTYPE(c_bool, c_void_p, POINTER(Optimum))
+
+
+class OptimiseOptions(Structure):
+    _fields_ = [("n", c_size_t), ("dim", c_int), ("from_", POINTER(Points)), ("keep", c_int), ("seed", c_uint64),
+                ("steps", c_uint64), ("progress", OptimiseProgress), ("context", c_void_p)]
 
 
 class Spectrum(Structure):
@@ -198,6 +211,7 @@ LAYOUTS = [
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
     ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
+    ("optimise.h", "koksma_optimum", Optimum), ("optimise.h", "koksma_optimise_options", OptimiseOptions),
     ("spectrum.h", "koksma_spectrum", Spectrum),
     ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
     ("spectrum.h", "koksma_ring", Ring),

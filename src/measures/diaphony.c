@@ -14,6 +14,15 @@
 
 #include "measures/measures.h"
 #include "measures/shared/l2.h"
+#include "measures/shared/l2_gradient.h"
+
+static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
+{
+    static const double q = 2 * M_PI * M_PI;
+    const koksma__l2_row row = {12, {24, 0, 0, 0}, {(1 + q / 6) / 2, 0, 0, 0}, -q, q, "diaphony"};
+    (void)args;
+    return koksma__l2_gradient(&row, points, square, out);
+}
 
 static koksma_status eval(const koksma_points *points, const koksma_args *args, koksma_value *out)
 {
@@ -40,4 +49,6 @@ const koksma_measure koksma__measure_diaphony = {
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,
     .eval = eval,
+    .on_torus = true,
+    .gradient = gradient,
 };

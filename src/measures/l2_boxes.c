@@ -9,15 +9,23 @@
  * and dim. Limits: the three terms cancel. In one and two dimensions the sums are exact or of 106 bits, and the value
  * is good to 1e-11 of itself at 10^6 points; in more the square is good to about 1e-16 of its terms (l2-star: 1e-17).
  */
-#include "measures/measures.h"
-#include "measures/shared/l2.h"
+#include "measures/l2_boxes.h"
 
-/* koksma__measure_l2_KIND: c12, a24, g, q and r of its kernel, and what is listed. */
-#define L2(kind, title_, cite_, c12_, ...)                                                                           \
+#include "measures/measures.h"
+#include "measures/shared/l2_gradient.h"
+
+/* koksma__measure_l2_KIND: whether it is on the torus, c12, a24, g, q and r of its kernel, and what is listed. */
+#define L2(kind, title_, cite_, torus_, c12_, ...)                                                                   \
     const koksma__l2_row koksma__l2_##kind = {.name = "l2-" #kind, .c12 = (c12_), __VA_ARGS__};                      \
     static koksma_status eval_##kind(const koksma_points *points, const koksma_args *args, koksma_value *out)        \
     {                                                                                                                \
         return koksma__l2(&koksma__l2_##kind, points, args->run, out);                                               \
+    }                                                                                                                \
+    static koksma_status gradient_##kind(const koksma_points *points, const koksma_args *args, double *square,       \
+                                         double *gradient)                                                           \
+    {                                                                                                                \
+        (void)args;                                                                                                  \
+        return koksma__l2_gradient(&koksma__l2_##kind, points, square, gradient);                                    \
     }                                                                                                                \
     const koksma_measure koksma__measure_l2_##kind = {                                                               \
         .name = "l2-" #kind,                                                                                         \
@@ -28,6 +36,8 @@
         .min_dim = 1,                                                                                                \
         .max_dim = KOKSMA_MAX_DIM,                                                                                   \
         .eval = eval_##kind,                                                                                         \
+        .on_torus = (torus_),                                                                                        \
+        .gradient = gradient_##kind,                                                                                 \
     }
 
 /*
@@ -40,7 +50,7 @@
  * m x m jittered, E(S^2) = ((m-1)/6 + 5/36)/m^4; 4 x 4 centres, S^2 = 1/9 - 2 (43/128)^2 + (11/32)^2.
  */
 L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
-   "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992", 4, .a24 = {9, -12, -12, 0},
+   "warnock1972 zaremba1968 heinrich1996 shirley1991 mitchell1992", false, 4, .a24 = {9, -12, -12, 0},
    .g = {0.25, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
 /*
@@ -51,8 +61,8 @@ L2(star, "L2 star discrepancy (root mean square over anchored boxes)",
  * coordinate k. Source: Morokoff and Caflisch 1994, whose T_N it is.
  * Known exactly: one point at the centre of the square, square = 11/288; random points, E = (6^-d - 12^-d)/n.
  */
-L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998", 1,
-   .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
+L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure", "morokoff1994 hickernell1998",
+   false, 1, .a24 = {3, 0, -12, 0}, .g = {0.125, 0, -0.5, 0}, .q = -0.5, .r = 0.5);
 
 /*
  * l2-periodic: the root mean square, over boxes on the torus whose starts and lengths are uniform, of the difference
@@ -62,7 +72,7 @@ L2(extreme, "L2 discrepancy over all boxes lo < hi, not divided by their measure
  * Source: Lev 1995; Hinrichs, Kritzinger and Pillichshammer 2020, who call it periodic.
  * Known exactly: one point in the square, square = 1/4 - 1/9 = 5/36; random points, E = (2^-d - 3^-d)/n.
  */
-L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev1995 hinrichs2020", 4,
+L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev1995 hinrichs2020", true, 4,
    .a24 = {8, 0, 0, 0}, .g = {0.25, 0, 0, 0}, .q = -1, .r = 1);
 
 /*
@@ -73,7 +83,7 @@ L2(periodic, "L2 discrepancy over boxes on the torus (root mean square)", "lev19
  * Source: Hickernell 1998. SciPy's qmc.discrepancy(method='WD') is the square.
  * Known exactly: one point in the square, square = 9/4 - 16/9 = 17/36.
  */
-L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", 16, .a24 = {32, 0, 0, 0}, .g = {0.75, 0, 0, 0},
+L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", true, 16, .a24 = {32, 0, 0, 0}, .g = {0.75, 0, 0, 0},
    .q = -1, .r = 1);
 
 /*
@@ -84,8 +94,8 @@ L2(wraparound, "wrap-around L2 discrepancy", "hickernell1998", 16, .a24 = {32, 0
  * Formula: (4/3)^d - (2/n) sum_i prod_k (3 - x_ik^2)/2 + (1/n^2) sum_ij prod_k (2 - max(x_ik, x_jk)).
  * Source: Hickernell 1998. Known exactly: one point at the centre of the line, square = 1/12.
  */
-L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickernell1998", 16, .a24 = {33, -12, -12, 0},
-   .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
+L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickernell1998", false, 16,
+   .a24 = {33, -12, -12, 0}, .g = {0.75, -0.5, 0, 0}, .q = -0.5, .r = 0);
 
 /*
  * l2-centered: as l2-modified, with boxes between a point and the corner of the cube next to it: reflecting the
@@ -95,7 +105,7 @@ L2(modified, "modified L2 discrepancy (L2 star over all projections)", "hickerne
  * h = |x_ik - 1/2|, t = |x_ik - x_jk|. Source: Hickernell 1998. SciPy's method='CD' is the square.
  * Known exactly: one point at the centre of the square, square = 25/144.
  */
-L2(centered, "centered L2 discrepancy", "hickernell1998", 13, .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5},
+L2(centered, "centered L2 discrepancy", "hickernell1998", false, 13, .a24 = {24, 0, -12, 12}, .g = {0.5, 0, 0, 0.5},
    .q = -0.5, .r = 0);
 
 /*
@@ -107,8 +117,8 @@ L2(centered, "centered L2 discrepancy", "hickernell1998", 13, .a24 = {24, 0, -12
  * Source: Zhou, Fang and Ning 2013. SciPy's method='MD' is the square.
  * Known exactly: one point at the centre of the line, square = 19/12 - 10/3 + 15/8 = 1/8.
  */
-L2(mixture, "mixture L2 discrepancy", "zhou2013", 19, .a24 = {40, 0, -6, -6}, .g = {0.9375, 0, 0, -0.25}, .q = -0.75,
-   .r = 0.5);
+L2(mixture, "mixture L2 discrepancy", "zhou2013", false, 19, .a24 = {40, 0, -6, -6}, .g = {0.9375, 0, 0, -0.25},
+   .q = -0.75, .r = 0.5);
 
 /*
  * l2-symmetric: l2-star with every corner of the cube as the anchor: the square is 4^d times the mean, over the 2^d
@@ -117,5 +127,26 @@ L2(mixture, "mixture L2 discrepancy", "zhou2013", 19, .a24 = {40, 0, -6, -6}, .g
  * Formula: (4/3)^d - (2/n) sum_i prod_k (1 + 2x - 2x^2) + (1/n^2) sum_ij prod_k 2 (1 - t), t = |x_ik - x_jk|.
  * Source: Hickernell 1998. Known exactly: one point at the centre of the square, square = 23/18.
  */
-L2(symmetric, "symmetric L2 discrepancy (mean over all corners as anchors)", "hickernell1998", 16,
+L2(symmetric, "symmetric L2 discrepancy (mean over all corners as anchors)", "hickernell1998", false, 16,
    .a24 = {36, 0, -48, 0}, .g = {1, 0, 0, 0}, .q = -2, .r = 0);
+
+const koksma__l2_row *koksma__l2_row_of(const koksma_measure *measure)
+{
+    static const struct {
+        const koksma_measure *measure;
+        const koksma__l2_row *row;
+    } rows[] = {
+#undef MEASURE_OF
+#define MEASURE(name)
+#define MEASURE_OF(name, file) {&koksma__measure_##name, &koksma__##name},
+#include "measures/measures.def"
+#undef MEASURE
+#undef MEASURE_OF
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (rows[i].measure == measure) {
+            return rows[i].row;
+        }
+    }
+    return NULL;
+}

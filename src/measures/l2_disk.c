@@ -157,6 +157,37 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
+/* Of a pair all copies within 1 along each axis: the two nearest. */
+static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
+{
+    const koksma__disk_law law = (koksma__disk_law)(int)args->params[1];
+    const size_t n = points->n, dim = (size_t)points->dim;
+    const double r = koksma__disk_radius(law, args->params[0]), *xs = points->xs;
+    koksma_value value;
+    const koksma_status status = eval(points, args, &value);
+    *square = value.square;
+    for (size_t i = 0; i < n && !status; i++) {
+        double sum[3] = {0};
+        for (size_t c = 0; c < n << dim; c++) {
+            const size_t j = c >> dim;
+            double d[3] = {0};
+            for (size_t k = 0; k < dim; k++) {
+                const double plain = xs[i * dim + k] - xs[j * dim + k];
+                d[k] = plain - (c >> k & 1 ? (plain > 0 ? 1 : -1) : 0);
+            }
+            const double distance = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            const double slope = j == i ? 0 : koksma__overlap_slope(law, points->dim, r, distance);
+            for (size_t k = 0; k < dim && slope != 0 && distance > 0; k++) {
+                sum[k] += slope * d[k] / distance;
+            }
+        }
+        for (size_t k = 0; k < dim; k++) {
+            out[i * dim + k] = 2 * sum[k] / ((double)n * (double)n);
+        }
+    }
+    return status;
+}
+
 static const koksma_param params[] = {
     {"r", "the radius, or the largest radius; 0: 1/4 if fixed, else 1/2", 0, 0, 0.5, NULL, false},
     {"law", "fixed radius, radius uniform, or area (volume) uniform", 0, 0, 2, koksma__disk_laws, true},
@@ -173,4 +204,6 @@ const koksma_measure koksma__measure_l2_disk = {
     .max_dim = 3,
     .params = params,
     .eval = eval,
+    .on_torus = true,
+    .gradient = gradient,
 };

@@ -124,6 +124,42 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     return status;
 }
 
+/* The slope of the probability that a line or plane separates two points; the sum goes over pairs twice. */
+static koksma_status gradient(const koksma_points *points, const koksma_args *args, double *square, double *out)
+{
+    const size_t dim = (size_t)points->dim;
+    const double n = (double)points->n, *xs = points->xs;
+    const koksma__line_law law = (koksma__line_law)args->params[0];
+    koksma_value value;
+    const koksma_status status = eval(points, args, &value);
+    *square = value.square;
+    for (size_t i = 0; i < points->n && !status; i++) {
+        double *own = out + i * dim, slope[3], sum[3] = {0};
+        for (size_t j = 0; j < points->n; j++) {
+            double d[3] = {0};
+            for (size_t k = 0; k < dim; k++) {
+                d[k] = xs[i * dim + k] - xs[j * dim + k];
+            }
+            const double r = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            if (dim == 2) {
+                koksma__line_separates_slope(law, d[0], d[1], slope);
+            }
+            for (size_t k = 0; k < dim; k++) {
+                sum[k] += dim == 2 ? slope[k] : r > 0 ? d[k] / r / 3 : 0;
+            }
+        }
+        if (dim == 2) {
+            koksma__line_potential_slope(law, xs + i * dim, slope);
+        } else {
+            koksma__plane_potential_slope(xs + i * dim, slope);
+        }
+        for (size_t k = 0; k < dim; k++) {
+            own[k] = slope[k] / n - sum[k] / (n * n);
+        }
+    }
+    return status;
+}
+
 static const koksma_param params[] = {
     {"law", "the law of the lines: isotropic, or the second paper's", 0, 0, 1, koksma__line_laws, true},
     {0},
@@ -139,4 +175,5 @@ const koksma_measure koksma__measure_l2_edge = {
     .max_dim = 3,
     .params = params,
     .eval = eval,
+    .gradient = gradient,
 };

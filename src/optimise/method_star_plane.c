@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * star-plane: the star discrepancy of the plane, by a search over permutations with exact coordinates.
+ * Long because the solver of constraints and the search, which share all state, are one.
  *
  * Let point i by x have rank p(i) by y, c(i,j) be the number of points of ranks up to i by x and j by y, and F = n f. Then
  * coordinates with D* <= f exist if and only if
@@ -36,7 +37,7 @@ enum { MAX_N = 4096, PATIENCE = 3000, ACCEPTED = 8, CYCLES = 128, MAX_EDGES = 16
 /* Corners looked at in one search: some tenths of a second. */
 static double budget_of(size_t n)
 {
-    return 1e8 + 1e6 * (double)n;
+    return 1e7 + 1e6 * (double)n;
 }
 
 /* Violations below this many points are rounding. */
@@ -307,7 +308,7 @@ static bool relax(plane *s, uint32_t node, double F)
             return false;
         }
     }
-    s->work += (double)side + 32;
+    s->work += (double)side + 256;
     return true;
 }
 
@@ -442,6 +443,7 @@ static bool move(plane *s, double limit)
 {
     swap w[2];
     const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
+    s->work += 1000;
     if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, limit, &w[0]))) {
         return false;
     }
@@ -542,9 +544,10 @@ static void draw_start(plane *s, double *xs)
 {
     koksma__stream *random = &s->random;
     double a = koksma__next_unit(random);
+    const double ones = 0.6 + 0.35 * koksma__next_unit(random); /* the share of quotients of 1 */
     for (int k = 0; k < 24; k++) {
         double quotient = 1;
-        while (quotient < 20 && koksma__next_unit(random) > 0.75) {
+        while (quotient < 20 && koksma__next_unit(random) > ones) {
             quotient++;
         }
         a = 1 / (quotient + a);
@@ -578,7 +581,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
             draw_start(&s, xs);
         }
         status = take_points(&s, xs, order);
-        double limit = (again ? 1 : 1.05) * best;
+        double limit = (again ? 1 : 1.015 + 2 / (double)n) * best;
         if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
             if (F < best) {
                 best = F;

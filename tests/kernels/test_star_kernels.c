@@ -66,11 +66,39 @@ static void partition_equals_reference(void **state)
     }
 }
 
+static void corners_equal_reference(void **state)
+{
+    (void)state;
+    enum { MOST = 300 };
+    const koksma__kernel_table *ref = koksma__kernels_find("ref");
+    int16_t counts[MOST];
+    float xs[MOST];
+    uint32_t a[MOST + 1], b[MOST + 1];
+    for (size_t count = 1; count < MOST; count += 1 + count / 8) {
+        for (size_t k = 0; k < count; k++) {
+            counts[k] = (int16_t)(100 * sets_unit(count, k));
+            xs[k] = (float)(100 * sets_unit(count + 1, k));
+        }
+        for (int way = 0; way < 4; way++) {
+            const float sign = way % 2 ? 1 : -1, limit = way < 2 ? 80 : 20;
+            const size_t found = ref->far_corners(count, counts, xs, sign, sign * 1.01F, limit, a);
+            for (size_t isa = 0; isa < 3; isa++) {
+                const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+                if (fast) {
+                    assert_int_equal(fast->far_corners(count, counts, xs, sign, sign * 1.01F, limit, b), found);
+                    assert_memory_equal(a, b, found * sizeof *a);
+                }
+            }
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweep_equals_reference),
         cmocka_unit_test(partition_equals_reference),
+        cmocka_unit_test(corners_equal_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,6 +57,26 @@ double koksma__ball_overlap(koksma__disk_law law, double r, double distance2)
     return M_PI * t * t * t * (r + h) / (3 * r);
 }
 
+/* Two disks of one radius lose overlap by their common chord, two balls by the disk between them; its mean over the law. */
+double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance)
+{
+    const double h = distance / 2;
+    if (h >= r) {
+        return 0;
+    }
+    const double s2 = (r - h) * (r + h), s = sqrt(s2), h3 = h * h * h, r3 = r * r * r;
+    if (dim == 3) {
+        const double whole = (r3 * r * r - h3 * h * h) / 5 - h * h * (r3 - h3) / 3;
+        return law == KOKSMA__DISKS_FIXED    ? -M_PI * s2
+               : law == KOKSMA__DISKS_RADIUS ? -M_PI / r * (r3 / 3 - h * h * r + 2 * h3 / 3)
+                                             : -3 * M_PI / r3 * whole;
+    }
+    const double logarithm = h > 0 ? h * h * log((r + s) / h) : 0;
+    return law == KOKSMA__DISKS_FIXED    ? -2 * s
+           : law == KOKSMA__DISKS_RADIUS ? -(r * s - logarithm) / r
+                                         : -4 * s * s2 / (3 * r * r);
+}
+
 double koksma__ball_square(koksma__disk_law law, double r)
 {
     static const double divisors[] = {1, 7, 3};

@@ -17,6 +17,9 @@ double koksma__disk_radius(koksma__disk_law law, double r);
 /* The mean over the law of the area that two disks share whose centres are sqrt(distance2) apart; 0 from 2r on. */
 double koksma__disk_overlap(koksma__disk_law law, double r, double distance2);
 
+/* The derivative of the overlap of disks, or with dim = 3 of balls, by their distance. */
+double koksma__overlap_slope(koksma__disk_law law, int dim, double r, double distance);
+
 /* The mean over the law of the area's square. */
 double koksma__disk_square(koksma__disk_law law, double r);
 

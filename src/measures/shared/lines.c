@@ -98,6 +98,34 @@ double koksma__line_potential(koksma__line_law law, const double p[2])
            (rectangle(law, 1 - x, y) + rectangle(law, x, 1 - y));
 }
 
+void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, double slope[2])
+{
+    const double x = fabs(dx), y = fabs(dy), r = sqrt(x * x + y * y), ratio = x > y ? y / x : x / y;
+    slope[0] = slope[1] = 0;
+    if (r > 0 && law == KOKSMA__LINES_ISOTROPIC) {
+        slope[0] = dx / r / 2;
+        slope[1] = dy / r / 2;
+    } else if (r > 0) {
+        const double far = (log1p(ratio) - ratio + 1) / 2, near = log1p(ratio) / 2;
+        slope[0] = copysign(x > y ? far : near, dx);
+        slope[1] = copysign(x > y ? near : far, dy);
+    }
+}
+
+/* The integral of sigma over the side at distance a, of length b: the derivative of that over the rectangle by a. */
+static double side(koksma__line_law law, double a, double b)
+{
+    return a < 1e-90 ? 0 : a * a * integral(law, b / a);
+}
+
+void koksma__line_potential_slope(koksma__line_law law, const double p[2], double slope[2])
+{
+    for (int k = 0; k < 2; k++) {
+        const double x = p[k], y = p[1 - k];
+        slope[k] = (side(law, x, y) + side(law, x, 1 - y)) - (side(law, 1 - x, y) + side(law, 1 - x, 1 - y));
+    }
+}
+
 double koksma__line_constant(koksma__line_law law)
 {
     return law == KOKSMA__LINES_ISOTROPIC ? (2 + M_SQRT2 + 5 * asinh(1)) / 30 : 8 * M_LN2 / 15 - 1.0 / 9;

@@ -29,6 +29,9 @@ double koksma__line_separates(koksma__line_law law, double dx, double dy);
 
 /* P(x) = the integral of sigma over the square from p, and C = the integral of P. */
 double koksma__line_potential(koksma__line_law law, const double p[2]);
+/* The derivatives of sigma by dx and dy, and of P by p; 0 where dx and dy are. */
+void koksma__line_separates_slope(koksma__line_law law, double dx, double dy, double slope[2]);
+void koksma__line_potential_slope(koksma__line_law law, const double p[2], double slope[2]);
 double koksma__line_constant(koksma__line_law law);
 
 /* Line `index` of a seed: a x + b y = c. */

@@ -95,6 +95,19 @@ double koksma__plane_potential(const double p[3])
     return sum / 3;
 }
 
+/* The derivative of the integral over a box by a side is that over the face. */
+void koksma__plane_potential_slope(const double p[3], double slope[3])
+{
+    for (int k = 0; k < 3; k++) {
+        slope[k] = 0;
+        for (int corner = 0; corner < 8; corner++) {
+            const double a = corner & 1 ? 1 - p[k] : p[k], b = p[(k + 1) % 3], c = p[(k + 2) % 3];
+            const double part = face(a, corner & 2 ? 1 - b : b, corner & 4 ? 1 - c : c) / 3;
+            slope[k] += corner & 1 ? -part : part;
+        }
+    }
+}
+
 double koksma__plane_constant(void)
 {
     const double root3 = sqrt(3.0);

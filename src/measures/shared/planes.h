@@ -16,6 +16,8 @@ KOKSMA__LAB double koksma__volume_below_through(const double a[3], const double 
 /* A random plane that hits the cube, by the measure that moving and turning does not change, separates two points
    with the probability distance / 3. P(x) = the integral of that over the cube from p, and C = the integral of P. */
 KOKSMA__LAB double koksma__plane_potential(const double p[3]);
+/* The derivatives of P by p. */
+void koksma__plane_potential_slope(const double p[3], double slope[3]);
 KOKSMA__LAB double koksma__plane_constant(void);
 
 /* Plane `index` of a seed by that measure: a . x = c. */

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Search for point sets with a small value of a measure."""
+from __future__ import annotations
+
+import ctypes
+from ctypes import byref
+from dataclasses import dataclass
+from typing import Callable, Optional, SupportsIndex
+
+import numpy.typing as npt
+
+from . import _structs as s
+from ._library import ArgumentError, call, core, spec, whole
+from ._points import PointArray, as_points, shown, view
+
+_KEEP = ("none", "latin", "net")
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """The best set of a search. Equal seed and steps give it again; last_gain is the step that found it. lower: no set
+    has a smaller value; NaN where no bound is known."""
+
+    points: PointArray
+    value: float
+    lower: float
+    steps: int
+    last_gain: int
+    method: str
+
+
+def _optimum(best: s.Optimum) -> Optimum:
+    points = shown(best.points.xs, best.points.n, best.points.dim).copy()
+    return Optimum(points, best.value, best.lower, best.steps, best.last_gain, best.method.decode())
+
+
+def optimise(measure: str, n: Optional[SupportsIndex] = None, dim: SupportsIndex = 2, *,
+             start: Optional[npt.ArrayLike] = None, keep: str = "none", seed: SupportsIndex = 0,
+             steps: SupportsIndex = 0, time_limit: Optional[float] = None, threads: SupportsIndex = 0,
+             progress: Optional[Callable[[Optimum], object]] = None) -> Optimum:
+    """Searches for n points in [0,1)^dim with a small value of a measure (a large one of a distance).
+
+    measure: a spec of a measure with exact values, such as "star" or "l2-centered".
+    start: the first set, an (n, dim) array; n and dim may then be left out. None: the library's own.
+    keep: "latin" changes only which coordinates go together; "net" leaves each in its interval of length 1/n.
+    steps: of a fixed amount of work; equal steps and seed give equal sets. 0: until time_limit, in seconds.
+    progress: called with the first set and after each step; returns False to stop.
+    """
+    if keep not in _KEEP:
+        raise ArgumentError(f"keep {keep!r}: it takes 'none', 'latin' or 'net'")
+    first = None if start is None else as_points(start)
+    if n is None and first is None:
+        raise ArgumentError("n, the number of points, is missing")
+    n = first.shape[0] if n is None else whole("n", n, 1, s.MAX_COORDINATES)
+    dim = whole("dim", dim, 1, s.MAX_DIM) if first is None else first.shape[1]
+    steps = whole("steps", steps, 0, s.MAX_SEED)
+    if not steps and time_limit is None and progress is None:
+        raise ArgumentError("the search has no end: it takes steps, time_limit or progress")
+    raised = []
+
+    def tell(_context: object, best: object) -> bool:
+        try:
+            return progress is None or progress(_optimum(best.contents)) is not False
+        except BaseException as error:  # comes out of optimise()
+            raised.append(error)
+            return False
+
+    parsed, best = spec("measure", measure), s.Optimum()
+    c_first = None if first is None else ctypes.pointer(view(first))
+    options = s.OptimiseOptions(n, dim, c_first, _KEEP.index(keep), whole("seed", seed, 0, s.MAX_SEED), steps,
+                                s.OptimiseProgress(tell), None)
+    try:
+        call(core().koksma_optimise, byref(parsed), byref(options), byref(best), threads=threads,
+             time_limit=time_limit, run_at=2)
+        if raised:
+            raise raised[0]
+        return _optimum(best)
+    finally:
+        core().koksma_optimum_fini(byref(best))

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_MEASURES_SHARED_L2_GRADIENT_H
+#define KOKSMA_MEASURES_SHARED_L2_GRADIENT_H
+
+#include "measures/shared/l2.h"
+
+/* The square by pairs, and its derivatives by the coordinates. O(n^2 d). Errors: MEMORY. */
+koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points *points, double *square,
+                                  double *gradient);
+
+#endif

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * record: the best known sets of n points for a measure, as `koksma optimise` found them; `koksma list records` has them
+ * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc.
+ *
+ *     x_ik = whole number / 10^12, from a table
+ *
+ * Known exactly: the least star discrepancies of 1 to 21 points in the plane (Clement, Doerr, Klamroth & Paquete 2023, to
+ * four digits), .6180 and .3660 for 1 and 2 points to .0580 for 21.
+ */
+#include <koksma/optimise.h>
+
+#include <string.h>
+
+#include "core/status.h"
+#include "patterns/patterns.h"
+
+enum { STAR };
+
+static const char *const names[] = {"star", NULL};
+
+static const koksma_record records[] = {
+#define RECORD(measure, dim, n, value, published, source) {"star", (n), (dim), (value), (published), (source)},
+#include "patterns/shared/records.inc"
+#undef RECORD
+};
+
+#include "patterns/shared/records.inc"
+
+const koksma_record *koksma_record_at(size_t i)
+{
+    return i < sizeof records / sizeof *records ? &records[i] : NULL;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    const char *measure = names[(int)args->params[0]];
+    const uint64_t *xs = points;
+    size_t below = 0, above = 0;
+    for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
+        const koksma_record *r = &records[i];
+        if (!strcmp(r->measure, measure) && r->dim == out->dim && r->n == out->n) {
+            for (size_t c = 0; c < out->n * (size_t)out->dim; c++) {
+                out->xs[c] = (double)xs[c] / 1e12;
+            }
+            return KOKSMA_OK;
+        }
+        below = r->n < out->n ? r->n : below;
+        above = r->n > out->n && !above ? r->n : above;
+        xs += r->n * (size_t)r->dim;
+    }
+    return above && below
+               ? koksma__fail(KOKSMA_N, "record: there is no set of n = %zu points for %s; n = %zu or %zu would do",
+                              out->n, measure, below, above)
+               : koksma__fail(KOKSMA_N, "record: there is no set of n = %zu points for %s; n = %zu would do", out->n,
+                              measure, above ? above : below);
+}
+
+static const koksma_param params[] = {
+    {"measure", "the measure that the sets have a small value of", 0, 0, 0, names, true},
+    {0},
+};
+
+const koksma_pattern koksma__pattern_record = {
+    .name = "record",
+    .title = "the best known sets for a measure, for some n (koksma list records)",
+    .cite = "clement2023",
+    .min_dim = 2,
+    .max_dim = 2,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC,
+    .params = params,
+    .generate = generate,
+};

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Searches: gradients against differences of the measure, sets that do not depend on threads, what is kept, optima that are
+   proven elsewhere. All methods and all measures with a gradient are walked. */
+#include <koksma/optimise.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/spec.h"
+#include "test.h"
+
+/* Calls f for each measure with a gradient, with each choice of its law, in its first dimensions. */
+static void each_gradient(void (*f)(const koksma_spec *measure, int dim))
+{
+    size_t n = 0;
+    const koksma_measure *m;
+    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
+        for (int law = 0; m->gradient && law < 3; law++) {
+            static const char *const laws[2][3] = {{":law=isotropic", ":law=mitchell", NULL},
+                                                   {":law=fixed", ":law=radius", ":law=area"}};
+            const char *text = laws[m->family == KOKSMA_FAMILY_DISKS][law];
+            for (int dim = m->min_dim; m->params ? text && dim <= 3 : law == 0 && dim <= 3; dim++) {
+                char name[64];
+                koksma_spec spec;
+                snprintf(name, sizeof name, "%s%s", m->name, m->params ? text : "");
+                assert_ok(koksma_measure_spec(name, &spec));
+                if (!strstr(name, "mitchell") || dim == 2) {
+                    f(&spec, dim);
+                    n++;
+                }
+            }
+        }
+    }
+    assert_true(n > 30);
+}
+
+/* (f(x + h) - f(x - h)) / 2h, with f the square that koksma_evaluate gives. */
+static void expect_differences(const koksma_spec *measure, int dim)
+{
+    enum { N = 9 };
+    const double h = 1e-5;
+    koksma_points points = test_points("random", N, dim, 5);
+    const koksma_args args = koksma__spec_arguments(measure, NULL);
+    double square, gradient[3 * N];
+    koksma_value value, up, down;
+    assert_ok(measure->measure->gradient(&points, &args, &square, gradient));
+    assert_ok(koksma_evaluate(measure, &points, NULL, &value));
+    assert_near(square, value.square, 1e-12);
+    for (size_t c = 0; c < N * (size_t)dim; c++) {
+        const double x = points.xs[c];
+        points.xs[c] = x + h;
+        assert_ok(koksma_evaluate(measure, &points, NULL, &up));
+        points.xs[c] = x - h;
+        assert_ok(koksma_evaluate(measure, &points, NULL, &down));
+        points.xs[c] = x;
+        assert_near(gradient[c], (up.square - down.square) / (2 * h), 1e-7);
+    }
+    koksma_points_fini(&points);
+}
+
+static void gradients_are_differences(void **state)
+{
+    (void)state;
+    each_gradient(expect_differences);
+}
+
+/* A shift on the torus changes the value of those that are not on it. */
+static void expect_torus(const koksma_spec *measure, int dim)
+{
+    koksma_points points = test_points("random", 9, dim, 5);
+    koksma_value before, after;
+    assert_ok(koksma_evaluate(measure, &points, NULL, &before));
+    for (size_t c = 0; c < 9 * (size_t)dim; c++) {
+        points.xs[c] = fmod(points.xs[c] + 0.375, 1);
+    }
+    assert_ok(koksma_evaluate(measure, &points, NULL, &after));
+    if (dim > 1 || measure->measure->on_torus) { /* on the line l2-extreme and l2-symmetric are, too */
+        assert_int_equal(fabs(after.value - before.value) < 1e-12, measure->measure->on_torus);
+    }
+    koksma_points_fini(&points);
+}
+
+static void torus_is_where_it_is_said(void **state)
+{
+    (void)state;
+    each_gradient(expect_torus);
+}
+
+static koksma_optimum optimised(const char *measure, koksma_optimise_options options, int threads)
+{
+    koksma_spec spec;
+    koksma_optimum best;
+    const koksma_run run = {.threads = threads};
+    assert_ok(koksma_measure_spec(measure, &spec));
+    assert_ok(koksma_optimise(&spec, &options, &run, &best));
+    assert_near(best.value, test_measure(measure, &best.points).value, 0);
+    assert_true(best.steps == options.steps && best.last_gain <= best.steps);
+    for (size_t c = 0; c < best.points.n * (size_t)best.points.dim; c++) {
+        assert_true(best.points.xs[c] >= 0 && best.points.xs[c] < 1);
+    }
+    return best;
+}
+
+/* One search that each method does best, and what it gains. */
+static const struct {
+    const char *method, *measure;
+    size_t n;
+    int dim;
+    koksma_keep keep;
+} searches[] = {
+    {"star-plane", "star", 9, 2, KOKSMA_KEEP_NONE},       {"descent", "l2-star", 8, 3, KOKSMA_KEEP_NONE},
+    {"descent", "l2-disk", 8, 2, KOKSMA_KEEP_NONE},       {"descent", "l2-centered", 8, 2, KOKSMA_KEEP_NET},
+    {"exchange", "l2-centered", 8, 3, KOKSMA_KEEP_LATIN}, {"exchange", "l2-wraparound", 8, 2, KOKSMA_KEEP_LATIN},
+    {"perturb", "star", 8, 3, KOKSMA_KEEP_NONE},          {"perturb", "star", 8, 2, KOKSMA_KEEP_NET},
+    {"perturb", "star", 8, 2, KOKSMA_KEEP_LATIN},         {"perturb", "min-distance", 8, 2, KOKSMA_KEEP_NONE},
+};
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Coordinate k of all points, in order of size. */
+static void sorted(const koksma_points *points, int k, double *out)
+{
+    for (size_t i = 0; i < points->n; i++) {
+        out[i] = points->xs[i * (size_t)points->dim + (size_t)k];
+    }
+    qsort(out, points->n, sizeof *out, by_value);
+}
+
+static void expect_kept(const koksma_points *before, const koksma_points *after, koksma_keep keep)
+{
+    double a[16], b[16];
+    for (int k = 0; k < before->dim && keep == KOKSMA_KEEP_LATIN; k++) {
+        sorted(before, k, a);
+        sorted(after, k, b);
+        assert_memory_equal(a, b, before->n * sizeof *a);
+    }
+    for (size_t c = 0; c < before->n * (size_t)before->dim && keep == KOKSMA_KEEP_NET; c++) {
+        assert_true(floor(before->xs[c] * (double)before->n) == floor(after->xs[c] * (double)after->n));
+    }
+}
+
+static void methods_gain_and_keep(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
+        const koksma_keep keep = searches[i].keep;
+        koksma_points from =
+            test_points(keep == KOKSMA_KEEP_NET ? "sobol" : "latin-hypercube", searches[i].n, searches[i].dim, 3);
+        const koksma_optimise_options options = {
+            .n = searches[i].n, .dim = searches[i].dim, .from = &from, .keep = keep, .seed = 4, .steps = 2};
+        const double before = test_measure(searches[i].measure, &from).value;
+        koksma_optimum one = optimised(searches[i].measure, options, 1);
+        assert_string_equal(one.method, searches[i].method);
+        if (!strcmp(searches[i].measure, "min-distance") ? one.value <= before : one.value >= before) {
+            fail_msg("%s of %zu points, %s, keep %d: from %g to %g", searches[i].measure, one.points.n, one.method,
+                     (int)keep, before, one.value);
+        }
+        expect_kept(&from, &one.points, keep);
+        for (int threads = 2; threads <= 8; threads += 6) {
+            koksma_optimum many = optimised(searches[i].measure, options, threads);
+            assert_memory_equal(one.points.xs, many.points.xs, from.n * (size_t)from.dim * sizeof(double));
+            koksma_optimum_fini(&many);
+        }
+        koksma_optimum_fini(&one);
+        koksma_points_fini(&from);
+    }
+    for (size_t m = 0; koksma_method_at(m); m++) {
+        size_t found = 0;
+        for (size_t i = 0; i < sizeof searches / sizeof *searches; i++) {
+            found += !strcmp(searches[i].method, koksma_method_at(m)->name);
+        }
+        if (found == 0) {
+            fail_msg("no search of this test is done by %s", koksma_method_at(m)->name);
+        }
+    }
+}
+
+/* White 1976 has n = 1 and 2 in closed form; the others are Clement, Doerr, Klamroth & Paquete 2023, table 1. */
+static void optima_of_the_star_discrepancy(void **state)
+{
+    (void)state;
+    static const double optima[] = {0.618034, 0.366025, 0.2847, 0.25, 0.2, 0.1667, 0.15, 0.1328, 0.1235, 0.1111};
+    for (size_t n = 1; n <= 10; n++) {
+        koksma_optimum best = optimised("star", (koksma_optimise_options){.n = n, .dim = 2, .steps = 1}, 0);
+        assert_near(best.value, optima[n - 1], n < 3 ? 1e-6 : 5e-5);
+        koksma_optimum_fini(&best);
+    }
+}
+
+static bool stop_at_once(void *context, const koksma_optimum *best)
+{
+    *(koksma_optimum *)context = *best;
+    return best->steps < 1;
+}
+
+static bool never(void *context, double fraction)
+{
+    (void)context, (void)fraction;
+    return false;
+}
+
+static void ends_when_asked(void **state)
+{
+    (void)state;
+    koksma_spec star;
+    koksma_optimum seen, best;
+    koksma_optimise_options options = {.n = 8, .dim = 2, .progress = stop_at_once, .context = &seen};
+    assert_ok(koksma_measure_spec("star", &star));
+    assert_ok(koksma_optimise(&star, &options, NULL, &best));
+    assert_true(best.steps == 1 && seen.steps == 1 && seen.value == best.value);
+    koksma_optimum_fini(&best);
+    const koksma_run run = {.keep_going = never};
+    assert_int_equal(koksma_optimise(&star, &options, &run, &best), KOKSMA_INTERRUPTED);
+    assert_true(best.points.n == 8 && best.steps == 0);
+    koksma_optimum_fini(&best);
+    options.n = 9;
+    options.from = &(koksma_points){.n = 1, .dim = 1, .xs = (double[]){0.5}};
+    assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_N);
+    assert_null(best.points.xs);
+    assert_ok(koksma_measure_spec("edge-sampled", &star));
+    options.from = NULL;
+    assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gradients_are_differences), cmocka_unit_test(torus_is_where_it_is_said),
+        cmocka_unit_test(methods_gain_and_keep),     cmocka_unit_test(optima_of_the_star_discrepancy),
+        cmocka_unit_test(ends_when_asked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
