@@ -115,6 +115,9 @@ with tempfile.TemporaryDirectory() as folder:
             check(name in ("file", "latin-hypercube") or "Source" in words, f"{name}: no source in the head comment")
             check("koksma " in words, f"{name}: no command")
             check(found and any("pictures/" in link for link in found.links), f"{name}: no picture")
+    if (site / "explorer.html").is_file():  # where it is built
+        check('<meta name="docs" content="">' in (site / "explorer.html").read_text(encoding="utf-8"), "the explorer's patterns lead out of the site")
+
     def words_of(path):
         """The text of a page."""
         return " ".join(pages[site / path].words) if site / path in pages else ""
