@@ -46,7 +46,7 @@ typedef struct koksma_study_options {
     const char *const
         *plans;         /* names of plans in the library, or JSON files if the text has a '/' or ends in ".json".
                                  Several are joined to one plan called "a+b" */
-    size_t n_plans;     /* 0: use the plan stored in the folder, which is only read */
+    size_t n_plans;     /* 0: use the plan stored in the folder, which is only read until a run */
     const char *folder; /* created if it does not exist; NULL: only koksma_study_estimate can be called */
     long long trials;   /* replaces the numbers of trials in the plan; 0: does not */
     bool quick;         /* use the `quick` number of trials of each block that has one */

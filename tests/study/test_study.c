@@ -369,6 +369,71 @@ static void rankings_have_eight_trials_or_more(void **state)
     assert_int_equal(ranking.trials, 8);
 }
 
+static void count_difference(void *context, const char *text)
+{
+    assert_true(strlen(text) > 0);
+    ++*(size_t *)context;
+}
+
+/* 18 rows: three patterns, two measures, three trials. The limit of Clopper & Pearson by hand: with none of 10 wrong it
+   is 1 - 0.05^(1/10), and of all rows the part itself. */
+static void folder_is_read_and_audited(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/koksma-audit-XXXXXX", path[64], command[256];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/p.json", folder);
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fputs("{\"name\": \"p\", \"title\": \"p\", \"discrepancies\": [{\"patterns\": [\"random\", \"jittered\", "
+          "\"n-rooks\"], \"measures\": [\"star\", \"l2-star\"], \"n\": [4], \"trials\": 3}]}",
+          f);
+    fclose(f);
+    const char *plans[] = {path};
+    koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = folder, .trials = 2};
+    koksma_study_summary summary;
+    koksma_study *study, *second;
+    koksma_audit found;
+    size_t differences = 0;
+    koksma_audit_options audit = {.folder = folder, .differs = count_difference, .context = &differences};
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_run(study, NULL, &summary));
+    assert_int_equal(koksma_study_audit(&audit, NULL, &found), KOKSMA_IO); /* as long as it can be written */
+    assert_ok(koksma_study_close(study));
+    options.n_plans = 0; /* readers beside each other, then one that runs */
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_open(&options, &second));
+    assert_ok(koksma_study_audit(&audit, NULL, &found));
+    assert_ok(koksma_study_close(second));
+    assert_int_equal(found.rows, 12);
+    assert_int_equal(found.agree, 12);
+    assert_near(found.bound, 0, 0);
+    assert_ok(koksma_study_run(study, NULL, &summary));
+    assert_int_equal(summary.done_before, 6);
+    assert_ok(koksma_study_close(study));
+    options.n_plans = 1;
+    options.trials = 3;
+    assert_ok(koksma_study_open(&options, &study));
+    assert_ok(koksma_study_run(study, NULL, &summary));
+    assert_ok(koksma_study_close(study));
+    for (uint64_t seed = 0; seed < 5; seed++) {
+        audit.rows = 10;
+        audit.seed = seed;
+        assert_ok(koksma_study_audit(&audit, NULL, &found));
+        assert_int_equal(found.rows, 18);
+        assert_int_equal(found.drawn, 10);
+        assert_int_equal(found.agree, 10);
+        assert_near(found.bound, 0.25886555, 1e-8);
+    }
+    assert_int_equal(differences, 0);
+    audit.rows = -1;
+    assert_int_equal(koksma_study_audit(&audit, NULL, &found), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_study_audit(NULL, NULL, &found), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_study_audit(&audit, NULL, NULL), KOKSMA_ARGUMENT);
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -380,6 +445,7 @@ int main(void)
         cmocka_unit_test(shipped_plans_parse),
         cmocka_unit_test(store_keeps_rows),
         cmocka_unit_test(store_keeps_many_rows),
+        cmocka_unit_test(folder_is_read_and_audited),
         cmocka_unit_test(own_error_of_a_reference),
         cmocka_unit_test(correlations_as_shown),
         cmocka_unit_test(study_without_folder),

@@ -110,13 +110,14 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     if (!study->store) {
         return koksma__mpi_work(study, &control.job);
     }
-    if (!study->is_written) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a study that was opened without its plan is for reading");
+    koksma_status status = koksma__study_open_to_write(study);
+    if (status) {
+        return status;
     }
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};
-    koksma_status status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
+    status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
     status = koksma__run_kind(study, true, &control, status, summary, &failures);
     summary->workers = koksma__mpi_size() > 1 ? koksma__mpi_size() : control.run.threads;
     summary->seconds = koksma__now_s() - start_s;

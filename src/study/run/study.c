@@ -88,6 +88,22 @@ static koksma_status open_scenes(koksma_study *study)
     return status;
 }
 
+koksma_status koksma__study_open_to_write(koksma_study *study)
+{
+    char path[KOKSMA__PATH];
+    if (study->is_written) {
+        return KOKSMA_OK;
+    }
+    snprintf(path, sizeof path, "%s/results.sqlite", study->folder);
+    koksma__store_close(study->store); /* its lock would keep us out */
+    const koksma_status status = koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
+    study->is_written = !status;
+    if (status) {
+        koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
+    }
+    return status;
+}
+
 static koksma_status make_folder(koksma_study *study, const char *folder)
 {
     if (strlen(folder) > 1000) {

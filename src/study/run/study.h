@@ -36,6 +36,9 @@ struct koksma_study {
 /* Opens a scene, unless it is open; the name must stay. Errors: those of koksma_scene_open. */
 koksma_status koksma__study_open_scene(koksma_study *study, const char *name);
 
+/* A folder that was opened without a plan is only read until a run needs more. Errors: those of the store. */
+koksma_status koksma__study_open_to_write(koksma_study *study);
+
 /* The scene that the plan calls `name`. */
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name);
 
