@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A kinetic segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b
- * counts points) or the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds to
- * the lines of a range of ranks; x only grows. A node holds the winning line of its leaves, and until when it is
- * known to win; `lazy` has not been added to its children yet. The lowest levels are blocks of leaves that are
- * scanned. Wins are decided in doubles: at a near tie either line has the value to the last bits.
+ * A segment tree over ranks by y. Leaf j is a line in x, v_j(x) = b_j + k_j x: the excess (k = -n y_j, b counts points) or
+ * the deficit (k = n y_j, b minus that) of the box to (x, y_j), times n. Inserting a point adds to the lines of a range of
+ * ranks; x only grows. `lazy` has not been added to a node's children yet. The lowest levels are blocks of leaves that are
+ * scanned. The star discrepancy of the plane is the largest leaf over all x, and x takes n values from left to right.
  *
- * Why it is fast: the star discrepancy of the plane is the largest leaf over all x, and x takes n values from left
- * to right. Between two insertions leaves are lines in x, so that the largest of a subtree stays the same line
- * until another line overtakes it, at a crossing that is known when the subtree is computed:
+ * Bounds first. A node holds a line with the steepest slope below it that is above all its leaves now, and so later: a
+ * subtree is looked into only when this is above the best value so far. An insertion scans one block and takes the
+ * larger bound of two on its way back to the root, O(log n); a subtree of w ranks loses at most w/n by each step to the
+ * right, so that it is looked into once in about n/w steps for each unit by which its leaves are below the best.
+ *
+ * Where the best value is nearly reached everywhere, as Hammersley points do, bounds are looked into too often, which is
+ * counted; the rest of the walk then is a kinetic tournament (Basch, Guibas & Hershberger 1999) with x as the time. A
+ * node holds the winning line of its leaves, and until when it is known to win:
  *
  *     value |        ____.--  line 2 overtakes at `until`    asking a subtree at x: below `until` the stored winner
  *           |  __.--'  .--'                                  answers in O(1); past it the children are asked, and the
@@ -16,8 +20,8 @@
  *           +----------|--------- x
  *
  * An insertion adds one to the counts of a range of ranks: O(log n) nodes take it in `lazy`, and only winners on
- * the paths to the range's ends are compared again. Each recomputation is paid for by an overtaking. This is the
- * kinetic tournament of Basch, Guibas & Hershberger 1999 with x as the time.
+ * the paths to the range's ends are compared again. Each recomputation is paid for by an overtaking. Wins are decided in
+ * doubles: at a near tie either line has the value to the last bits.
  */
 #include <math.h>
 #include <pthread.h>
@@ -31,8 +35,8 @@
 enum { BLOCK = 16, CHECK_EVERY = 1 << 14, PARTS = 4, MANY = 1 << 12 };
 
 typedef struct node {
-    double k, b;  /* the winner */
-    double until; /* no other line overtakes up to here */
+    double k, b;  /* the winner; or a bound of all leaves, k being the largest of theirs */
+    double until; /* no other line overtakes up to here; unused with bounds */
     double lazy;
 } node;
 
@@ -41,6 +45,8 @@ typedef struct tree {
     node *nodes;     /* 1 .. 2 n_blocks - 1; block i is node n_blocks + i */
     double *k, *b;   /* leaves */
     double x;
+    bool exact;   /* nodes hold winners, not bounds */
+    size_t looks; /* at bounds */
 } tree;
 
 typedef struct best_box {
@@ -64,8 +70,30 @@ static inline double at(double k, double b, double x)
     return b + k * x;
 }
 
+/* The largest leaf of a block, which becomes its bound. */
+static double scan(tree *t, size_t v)
+{
+    const double *k = t->k + (v - t->n_blocks) * BLOCK, *b = t->b + (v - t->n_blocks) * BLOCK;
+    double values[BLOCK];
+    for (int j = 0; j < BLOCK; j++) {
+        values[j] = at(k[j], b[j], t->x);
+    }
+    for (int half = BLOCK / 2; half > 0; half /= 2) {
+        for (int j = 0; j < half; j++) {
+            values[j] = values[j] > values[j + half] ? values[j] : values[j + half];
+        }
+    }
+    t->nodes[v].b = values[0] - t->nodes[v].k * t->x;
+    t->nodes[v].lazy = 0;
+    return values[0];
+}
+
 static void pull_block(tree *t, size_t v)
 {
+    if (!t->exact) {
+        scan(t, v);
+        return;
+    }
     node *const block = &t->nodes[v];
     const double *k = t->k + (v - t->n_blocks) * BLOCK, *b = t->b + (v - t->n_blocks) * BLOCK;
     double value = at(k[0], b[0], t->x), until = INFINITY;
@@ -88,6 +116,10 @@ static void pull(tree *t, size_t v)
 {
     const node *l = &t->nodes[2 * v], *r = l + 1;
     const double left = at(l->k, l->b, t->x), right = at(r->k, r->b, t->x);
+    if (!t->exact) {
+        t->nodes[v].b = (left > right ? left : right) - t->nodes[v].k * t->x;
+        return;
+    }
     const bool left_wins = left > right || (left == right && l->k >= r->k);
     const node *w = left_wins ? l : r, *o = left_wins ? r : l;
     double until = l->until < r->until ? l->until : r->until;
@@ -121,7 +153,7 @@ static void push(tree *t, size_t v)
 /* Brings node v to the present x. */
 static void advance(tree *t, size_t v)
 {
-    if (t->nodes[v].until > t->x) {
+    if (!t->exact || t->nodes[v].until > t->x) {
         return;
     }
     if (v >= t->n_blocks) {
@@ -132,6 +164,25 @@ static void advance(tree *t, size_t v)
     push(t, v);
     advance(t, 2 * v);
     advance(t, 2 * v + 1);
+    pull(t, v);
+}
+
+/* Looks for leaves above *best below node v, whose bound may be too low by the slack. */
+static void look(tree *t, size_t v, double slack, double *best)
+{
+    t->looks++;
+    if (!(at(t->nodes[v].k, t->nodes[v].b, t->x) > *best - slack)) {
+        return;
+    }
+    if (v >= t->n_blocks) {
+        add_to_block(t, v, 0, BLOCK, t->nodes[v].lazy);
+        const double most = scan(t, v);
+        *best = most > *best ? most : *best;
+        return;
+    }
+    push(t, v);
+    look(t, 2 * v, slack, best);
+    look(t, 2 * v + 1, slack, best);
     pull(t, v);
 }
 
@@ -167,7 +218,7 @@ static void start(tree *t, const walks *w, size_t from, double sign)
 {
     const size_t deficit = sign < 0, n_lines = w->n + deficit;
     for (size_t j = 0; j < t->n_blocks * BLOCK; j++) {
-        t->k[j] = j < n_lines ? -sign * (double)w->n * w->y[j] : 0;
+        t->k[j] = -sign * (double)w->n * w->y[j < n_lines ? j : n_lines - 1];
         t->b[j] = j < n_lines ? 0 : -(double)INFINITY;
     }
     for (size_t i = 0; i < from; i++) {
@@ -178,9 +229,12 @@ static void start(tree *t, const walks *w, size_t from, double sign)
     }
     t->x = from > 0 ? w->x[from] : 0;
     for (size_t v = 2 * t->n_blocks - 1; v > 0; v--) {
+        t->nodes[v].lazy = 0;
         if (v >= t->n_blocks) {
+            t->nodes[v].k = t->k[(v - t->n_blocks) * BLOCK + (deficit ? BLOCK - 1 : 0)];
             pull_block(t, v);
         } else {
+            t->nodes[v].k = t->nodes[2 * v + deficit].k;
             pull(t, v);
         }
     }
@@ -198,11 +252,18 @@ static bool keeps_going(walks *w, double fraction_done)
 static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sign, best_box *best)
 {
     const size_t n = w->n;
+    const double slack =
+        0x1p-51 * (double)n * (double)n; /* bounds are sums of at most n terms up to 2n, each rounded */
+    const size_t too_many = 4 + 2 * (size_t)log2((double)t->n_blocks); /* looks: about what a tournament costs */
     *best = (best_box){-INFINITY, from};
     start(t, w, from, sign);
     for (size_t i = from; i < end; i++) {
         if (i % CHECK_EVERY == 0 && !keeps_going(w, (double)i / (double)n)) {
             return koksma__fail_interrupted();
+        }
+        if (!t->exact && i < n && t->looks > too_many * (i - from) + 4 * t->n_blocks) {
+            t->exact = true;
+            start(t, w, i, sign);
         }
         t->x = i < n ? w->x[i] : 1;
         if (sign > 0) {
@@ -210,7 +271,10 @@ static koksma_status walk(walks *w, tree *t, size_t from, size_t end, double sig
         } else {
             advance(t, 1);
         }
-        const double value = at(t->nodes[1].k, t->nodes[1].b, t->x);
+        double value = t->exact ? at(t->nodes[1].k, t->nodes[1].b, t->x) : best->value;
+        if (!t->exact) {
+            look(t, 1, slack, &value);
+        }
         if (value > best->value) {
             *best = (best_box){value, i};
         }
