@@ -96,7 +96,7 @@ study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
-list ^ patterns measures scenes integrators filters uses adaptive warps parameters
+list ^ patterns measures scenes integrators filters uses adaptive warps methods records parameters
 list patterns ^
 completion ^ bash zsh fish
 manual scen^ scene
