@@ -82,7 +82,7 @@ static int first_set(job *j, bool counted, koksma_points *from)
         status = status ? status : koksma_points_init(from, j->options.n, j->options.dim);
         status = status ? status : koksma_generate(&spec, j->options.seed, &j->work.run, from);
     }
-    j->options.from = from;
+    j->options.first = from;
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma verify`: which properties points have, and with --expect an exit code that tells whether some hold. */
+#include <koksma/optimise.h>
 #include <koksma/verify.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,6 +97,51 @@ static bool disappoints(const char *list, const char *source, const koksma_point
     return false;
 }
 
+/* --record: the exact value of the points beside that of the set that the pattern `record` has; *is_record: it is lower, or
+   there is none of so many points. */
+static int put_record(const cli_arguments *arguments, cli_rows *rows, const char *source, const koksma_points *points,
+                      const koksma_run *run, bool *is_record)
+{
+    koksma_spec star;
+    koksma_value value;
+    const koksma_record *r, *here = NULL;
+    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
+        here = r->n == points->n && r->dim == points->dim && !strcmp(r->measure, "star") ? r : here;
+    }
+    koksma_status status = koksma_measure_spec("star", &star);
+    status = status ? status : koksma_evaluate(&star, points, run, &value);
+    if (status) {
+        return cli_fail(arguments, status);
+    }
+    *is_record = !here || value.value < here->value - 1e-11; /* beyond the rounding of the coordinates here */
+    cli_row_text(rows, "source", source);
+    cli_row_whole(rows, "n", points->n);
+    cli_row_whole(rows, "dim", (uint64_t)points->dim);
+    cli_row_text(rows, "measure", "star");
+    cli_row_number(rows, "value", value.value);
+    cli_row_number(rows, "best_here", here ? here->value : (double)NAN);
+    cli_row_number(rows, "published", here && here->published > 0 ? here->published : (double)NAN);
+    cli_row_flag(rows, "record", *is_record);
+    cli_row_end(rows);
+    return CLI_YES;
+}
+
+/* The properties of the points; *missed: one of --expect does not hold. */
+static int put_findings(const cli_arguments *arguments, cli_rows *rows, const char *source,
+                        const koksma_points *points, cli_work *work, bool *missed)
+{
+    const char *expect = cli_text(arguments, "expect", NULL);
+    koksma_findings findings = {0};
+    const koksma_status status = koksma_verify(points, &work->run, &findings);
+    cli_work_end(work);
+    if (!status) {
+        put_rows(rows, source, points, &findings);
+        *missed = expect && disappoints(expect, source, points, &findings);
+    }
+    koksma_findings_fini(&findings);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
 static int run(const cli_arguments *arguments)
 {
     uint64_t seed;
@@ -116,18 +163,16 @@ static int run(const cli_arguments *arguments)
     int code = CLI_YES;
     for (int i = 0; i < arguments->n_operands && !code; i++) {
         koksma_points points = {0};
-        koksma_findings findings = {0};
-        code = get_points(arguments, arguments->operands[i], seed, &work.run, &points);
-        if (!code) {
-            const koksma_status status = koksma_verify(&points, &work.run, &findings);
-            cli_work_end(&work);
-            code = status ? cli_fail(arguments, status) : CLI_YES;
+        const char *source = arguments->operands[i];
+        bool one = false;
+        code = get_points(arguments, source, seed, &work.run, &points);
+        if (!code && cli_flag(arguments, "record")) {
+            code = put_record(arguments, rows, source, &points, &work.run, &one);
+            one = !one;
+        } else if (!code) {
+            code = put_findings(arguments, rows, source, &points, &work, &one);
         }
-        if (!code) {
-            put_rows(rows, arguments->operands[i], &points, &findings);
-            missed = missed || (expect && disappoints(expect, arguments->operands[i], &points, &findings));
-        }
-        koksma_findings_fini(&findings);
+        missed = missed || one;
         koksma_points_fini(&points);
     }
     const int rows_code = cli_rows_close(rows);
@@ -136,6 +181,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
+    {0, "record", NULL, "the star discrepancy beside the best known; exit with 1 unless it is lower"},
     {'s', "seed", "S", "seed for SPEC sources (default: 0)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
@@ -145,14 +191,15 @@ static const cli_option options[] = {
 const cli_command cli_command_verify = {
     .name = "verify",
     .summary = "check which properties points have",
-    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--json]",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-e PROPERTY,..] [--record] [--json]",
     .details =
         "Each property is one to wish for; 'yes' means that the points have it, and the detail explains the value.\n"
         "{property-meanings}"
         "\n"
         "Exit codes: 0 whatever the findings, without --expect; 1 when a property of --expect fails or was not "
         "looked\n"
-        "at; 2 for a wrong command line, as an unknown property; 3 for points that are missing or malformed.",
+        "at, or points of --record are no record; 2 for a wrong command line, as an unknown property; 3 for points "
+        "that are missing or malformed.",
     .examples = "koksma verify pattern:sobol@1024\n"
                 "koksma verify points.txt --expect distinct\n",
     .options = options,

@@ -9,7 +9,7 @@
  *     }
  *     koksma_optimum_fini(&best);
  *
- * Work proceeds in steps of a fixed amount: equal measure, n, dim, from, keep, seed and number of steps give equal
+ * Work proceeds in steps of a fixed amount: equal measure, n, dim, first, keep, seed and number of steps give equal
  * bits, for any number of threads.
  */
 #ifndef KOKSMA_OPTIMISE_H
@@ -42,7 +42,7 @@ typedef struct koksma_optimum {
 typedef struct koksma_optimise_options {
     size_t n; /* 1 or more */
     int dim;
-    const koksma_points *from; /* the first set, n points of dim; NULL: n Latin hypercube points, with
+    const koksma_points *first; /* the first set, n points of dim; NULL: n Latin hypercube points, with
                                   KOKSMA_KEEP_NET the first n of the Sobol' sequence */
     koksma_keep keep;
     uint64_t seed;

@@ -72,7 +72,7 @@ OptimiseProgress = CFUNCTYPE(c_bool, c_void_p, POINTER(Optimum))
 
 
 class OptimiseOptions(Structure):
-    _fields_ = [("n", c_size_t), ("dim", c_int), ("from_", POINTER(Points)), ("keep", c_int), ("seed", c_uint64),
+    _fields_ = [("n", c_size_t), ("dim", c_int), ("first", POINTER(Points)), ("keep", c_int), ("seed", c_uint64),
                 ("steps", c_uint64), ("progress", OptimiseProgress), ("context", c_void_p)]
 
 

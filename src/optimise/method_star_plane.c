@@ -572,6 +572,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     if (!status && !xs) {
         status = koksma__fail_memory(3 * n * sizeof *xs);
     }
+    const double accepted = 1.01 + 0.05 * koksma__next_unit(&s.random) + 1 / (double)n; /* of the best */
     bool again = koksma__next_below(&s.random, 4) == 0;
     double best = value * (double)n * (1 + 1e-9), F;
     while (!status && s.work < s.budget) {
@@ -581,7 +582,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
             draw_start(&s, xs);
         }
         status = take_points(&s, xs, order);
-        double limit = (again ? 1 : 1.015 + 2 / (double)n) * best;
+        double limit = (again ? 1 : accepted) * best;
         if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
             if (F < best) {
                 best = F;

@@ -91,8 +91,8 @@ static double lower_bound(const koksma_spec *measure, size_t n)
 static koksma_status first_set(const koksma_optimise_options *o, const koksma_run *run, koksma_points *points)
 {
     koksma_spec spec;
-    if (o->from) {
-        memcpy(points->xs, o->from->xs, o->n * (size_t)o->dim * sizeof(double));
+    if (o->first) {
+        memcpy(points->xs, o->first->xs, o->n * (size_t)o->dim * sizeof(double));
         return KOKSMA_OK;
     }
     const koksma_status status = koksma_pattern_spec(o->keep == KOKSMA_KEEP_NET ? "sobol" : "latin-hypercube", &spec);
@@ -105,10 +105,10 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, as star is",
                             measure->measure ? measure->measure->name : "koksma_optimise");
     }
-    const koksma_status status = o->from ? koksma__points_check(o->from) : KOKSMA_OK;
-    if (!status && o->from && (o->from->n != o->n || o->from->dim != o->dim)) {
-        return koksma__fail(KOKSMA_N, "the first set has %zu points of dim = %d, not %zu of %d", o->from->n,
-                            o->from->dim, o->n, o->dim);
+    const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;
+    if (!status && o->first && (o->first->n != o->n || o->first->dim != o->dim)) {
+        return koksma__fail(KOKSMA_N, "the first set has %zu points of dim = %d, not %zu of %d", o->first->n,
+                            o->first->dim, o->n, o->dim);
     }
     int best = 0;
     for (size_t i = 0; koksma_method_at(i); i++) {

@@ -5,8 +5,8 @@
  *
  *     x_ik = whole number / 10^12, from a table
  *
- * Known exactly: the least star discrepancies of 1 to 21 points in the plane (Clement, Doerr, Klamroth & Paquete 2023, to
- * four digits), .6180 and .3660 for 1 and 2 points to .0580 for 21.
+ * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 21 points in the
+ * plane (Clement, Doerr, Klamroth & Paquete 2023, to four digits), .6180 and .3660 for 1 and 2 points to .0580 for 21.
  */
 #include <koksma/optimise.h>
 

@@ -151,7 +151,7 @@ static void methods_gain_and_keep(void **state)
         koksma_points from =
             test_points(keep == KOKSMA_KEEP_NET ? "sobol" : "latin-hypercube", searches[i].n, searches[i].dim, 3);
         const koksma_optimise_options options = {
-            .n = searches[i].n, .dim = searches[i].dim, .from = &from, .keep = keep, .seed = 4, .steps = 2};
+            .n = searches[i].n, .dim = searches[i].dim, .first = &from, .keep = keep, .seed = 4, .steps = 2};
         const double before = test_measure(searches[i].measure, &from).value;
         koksma_optimum one = optimised(searches[i].measure, options, 1);
         assert_string_equal(one.method, searches[i].method);
@@ -218,11 +218,11 @@ static void ends_when_asked(void **state)
     assert_true(best.points.n == 8 && best.steps == 0);
     koksma_optimum_fini(&best);
     options.n = 9;
-    options.from = &(koksma_points){.n = 1, .dim = 1, .xs = (double[]){0.5}};
+    options.first = &(koksma_points){.n = 1, .dim = 1, .xs = (double[]){0.5}};
     assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_N);
     assert_null(best.points.xs);
     assert_ok(koksma_measure_spec("edge-sampled", &star));
-    options.from = NULL;
+    options.first = NULL;
     assert_int_equal(koksma_optimise(&star, &options, NULL, &best), KOKSMA_ARGUMENT);
 }
 

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""koksma.optimise against the program KOKSMA (in the environment)."""
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import koksma
+
+
+class Optimise(unittest.TestCase):
+    def test_same_set_as_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "o.npy")
+            row = json.loads(subprocess.run(
+                [os.environ["KOKSMA"], "optimise", "l2-star", "-n", "8", "--steps", "2", "-s", "3", "-o", path, "--json"],
+                check=True, capture_output=True, text=True).stdout)
+            best = koksma.optimise("l2-star", 8, steps=2, seed=3)
+            np.testing.assert_array_equal(best.points, np.load(path))
+            self.assertEqual((best.value, best.steps, best.last_gain, best.method),
+                             (row["value"], row["steps"], row["last_gain"], row["method"]))
+
+    def test_progress_goes_on_and_stops(self):
+        seen = []
+        best = koksma.optimise("star", 6, progress=lambda o: seen.append(o.value) or o.steps < 2)
+        self.assertEqual((best.steps, len(seen)), (2, 3))
+        self.assertEqual(seen, sorted(seen, reverse=True))
+        again = koksma.optimise("star", start=best.points, steps=1, seed=1)
+        self.assertLessEqual(again.value, best.value)
+        self.assertEqual(again.value, float(koksma.measure(again.points, "star")))
+
+    def test_latin_stays_latin(self):
+        start = koksma.generate("latin-hypercube", 12, 3)
+        kept = koksma.optimise("l2-centered", start=start, keep="latin", steps=1).points
+        np.testing.assert_array_equal(np.sort(kept, axis=0), np.sort(start, axis=0))
+
+    def test_errors(self):
+        for arguments in ({"keep": "all", "n": 4, "steps": 1}, {"steps": 1}, {"n": 4}, {"n": 0, "steps": 1}):
+            with self.assertRaises(koksma.ArgumentError):
+                koksma.optimise("star", **arguments)
+        with self.assertRaises(ZeroDivisionError):
+            koksma.optimise("star", 4, progress=lambda o: 1 / 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
