@@ -85,11 +85,11 @@ rank ^ $(all scenes) FILES
 rank ball --patterns ^ thesis later $(all patterns)
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
-study ^ run new estimate export report images
+study ^ run new estimate export report audit images
 study run ^ shirley1991 mitchell1992 open-questions FILES
 study estimate ^ shirley1991 mitchell1992 open-questions FILES
 study export ^ FILES
-study export x --format ^ csv json npy
+study export x --format ^ csv json npy sha256
 study export x --format=js^ json
 study images ^ FILES
 study images x --reference ^ FILES

@@ -7,7 +7,7 @@ declared=$(grep -hv '#define' include/koksma/*.h | tr '\n' ' ' | grep -oE 'KOKSM
 shown=$(nm -D --defined-only "$1" "$2" | awk 'NF == 3 && $2 != "A" {print $3}' |
   grep -vE '^(___?(asan|odr_asan|ubsan|sanitizer|interceptor|lsan)|_edata|_end|__bss_start|_fini|_init)' | sort)
 public=$(echo "$shown" | sed -n 's/@@KOKSMA_[0-9]*$//p')
-rest=$(echo "$shown" | grep -vE '^koksma_[a-z0-9_]*@@KOKSMA_[0-9]*$|^koksma__[a-z_]*@@KOKSMA_PRIVATE_[0-9.]*$')
+rest=$(echo "$shown" | grep -vE '^koksma_[a-z0-9_]*@@KOKSMA_[0-9]*$|^koksma__[a-z0-9_]*@@KOKSMA_PRIVATE_[0-9.]*$')
 code=0
 [ -z "$rest" ] || { echo "symbols that nobody may see:" "$rest"; code=1; }
 [ -n "$declared" ] && [ "$declared" = "$public" ] || {

@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "stats/log_gamma.h"
@@ -42,7 +43,7 @@ static void differ(audit *a, const char *format, ...)
     char text[2048];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
+    koksma__vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     pthread_mutex_lock(&a->lock);
     a->out->differences++;
@@ -195,9 +196,9 @@ static koksma_status put_job(void *context, const koksma__task *t, const koksma_
 
 /* ---- References ---------------------------------------------------------------------------------------- */
 
-/* The file, where there is one; *same: its pixels have this hash. Errors in it are differences. */
-static void check_file(audit *a, const koksma__reference_image *reference, const char *pixels, const char *name,
-                       bool *same)
+/* The file, where there is one; *same: its pixels have this hash. What is wrong with it is a difference. */
+static koksma_status check_file(audit *a, const koksma__reference_image *reference, const char *pixels,
+                                const char *name, bool *same)
 {
     char path[KOKSMA__PATH], found[KOKSMA__SHA256_TEXT];
     koksma_image image;
@@ -205,13 +206,17 @@ static void check_file(audit *a, const koksma__reference_image *reference, const
         pthread_mutex_lock(&a->lock);
         a->out->references_missing++;
         pthread_mutex_unlock(&a->lock);
-        return;
+        return KOKSMA_OK;
     }
     koksma__reference_path(a->study, reference, path, sizeof path);
-    if (koksma_image_read(path, &image)) {
+    const koksma_status status = koksma_image_read(path, &image);
+    if (koksma__ends_all(status)) {
+        return status;
+    }
+    if (status) {
         *same = false;
         differ(a, "reference %s of %s: %s", name, reference->scene->name, koksma_error_text());
-        return;
+        return KOKSMA_OK;
     }
     koksma__reference_pixels(&image, found);
     koksma_image_fini(&image);
@@ -219,6 +224,7 @@ static void check_file(audit *a, const koksma__reference_image *reference, const
         *same = false;
         differ(a, "reference %s of %s: %s has other pixels", name, reference->scene->name, path);
     }
+    return KOKSMA_OK;
 }
 
 static koksma_status put_reference(void *context, const koksma__reference_image *reference,
@@ -229,7 +235,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
     const koksma__series key = koksma__reference_key(reference, name);
     koksma__reference_row row;
     bool same = true;
-    const koksma_status status = koksma__store_reference(a->study->store, &key, &row);
+    koksma_status status = koksma__store_reference(a->study->store, &key, &row);
     if (status) {
         return status;
     }
@@ -243,12 +249,12 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
         differ(a, "reference %s of %s: its own error %.17g is stored, and %.17g is made", name,
                reference->scene->name, row.standard_error, made->standard_error);
     }
-    check_file(a, reference, made->pixels, name, &same);
+    status = check_file(a, reference, made->pixels, name, &same);
     pthread_mutex_lock(&a->lock);
     a->out->references++;
     a->out->references_agree += same;
     pthread_mutex_unlock(&a->lock);
-    return KOKSMA_OK;
+    return status;
 }
 
 /* ---- The whole ----------------------------------------------------------------------------------------- */
@@ -269,9 +275,14 @@ static koksma_status list_series(audit *a)
         if (!s->rows) {
             continue;
         }
-        if (koksma__audit_check(a->study, &a->list, s, &here)) {
+        status = koksma__audit_check(a->study, &a->list, s, &here);
+        if (koksma__ends_all(status)) {
+            return status;
+        }
+        if (status) {
             koksma__audit_name(&s->key, s->end - 1, name, sizeof name);
             differ(a, "%s: can't be made again: %s", name, koksma_error_text());
+            status = KOKSMA_OK;
         }
         if (s->state == KOKSMA__AUDIT_OTHER && !a->out->other_rows) {
             snprintf(a->out->other, sizeof a->out->other, "%.24s; %.24s (here: %.24s; %.24s)", s->key.made_by,
@@ -294,8 +305,8 @@ static koksma_status compare(audit *a, const koksma_run *run)
     koksma_status status = koksma__store_scan(a->study->store, draw_row, a);
     status = koksma__run_kind(a->study, false, &control, status, &summary, &failures);
     status = koksma__run_kind(a->study, true, &control, status, &summary, &failures);
-    const bool of_all = status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO;
-    if (status && !of_all) { /* a reference that can't be made: a store must not choose the exit code */
+    if (status &&
+        !koksma__ends_all(status)) { /* a reference that can't be made: a store must not choose the exit code */
         differ(a, "%s", koksma_error_text());
         status = KOKSMA_OK;
     }

@@ -289,10 +289,14 @@ koksma_status koksma__task_put(const koksma_study *study, const koksma__task *ta
                        : koksma__store_put(study->store, task->series, results, task->n_series);
 }
 
+bool koksma__ends_all(koksma_status status)
+{
+    return status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO || status == KOKSMA_SYSTEM;
+}
+
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status)
 {
-    const bool of_all = status == KOKSMA_INTERRUPTED || status == KOKSMA_MEMORY || status == KOKSMA_IO;
-    return status == KOKSMA_IMPOSSIBLE || (study->sink && status && !of_all);
+    return status == KOKSMA_IMPOSSIBLE || (study->sink && status && !koksma__ends_all(status));
 }
 
 /* ---- One job ------------------------------------------------------------------------------------------- */

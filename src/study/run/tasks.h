@@ -70,6 +70,9 @@ koksma_status koksma__task_do(const koksma_study *study, const koksma__task *tas
 /* Puts the results of a job into the store, or where else they go. */
 koksma_status koksma__task_put(const koksma_study *study, const koksma__task *task, const koksma__result *results);
 
+/* Whether a failure is of the machine or the caller, and not of one job. */
+bool koksma__ends_all(koksma_status status);
+
 /* Whether the other jobs go on when one has failed so: it is impossible; in an audit also for another reason of its
    own. */
 bool koksma__task_failed_alone(const koksma_study *study, koksma_status status);
