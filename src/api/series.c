@@ -29,7 +29,7 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     for (size_t i = 0; i < n_sizes && !status; i++) {
         const koksma_points prefix = {sizes[i], points->dim, points->xs};
         if (prefix.n == 0 || prefix.n > points->n) {
-            return koksma__fail(KOKSMA_N, "sizes[%zu] = %zu points: the set has %zu", i, prefix.n, points->n);
+            return koksma__fail(KOKSMA_N, "prefixes: %zu points: the set has %zu", prefix.n, points->n);
         }
         status = koksma_evaluate(measure, &prefix, run, &values[i]);
     }

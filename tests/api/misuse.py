@@ -102,7 +102,7 @@ WRONG = {
 
 # What a text may call an argument, beside its name and that of the struct's member.
 SYNONYMS = {"params": ["takes"], "n": ["point", "points", "panels", "layers"], "width": ["pixels"], "height": ["pixels"],
-            "size": ["bytes"], "n_sizes": ["sizes"], "bins": ["bins"], "n_uses": ["uses"], "uses": ["use"], "n_plans": ["results"], "folder": ["folder"], "places": ["path"], "xs": ["point", "points", "coordinate"], "dim": ["dimensions", "dimensional"],
+            "size": ["bytes"], "n_sizes": ["sizes"], "sizes": ["prefixes"], "n_uses": ["uses"], "uses": ["use"], "n_plans": ["results"], "folder": ["folder"], "places": ["path"], "xs": ["point", "points", "coordinate"], "dim": ["dimensions", "dimensional"],
             "x": ["corner"], "path": ["characters"]}
 
 

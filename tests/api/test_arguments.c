@@ -93,10 +93,11 @@ static void warps_ask_for_a_measure(void **state)
     assert_int_equal(koksma_warp_evaluate(NULL, &spec, &p, NULL, &value), KOKSMA_ARGUMENT);
     assert_ok(koksma_warp_evaluate(lens, &spec, &p, NULL, &value));
     static const double odd[] = {NAN, -1, 1e9, INFINITY};
+    const double before = value.value;
     for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
         spec.params[0] = odd[i];
         assert_int_equal(koksma_warp_evaluate(lens, &spec, &p, NULL, &value), KOKSMA_ARGUMENT);
-        assert_true(isnan(value.value));
+        assert_true(value.value == before);
     }
 }
 
