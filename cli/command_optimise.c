@@ -182,6 +182,9 @@ const cli_command cli_command_optimise = {
                "be ended by Ctrl-C (exit code 130) or a kill, and --from FILE goes on.\n"
                "--keep latin only changes which coordinates go together; --keep net leaves each in its interval of "
                "length 1/n.",
+    .examples = "koksma optimise star -n 64 --time-limit 60 -o best.txt\n"
+                "koksma optimise star -n 64 --from best.txt --time-limit 60 -o best.txt\n"
+                "koksma optimise l2-centered -n 50 -d 5 --keep latin --steps 4 -o design.csv\n",
     .options = options,
     .run = run,
 };

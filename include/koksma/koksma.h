@@ -79,8 +79,8 @@ KOKSMA_API const char *koksma_error_text(void);
 typedef const char *koksma_name_at(const void *table, size_t i);
 
 /* Returns the name of a table that a misspelt word was most likely meant to be, for "did you mean"; NULL if none is
-   near, or word is NULL, empty or longer than 64 characters. Case does not count.
-     name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL */
+   near, or word is empty or longer than 64 characters. Case does not count.
+     name, table  name(table, i) is called for i = 0, 1, ... until it returns NULL; table may be NULL */
 KOKSMA_API const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table);
 /* Makes a text one line of valid UTF-8, as error texts are: control characters and bytes that are no UTF-8 (a file's
    name may hold any) become \xNN. size: bytes that there is room for at text; what no longer fits is cut. text may be

@@ -53,8 +53,9 @@ static size_t edits(const char *a, size_t n, const char *b, size_t m)
 
 const char *koksma_closest_name(const char *word, koksma_name_at *name, const void *table)
 {
-    const size_t length = word ? strlen(word) : 0;
-    if (length == 0 || length > MAX_WORD || !name) {
+    KOKSMA__REQUIRE_OR(NULL, word, name);
+    const size_t length = strlen(word);
+    if (length == 0 || length > MAX_WORD) {
         return NULL;
     }
     const char *closest = NULL, *candidate;

@@ -279,6 +279,22 @@ static void *a_study(void)
     return study;
 }
 
+static void *audit_options(void)
+{
+    return COPY(koksma_audit_options, {.folder = work_path("done"), .rows = 1});
+}
+
+static void *optimise_options(void)
+{
+    return COPY(koksma_optimise_options, {.n = 8, .dim = 2, .steps = 1});
+}
+
+static const char *a_name(const void *table, size_t i)
+{
+    (void)table;
+    return i < 2 ? (const char *const[]){"jittered", "random"}[i] : NULL;
+}
+
 static void *a_sequence(void)
 {
     const koksma_sobol sequence = koksma_sobol_of((koksma_domain){7});

@@ -34,6 +34,7 @@ while read -r command; do
     *.obj*) [ "$meshes" -eq 1 ] && command="$command --size 32x32 -q" || command=true ;;
     'koksma verify '*) command="$command || [ \$? -eq 1 ]" ;; # "no" is an answer
     'koksma manual '*) command -v man >/dev/null || command=true ;;
+    'koksma optimise '*) command=$(echo "$command" | sed 's/--time-limit [0-9]*/--steps 2/') ;;
     'koksma render '*) command="$command --size 32x32 -q" ;;
   esac
   if ! timeout 3000 sh -c "$command" >out 2>&1 </dev/null; then
