@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * L-BFGS (Nocedal 1980; Nocedal & Wright 2006, algorithm 7.4) with a backtracking line search. Coordinates move on the whole
+ * axis for functions on the torus, and are taken back to [0,1); else they are projected to their intervals: [0,1], or those
+ * of length 1/n.
+ *
+ * Starts: half of them are the best set in which some points are drawn anew or all are moved a little; the others points
+ * {i a + s}, a and s random vectors, or random points.
+ */
+#include "optimise/descent.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+enum { HALVINGS = 20 };
+
+static double dot(size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+static koksma_status value_at(koksma__descent *d, double *square)
+{
+    d->work += d->cost;
+    if (!d->bounded) {
+        for (size_t c = 0; c < d->count; c++) {
+            d->points.xs[c] -= floor(d->points.xs[c]);
+            d->points.xs[c] *= d->points.xs[c] < 1;
+        }
+    }
+    return d->function(d->context, &d->points, square, d->gradient);
+}
+
+/* direction = - H gradient, H the inverse Hessian that the last steps tell of (two-loop recursion). */
+static void find_direction(koksma__descent *d)
+{
+    const size_t n = d->count, kept = d->kept < KOKSMA__MEMORY ? d->kept : KOKSMA__MEMORY;
+    double alpha[KOKSMA__MEMORY];
+    for (size_t c = 0; c < n; c++) {
+        d->direction[c] = -d->gradient[c];
+    }
+    for (size_t k = 0; k < kept; k++) {
+        const size_t at = (d->kept - 1 - k) % KOKSMA__MEMORY;
+        alpha[at] = dot(n, d->steps + at * n, d->direction) / d->products[at];
+        for (size_t c = 0; c < n; c++) {
+            d->direction[c] -= alpha[at] * d->changes[at * n + c];
+        }
+    }
+    if (kept) {
+        const size_t last = (d->kept - 1) % KOKSMA__MEMORY;
+        const double scale = d->products[last] / dot(n, d->changes + last * n, d->changes + last * n);
+        for (size_t c = 0; c < n; c++) {
+            d->direction[c] *= scale;
+        }
+    }
+    for (size_t k = kept; k-- > 0;) {
+        const size_t at = (d->kept - 1 - k) % KOKSMA__MEMORY;
+        const double beta = dot(n, d->changes + at * n, d->direction) / d->products[at];
+        for (size_t c = 0; c < n; c++) {
+            d->direction[c] += (alpha[at] - beta) * d->steps[at * n + c];
+        }
+    }
+}
+
+/* x = before + t direction, in its intervals; what it is moved by is left in `steps`. */
+static void move_by(koksma__descent *d, double t, double *step)
+{
+    for (size_t c = 0; c < d->count; c++) {
+        double x = d->before[c] + t * d->direction[c];
+        if (d->bounded) {
+            x = fmin(fmax(x, d->low[c]), d->low[c] + d->length);
+        }
+        step[c] = x - d->before[c];
+        d->points.xs[c] = x;
+    }
+}
+
+/* Keeps a step if the curvature along it is positive. */
+static void keep_step(koksma__descent *d, const double *step)
+{
+    const size_t n = d->count, at = d->kept % KOKSMA__MEMORY;
+    double *s = d->steps + at * n, *y = d->changes + at * n;
+    for (size_t c = 0; c < n; c++) {
+        y[c] = d->gradient[c] - d->gradient_before[c];
+        s[c] = step[c];
+    }
+    d->products[at] = dot(n, s, y);
+    d->kept += d->products[at] > 1e-10 * sqrt(dot(n, s, s) * dot(n, y, y));
+}
+
+koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
+{
+    double *step = d->steps - d->count;
+    const size_t n = d->count;
+    double square, next = 0;
+    koksma_status status = value_at(d, &square);
+    d->kept = 0;
+    for (int k = 0; k < iterations && !status && d->work < d->budget; k++) {
+        find_direction(d);
+        double slope = dot(n, d->gradient, d->direction);
+        if (!(slope < 0)) { /* the curvature is not that of before */
+            d->kept = 0;
+            find_direction(d);
+            slope = dot(n, d->gradient, d->direction);
+        }
+        memcpy(d->before, d->points.xs, n * sizeof(double));
+        memcpy(d->gradient_before, d->gradient, n * sizeof(double));
+        /* The first step is a tenth of the mean spacing. */
+        double t = d->kept ? 1 : 0.1 * pow((double)d->points.n, -1.0 / d->points.dim) / sqrt(-slope / (double)n);
+        int halvings = 0;
+        for (; halvings < HALVINGS && !status; halvings++, t /= 2) {
+            move_by(d, t, step);
+            status = value_at(d, &next);
+            if (next <= square + 1e-4 * dot(n, d->gradient_before, step)) {
+                break;
+            }
+        }
+        if (status || halvings == HALVINGS) {
+            move_by(d, 0, step);
+            break;
+        }
+        const bool ends = square - next <= 1e-12 * square;
+        square = next;
+        keep_step(d, step);
+        if (ends) {
+            break;
+        }
+    }
+    *least = square;
+    return status;
+}
+
+/* The best set, from which some points are drawn anew, or all are moved by up to a third of the mean spacing. */
+static void kick(koksma__descent *d, koksma__stream *random)
+{
+    const size_t n = d->points.n, dim = (size_t)d->points.dim;
+    const double spacing = d->length * pow((double)n, -1.0 / d->points.dim);
+    const double reach = koksma__next(random) % 2 ? spacing / 3 * koksma__next_unit(random) : 0;
+    const size_t most = (size_t)1 << koksma__next_below(random, 5), some = 1 + koksma__next_below(random, most);
+    for (size_t m = 0; m < (reach > 0 ? n : some); m++) {
+        const size_t i = reach > 0 ? m : koksma__next_below(random, n);
+        for (size_t c = i * dim; c < (i + 1) * dim; c++) {
+            const double u = koksma__next_unit(random);
+            const double x = reach > 0 ? d->points.xs[c] + reach * (2 * u - 1) : d->low[c] + u * d->length;
+            d->points.xs[c] = d->bounded ? fmin(fmax(x, d->low[c]), d->low[c] + d->length) : x;
+        }
+    }
+}
+
+/* {i a + s}: half of them with an axis i / n + s, of these half with multiples of 1/n as a, which are lattices of rank 1. */
+static void draw_kronecker(koksma__descent *d, koksma__stream *random)
+{
+    const double n = (double)d->points.n;
+    const uint32_t kind = koksma__next(random) % 4;
+    for (int k = 0; k < d->points.dim; k++) {
+        const double u = koksma__next_unit(random), shift = koksma__next_unit(random);
+        const double a = kind > 1 && k == 0 ? 1 / n : kind == 3 ? floor(n * u) / n : u;
+        for (size_t i = 0; i < d->points.n; i++) {
+            const double x = (double)i * a + shift;
+            d->points.xs[i * (size_t)d->points.dim + (size_t)k] = (x - floor(x)) * d->length;
+        }
+    }
+}
+
+void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random)
+{
+    memcpy(d->points.xs, best->xs, d->count * sizeof(double));
+    const double u = koksma__next_unit(random);
+    if (u < 0.5) {
+        kick(d, random);
+    } else if (keep == KOKSMA_KEEP_NONE && u < 0.9) {
+        draw_kronecker(d, random);
+    } else {
+        for (size_t c = 0; c < d->count; c++) {
+            d->points.xs[c] = d->low[c] + d->length * koksma__next_unit(random);
+        }
+    }
+}
+
+koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *points, koksma_keep keep, bool bounded,
+                                   double cost)
+{
+    const size_t n = points->n * (size_t)points->dim, bytes = (7 + 2 * KOKSMA__MEMORY) * n * sizeof(double);
+    *d = (koksma__descent){.bounded = bounded, .count = n, .cost = cost};
+    d->points = (koksma_points){points->n, points->dim, malloc(bytes)};
+    if (!d->points.xs) {
+        return koksma__fail_memory(bytes);
+    }
+    d->low = d->points.xs + n;
+    d->gradient = d->low + n;
+    d->direction = d->gradient + n;
+    d->before = d->direction + n;
+    d->gradient_before = d->before + n;
+    d->steps = d->gradient_before + 2 * n; /* the last step, not yet kept, lies before them */
+    d->changes = d->steps + KOKSMA__MEMORY * n;
+    d->budget = fmax(3e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or one descent */
+    d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
+    for (size_t c = 0; c < n; c++) {
+        d->low[c] =
+            keep == KOKSMA_KEEP_NET ? (floor(points->xs[c] * (double)points->n) + 1e-9) / (double)points->n : 0;
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__descent_fini(koksma__descent *d)
+{
+    free(d->points.xs);
+}
