@@ -81,9 +81,9 @@ VALID = {
     "koksma_mask_void_and_cluster.size": "4", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")",
-    "koksma_name_at *": "a_name", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_buffer(16)",
+    "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_buffer(16)",
     "koksma_text_escape.size": "16", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
-    "koksma_method_find.name": "\"permutation\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-star\")",
+    "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-star\")",
     "koksma_optimum *": "a_buffer(sizeof(koksma_optimum))", "koksma_optimum_fini.best": "a_zero(sizeof(koksma_optimum))",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     # Inline functions.

@@ -5,14 +5,14 @@
 
 #include "comma.h"
 
-static void path_of(const char *name, char path[160])
+static void path_of(const char *name, char path[192])
 {
-    snprintf(path, 160, "%s/%s", test_folder, name);
+    snprintf(path, 192, "%.60s/%.100s", test_folder, name);
 }
 
 static void write_text(const char *name, const char *text)
 {
-    char path[160];
+    char path[192];
     path_of(name, path);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -25,7 +25,7 @@ static void write_text(const char *name, const char *text)
 /* A picture of a scene through a PFM file, or why there is none. */
 static void take_picture(FILE *out, const char *name)
 {
-    char path[160];
+    char path[192];
     koksma_scene *scene;
     koksma_render_options options;
     koksma_image image;
@@ -93,7 +93,7 @@ static void make_models(FILE *out)
 {
     static const char *const names[] = {"model.obj", "model.ply", "model.off", "model.gltf"};
     static const float corners[9] = {-0.5F, -0.5F, 0, 0.5F, -0.25F, 0.25F, 0.125F, 0.75F, 0};
-    char path[160];
+    char path[192];
     path_of("triangle.bin", path);
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
@@ -202,7 +202,7 @@ static const char plan[] =
 /* Opens a study in a folder, runs it (a second time there is nothing to do) and writes its report. */
 static void run_study(const char *folder)
 {
-    char path[160];
+    char path[192];
     path_of("plan.json", path);
     const char *plans[] = {path};
     const koksma_study_options options = {.plans = plans, .n_plans = 1, .folder = folder};
@@ -221,7 +221,7 @@ static void make_study(FILE *out)
         const char *name;
     } exports[] = {{KOKSMA_EXPORT_CSV, "export.csv"}, {KOKSMA_EXPORT_JSON, "export.json"}};
     static int number;
-    char folder[96], path[160];
+    char folder[192], path[192];
     snprintf(path, sizeof path, "study%d", number++);
     path_of(path, folder);
     write_text("plan.json", plan);
@@ -236,7 +236,7 @@ static void make_study(FILE *out)
 /* The report of one folder, made again. */
 static void make_report(FILE *out)
 {
-    char folder[96], path[128];
+    char folder[192], path[192];
     path_of("study", folder);
     write_text("plan.json", plan);
     run_study(folder);
