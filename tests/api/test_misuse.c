@@ -23,6 +23,7 @@ static void asserted(const char *condition);
 #define KOKSMA_ASSERT(condition) ((condition) ? (void)0 : asserted(#condition))
 
 #include <koksma/adaptive.h>
+#include <koksma/optimise.h>
 #include <koksma/mask.h>
 #include <koksma/series.h>
 #include <koksma/study.h>
