@@ -18,11 +18,11 @@ function system(memory) {
         return 0;
       },
       environ_sizes_get: zeros, environ_get: () => 0,
-      fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file,
+      fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file, fd_fdstat_get: no_file,
     },
     env: {
       emscripten_notify_memory_growth: () => {},
-      __syscall_fstat64: no_entry, __syscall_stat64: no_entry, __syscall_fstatat64: no_entry,
+      __syscall_fstat64: no_entry, __syscall_stat64: no_entry, __syscall_fstatat64: no_entry, __syscall_lstat64: no_entry,
     },
   };
 }
