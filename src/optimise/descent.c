@@ -200,7 +200,7 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
     d->gradient_before = d->before + n;
     d->steps = d->gradient_before + 2 * n; /* the last step, not yet kept, lies before them */
     d->changes = d->steps + KOKSMA__MEMORY * n;
-    d->budget = fmax(3e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or one descent */
+    d->budget = fmax(1.5e7, KOKSMA__ITERATIONS * cost); /* some tenths of a second, or one descent */
     d->length = keep == KOKSMA_KEEP_NET ? (1 - 2e-9) / (double)points->n : 1 - 0x1p-53;
     for (size_t c = 0; c < n; c++) {
         d->low[c] =

@@ -32,12 +32,12 @@
 #include "measures/shared/order.h"
 #include "optimise/methods.h"
 
-enum { MAX_N = 4096, PATIENCE = 3000, ACCEPTED = 8, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
+enum { MAX_N = 4096, PATIENCE = 1500, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
 
 /* Corners looked at in one search: some tenths of a second. */
 static double budget_of(size_t n)
 {
-    return 1e7 + 1e6 * (double)n;
+    return 2e7 + 3e5 * (double)n;
 }
 
 /* Violations below this many points are rounding. */
@@ -308,7 +308,7 @@ static bool relax(plane *s, uint32_t node, double F)
             return false;
         }
     }
-    s->work += (double)side + 256;
+    s->work += (double)side + 32;
     return true;
 }
 
@@ -382,6 +382,17 @@ static bool beside(size_t rank, size_t j, size_t reach, bool above)
     return above ? rank > j && rank <= j + reach : rank <= j && rank + reach > j;
 }
 
+/* A whole number from 1 to most, about log-uniform. */
+static size_t log_uniform(koksma__stream *random, size_t most)
+{
+    int bits = 0;
+    while (most >> bits > 1) {
+        bits++;
+    }
+    const size_t d = 1 + koksma__next_below(random, (size_t)1 << koksma__next_below(random, (size_t)bits + 1));
+    return d < most ? d : most;
+}
+
 /* A swap that lowers the count of a corner with too many points of the critical cycle, or raises one with too few. */
 static bool draw_swap(plane *s, swap *w)
 {
@@ -391,9 +402,11 @@ static bool draw_swap(plane *s, swap *w)
         return false;
     }
     const bool many = e.sign > 0;
-    const size_t reach = (size_t)sqrt((double)n) << koksma__next_below(&s->random, 2);
-    const size_t before = i < reach ? i : reach, after = n - i < reach ? n - i : reach;
-    size_t a = i - koksma__next_below(&s->random, before), b = i + 1 + koksma__next_below(&s->random, after);
+    /* Half of the swaps are of points within about sqrt(n) ranks of the corner, the others of any. */
+    const size_t reach = koksma__next(&s->random) % 2 ? (size_t)sqrt((double)n) : n;
+    const size_t before = log_uniform(&s->random, i < reach ? i : reach),
+                 after = log_uniform(&s->random, n - i < reach ? n - i : reach);
+    size_t a = i + 1 - before, b = i + after;
     for (size_t left = reach; left && a && !beside(s->rank[a], j, reach, !many); left--) {
         a--;
     }
@@ -443,7 +456,7 @@ static bool move(plane *s, double limit)
 {
     swap w[2];
     const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
-    s->work += 1000;
+    s->work += 100;
     if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, limit, &w[0]))) {
         return false;
     }
@@ -483,15 +496,13 @@ static void write_points(const plane *s, koksma_points *points)
     }
 }
 
-/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. Between exact values,
-   which are found after each ACCEPTED moves and where *best may be beaten, the limit stays and the kept cycles lead. */
+/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
     const double threshold = F * 0.03 * koksma__next_unit(&s->random);
     double limit = F + threshold;
-    size_t accepted = 0;
     for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
-        if (!move(s, limit) || (estimate(s) >= *best && ++accepted % ACCEPTED)) {
+        if (!move(s, limit)) {
             continue;
         }
         double to = limit;
@@ -500,8 +511,8 @@ static void walk(plane *s, double F, double *best, koksma_points *points)
         }
         if (to < F) {
             m = 0;
-            F = to;
         }
+        F = to;
         if (to < *best) {
             *best = to;
             write_points(s, points);
