@@ -11,24 +11,23 @@
 #include "curves.h"
 #include "texts.h"
 
-static const struct {
+typedef struct claim_line {
     unsigned claim;
     const char *name, *meaning;
-} claim_lines[] = {
+} claim_line;
+
+static const claim_line claim_lines[] = {
 #define KOKSMA_CLAIM(id, bit, name, meaning) {KOKSMA_CLAIM_##id, name, meaning},
 #include <koksma/claims.def>
 #undef KOKSMA_CLAIM
 };
 
-/* The last columns of a row. cite: NULL: no source */
-static void end_row(cli_rows *rows, const char *cite, const char *title)
-{
-    if (cite) {
-        cli_row_text(rows, "source", cite);
-    }
-    cli_row_text(rows, "what", title);
-    cli_row_end(rows);
-}
+enum { N_CLAIMS = sizeof claim_lines / sizeof *claim_lines };
+
+static const char *const domains[] = {[KOKSMA_DOMAIN_DISK] = "disk",
+                                      [KOKSMA_DOMAIN_TRIANGLE] = "triangle",
+                                      [KOKSMA_DOMAIN_HEMISPHERE] = "hemisphere",
+                                      [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "hemisphere, density z/pi"};
 
 static void put_dims(cli_rows *rows, int min_dim, int max_dim)
 {
@@ -53,93 +52,78 @@ static void put_params(cli_rows *rows, const koksma_param *params)
     cli_row_text(rows, "parameters", *text ? text : "-");
 }
 
-static void list_patterns(cli_rows *rows)
+static void put_claims(cli_rows *rows, unsigned of)
 {
-    const koksma_pattern *p;
-    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        char claims[256] = "";
-        for (size_t c = 0; c < sizeof claim_lines / sizeof *claim_lines; c++) {
-            if (p->claims & claim_lines[c].claim) {
-                const size_t used = strlen(claims);
-                snprintf(claims + used, sizeof claims - used, "%s%s", used ? "," : "", claim_lines[c].name);
-            }
+    char text[256] = "";
+    for (size_t c = 0; c < N_CLAIMS; c++) {
+        const size_t used = strlen(text);
+        if (of & claim_lines[c].claim) {
+            snprintf(text + used, sizeof text - used, "%s%s", used ? "," : "", claim_lines[c].name);
         }
-        cli_row_text(rows, "pattern", p->name);
-        put_dims(rows, p->min_dim, p->max_dim);
-        put_params(rows, p->params);
-        cli_row_text(rows, "claims", *claims ? claims : "-");
-        end_row(rows, p->cite, p->title);
     }
+    cli_row_text(rows, "claims", *text ? text : "-");
 }
 
-static void list_measures(cli_rows *rows)
+/* An error is about files of a package that is not installed. */
+static void put_scene_title(cli_rows *rows, const char *name)
 {
-    const koksma_measure *m;
-    for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
-        cli_row_text(rows, "measure", m->name);
-        put_dims(rows, m->min_dim, m->max_dim);
-        put_params(rows, m->params);
-        cli_row_text(rows, "cost", m->cost);
-        end_row(rows, m->cite, m->title);
-    }
+    koksma_scene *scene = NULL;
+    const koksma_status status = koksma_scene_open(name, &scene);
+    cli_row_text(rows, "what", status ? koksma_error_text() : koksma_scene_title(scene));
+    koksma_scene_close(scene);
 }
 
-static void list_scenes(cli_rows *rows)
-{
-    for (size_t i = 0; koksma_scene_name_at(i); i++) {
-        koksma_scene *scene;
-        cli_row_text(rows, "scene", koksma_scene_name_at(i));
-        /* an error: files of a package that is not installed */
-        const bool opened = !koksma_scene_open(koksma_scene_name_at(i), &scene);
-        end_row(rows, NULL, opened ? koksma_scene_title(scene) : koksma_error_text());
-        koksma_scene_close(opened ? scene : NULL);
+/* list_TABLE: a row for each x that `next` finds as item i, with its name and `columns`. */
+#define LIST(table, noun, type, next, name, columns)                                                                 \
+    static void list_##table(cli_rows *rows)                                                                         \
+    {                                                                                                                \
+        type x;                                                                                                      \
+        for (size_t i = 0; next; i++) {                                                                              \
+            cli_row_text(rows, noun, name);                                                                          \
+            columns;                                                                                                 \
+            cli_row_end(rows);                                                                                       \
+        }                                                                                                            \
     }
-}
+#define SOURCE(x) cli_row_text(rows, "source", (x)->cite), cli_row_text(rows, "what", (x)->title)
 
-static void list_integrators(cli_rows *rows)
-{
-    const koksma_integrator *in;
-    for (size_t i = 0; (in = koksma_integrator_at(i)); i++) {
-        cli_row_text(rows, "integrator", in->name);
-        cli_row_whole(rows, "depth", (uint64_t)in->depth);
-        end_row(rows, in->cite, in->title);
-    }
-}
-
-static void list_filters(cli_rows *rows)
-{
-    const koksma_filter *f;
-    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
-        cli_row_text(rows, "filter", f->name);
-        cli_row_number(rows, "radius", f->radius);
-        end_row(rows, f->cite, f->title);
-    }
-}
-
-static void list_adaptive(cli_rows *rows)
-{
-    const koksma_adaptive *a;
-    for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
-        cli_row_text(rows, "method", a->name);
-        put_params(rows, a->params);
-        cli_row_text(rows, "samples", a->own_samples ? "own strata" : "sets of the pattern");
-        end_row(rows, a->cite, a->title);
-    }
-}
-
-static void list_warps(cli_rows *rows)
-{
-    static const char *const domains[] = {[KOKSMA_DOMAIN_DISK] = "disk",
-                                          [KOKSMA_DOMAIN_TRIANGLE] = "triangle",
-                                          [KOKSMA_DOMAIN_HEMISPHERE] = "hemisphere",
-                                          [KOKSMA_DOMAIN_HEMISPHERE_COSINE] = "hemisphere, density z/pi"};
-    const koksma_warp *w;
-    for (size_t i = 0; (w = koksma_warp_at(i)); i++) {
-        cli_row_text(rows, "warp", w->name);
-        cli_row_text(rows, "domain", domains[w->domain]);
-        end_row(rows, w->cite, w->title);
-    }
-}
+LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name,
+     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims), SOURCE(x)))
+LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name,
+     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "cost", x->cost),
+      SOURCE(x)))
+LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name,
+     cli_row_text(rows, "what", x->meaning))
+LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name,
+     cli_row_text(rows, "what", x->meaning))
+LIST(warps, "warp", const koksma_warp *, (x = koksma_warp_at(i)), x->name,
+     (cli_row_text(rows, "domain", domains[x->domain]), SOURCE(x)))
+LIST(curves, "curve", const cli_curve *, (x = cli_curve_at(i)), x->name,
+     (cli_row_text(rows, "by",
+                   !x->print.options ? "plot"
+                   : x->plot.options ? "curve,plot"
+                                     : "curve"),
+      cli_row_text(rows, "source", x->cite), cli_row_text(rows, "what", x->meaning)))
+LIST(scenes, "scene", const char *, (x = koksma_scene_name_at(i)), x, put_scene_title(rows, x))
+LIST(plans, "plan", const char *, (x = koksma_plan_name_at(i)), x, (void)x)
+LIST(formats, "format", const char *left_out;
+     const char *, (x = koksma_image_format(i, &left_out)), x, cli_row_text(rows, "needs", left_out ? left_out : "-"))
+LIST(integrators, "integrator", const koksma_integrator *, (x = koksma_integrator_at(i)), x->name,
+     (cli_row_whole(rows, "depth", (uint64_t)x->depth), SOURCE(x)))
+LIST(filters, "filter", const koksma_filter *, (x = koksma_filter_at(i)), x->name,
+     (cli_row_number(rows, "radius", x->radius), SOURCE(x)))
+LIST(uses, "use", const koksma_use *, (x = koksma_use_at(i)), x->name,
+     (cli_row_whole(rows, "dim", (uint64_t)x->dim), cli_row_text(rows, "what", x->help)))
+LIST(adaptive, "method", const koksma_adaptive *, (x = koksma_adaptive_at(i)), x->name,
+     (put_params(rows, x->params),
+      cli_row_text(rows, "samples", x->own_samples ? "own strata" : "sets of the pattern"), SOURCE(x)))
+#define KIND cli_row_text(rows, "fields", x.fields), SOURCE(&x)
+LIST(materials, "material", koksma_entry, koksma_scene_kind_at("materials", i, &x), x.name, (KIND))
+LIST(lights, "light", koksma_entry, koksma_scene_kind_at("lights", i, &x), x.name, (KIND))
+LIST(shapes, "shape", koksma_entry, koksma_scene_kind_at("shapes", i, &x), x.name, (KIND))
+#define TITLE cli_row_text(rows, "what", x.title)
+LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, TITLE)
+LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, TITLE)
+LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, TITLE)
 
 static void put_range(cli_rows *rows, const koksma_param *p)
 {
@@ -166,7 +150,8 @@ static void list_parameters_of(cli_rows *rows, const char *member, const koksma_
             cli_row_number(rows, "default", p->fallback);
         }
         put_range(rows, p);
-        end_row(rows, NULL, p->help);
+        cli_row_text(rows, "what", p->help);
+        cli_row_end(rows);
     }
 }
 
@@ -185,91 +170,6 @@ static void list_parameters(cli_rows *rows)
         list_parameters_of(rows, a->name, a->params);
     }
 }
-
-static void list_uses(cli_rows *rows)
-{
-    const koksma_use *u;
-    for (size_t i = 0; (u = koksma_use_at(i)); i++) {
-        cli_row_text(rows, "use", u->name);
-        cli_row_whole(rows, "dim", (uint64_t)u->dim);
-        end_row(rows, NULL, u->help);
-    }
-}
-
-static void list_formats(cli_rows *rows)
-{
-    const char *name, *left_out;
-    for (size_t i = 0; (name = koksma_image_format(i, &left_out)); i++) {
-        char path[32];
-        snprintf(path, sizeof path, "x.%s", name);
-        cli_row_text(rows, "format", name);
-        cli_row_text(rows, "layers", koksma_image_has_layers(path) ? "all" : "the image");
-        cli_row_text(rows, "lacks", left_out ? left_out : "-");
-        cli_row_end(rows);
-    }
-}
-
-static void list_curves(cli_rows *rows)
-{
-    const cli_curve *c;
-    for (size_t i = 0; (c = cli_curve_at(i)); i++) {
-        cli_row_text(rows, "curve", c->name);
-        cli_row_text(rows, "by",
-                     c->print.options && c->plot.options ? "curve,plot"
-                     : c->plot.options                   ? "plot"
-                                                         : "curve");
-        end_row(rows, c->cite, c->meaning);
-    }
-}
-
-static void list_claims(cli_rows *rows)
-{
-    for (size_t i = 0; i < sizeof claim_lines / sizeof *claim_lines; i++) {
-        cli_row_text(rows, "claim", claim_lines[i].name);
-        end_row(rows, NULL, claim_lines[i].meaning);
-    }
-}
-
-static void list_properties(cli_rows *rows)
-{
-    const koksma_property *p;
-    for (size_t i = 0; (p = koksma_property_at(i)); i++) {
-        cli_row_text(rows, "property", p->name);
-        end_row(rows, NULL, p->meaning);
-    }
-}
-
-static void list_plans(cli_rows *rows)
-{
-    for (size_t i = 0; koksma_plan_name_at(i); i++) {
-        cli_row_text(rows, "plan", koksma_plan_name_at(i));
-        cli_row_end(rows);
-    }
-}
-
-static void put_entry(cli_rows *rows, const char *noun, const koksma_entry *entry)
-{
-    cli_row_text(rows, noun, entry->name);
-    if (*entry->fields) {
-        cli_row_text(rows, "fields", entry->fields);
-    }
-    end_row(rows, entry->cite, entry->title);
-}
-
-#define LIST(table, noun, at)                                                                                        \
-    static void list_##table(cli_rows *rows)                                                                         \
-    {                                                                                                                \
-        koksma_entry entry;                                                                                          \
-        for (size_t i = 0; at; i++) {                                                                                \
-            put_entry(rows, noun, &entry);                                                                           \
-        }                                                                                                            \
-    }
-LIST(materials, "material", koksma_scene_kind_at("materials", i, &entry))
-LIST(lights, "light", koksma_scene_kind_at("lights", i, &entry))
-LIST(shapes, "shape", koksma_scene_kind_at("shapes", i, &entry))
-LIST(pipelines, "pipeline", koksma_pipeline_at(i, &entry))
-LIST(questions, "question", koksma_question_at(i, &entry))
-LIST(sections, "section", koksma_report_section_at(i, &entry))
 
 static const struct {
     const char *name;

@@ -37,7 +37,7 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 /* Patterns: lines of what koksma_render_patterns takes; false after an error, whose code is in *code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
-/* A line on stderr for each use that was given a pattern and on which nothing is spent here. */
+/* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                    const koksma_render_options *options);
 

@@ -32,7 +32,7 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     return status;
 }
 
-/* Whether the cells grow longer and longer with n: as many columns for every n. */
+/* Whether the number of columns is fixed for every n, so that cells get more elongated as n grows. */
 static bool columns_are_given(const koksma_spec *spec)
 {
     for (int k = 0; spec->pattern->params && spec->pattern->params[k].name; k++) {

@@ -310,7 +310,8 @@ koksma_status koksma__points_write_text(FILE *stream, const koksma_points *point
     fprintf(stream, "# koksma %s\n", koksma_version());
     while (comment && *comment) {
         fputs("# ", stream);
-        for (; *comment && *comment != '\n'; comment++) { /* a reader takes control characters for another format */
+        for (; *comment && *comment != '\n';
+             comment++) { /* readers would take a file with control characters for another format */
             putc((unsigned char)*comment >= 0x20 ? *comment : '?', stream);
         }
         putc('\n', stream);

@@ -4,8 +4,8 @@
  *     linear = s / 12.92 for s <= 0.04045, else ((s + 0.055) / 1.055)^2.4
  * unless the file has a gAMA chunk g that overrides it, and neither sRGB nor iCCP that override gAMA (PNG, 3rd
  * edition, section 13.13): then linear = s^(1/g). A g within 5 % of 1/2.2 is what writers of sRGB say, and is taken
- * for sRGB. Transparency is dropped: a pixel's colour is what it has, for albedos and comparisons alike, whatever
- * would be seen through it. Written are 8 bits sRGB.
+ * for sRGB. Transparency is dropped: albedos and comparisons take a pixel's own colour. Files are written as sRGB
+ * with 8 bits.
  */
 #ifdef KOKSMA_PNG
 #include <math.h>

@@ -104,7 +104,7 @@ static koksma_status search_pairs(search *s, const koksma_run *run)
         return koksma__fail_memory(s->set.m * sizeof *s->blocks);
     }
     try_singles(s);
-    /* A first value for all blocks to prune with, the same whatever the threads. */
+    /* A lower bound with which all blocks prune; it is computed first, so that results do not depend on threads. */
     koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);
     status = status ? status : koksma__parallel(run, s->set.m, block, s);
     for (size_t i = 0; !status && i < s->set.m; i++) {
@@ -175,7 +175,7 @@ const koksma_measure koksma__measure_disk = {
     .name = "disk",
     .title = "discrepancy of disks on the torus, up to a radius",
     .cite = "mitchell1992 megiddo1983",
-    .cost = "n^3 to 64 points, then about n^2.5, 2^28 looks at most: bounds if cut short",
+    .cost = "n^3 to 64 points, then about n^2.5; at most 2^28 point tests, else bounds",
     .family = KOKSMA_FAMILY_DISKS,
     .min_dim = 2,
     .max_dim = 2,

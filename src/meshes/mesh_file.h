@@ -79,9 +79,9 @@ static inline koksma__file_placement *koksma__file_placement_at(const koksma__me
     return (koksma__file_placement *)f->placements.items + i;
 }
 
-/* One more mesh, which the file takes over even when it fails. The vertices and triangles of a file's meshes together
-   are at most as many as a mesh may have, so that a small file that names one mesh many times can't fill the memory.
-   Errors: MALFORMED, MEMORY. */
+/* Appends a mesh; the file owns it from now on, even after a failure. The vertices and triangles of a file's meshes
+   together are at most as many as a mesh may have, so that a small file that names one mesh many times can't fill
+   the memory. Errors: MALFORMED, MEMORY. */
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
 
 /* One more placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */

@@ -34,8 +34,8 @@ typedef struct search {
     uint64_t work, asked, most; /* coordinates compared; when run was last asked; the bound */
 } search;
 
-/* What share of the bound on the distance dart throwing always came to, for 3 to 300 points: where points are few and
-   dimensions many, the bound is far above what any points can keep, most of all in the cube. */
+/* The fraction of the upper bound on the distance that dart throwing always reached, measured with 3 to 300 points.
+   With few points in many dimensions the bound is far above what any set can have, most of all in the cube. */
 static double reached(int dim, bool torus)
 {
     static const double cube[] = {0.7, 0.7, 0.4, 0.3, 0.3, 0.2, 0.2, 0.2},

@@ -81,8 +81,9 @@ static koksma_status search(uint64_t seed, uint32_t first, size_t n, const koksm
     return status || disks->n >= n ? status : shrink_to(disks, n, run);
 }
 
-/* A search may end without n points: two points on the torus are symmetric about two others, so that room may open
-   for two at once. Which sets do so depends on no place, and another search follows. */
+/* A search may end without n points: two points on the torus are symmetric about two others, so that free area may
+   appear for two points at once. Whether this happens does not depend on the position of the set, so repeating the
+   search does not bias it. */
 static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, koksma__disks *disks)
 {
     koksma_status status = search(seed, 0, n, run, disks);

@@ -130,7 +130,7 @@ bool koksma__canvas_pixels(koksma__canvas *canvas, double x, double y, double wi
     cairo_translate(canvas->cairo, x, y);
     cairo_scale(canvas->cairo, width / columns, height / rows);
     cairo_set_source_surface(canvas->cairo, image, 0, 0);
-    /* Squares stay squares when they are enlarged; when there are more than pixels, they are averaged. */
+    /* Enlarged squares keep sharp edges; where there are more squares than pixels, they are averaged. */
     const bool enlarged = canvas->format != KOKSMA_PLOT_PNG || width >= columns;
     cairo_pattern_set_filter(cairo_get_source(canvas->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
     cairo_rectangle(canvas->cairo, 0, 0, columns, rows);

@@ -294,8 +294,8 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
     pthread_mutex_unlock(&film->lock);
 }
 
-/* The pixels' values, and the weights that they come from. After an interrupt some tasks are missing between others;
-   a pixel that was not rendered has next to nothing then, the tails of filters, and stays 0. */
+/* The pixels' values, and the weights that they come from. After an interrupt some tasks are missing. A pixel that
+   was not rendered then has only small contributions, from the tails of its neighbours' filters, and stays 0. */
 static void finish_splats(const koksma__frame *frame, koksma__film *film, bool whole, float *weights)
 {
     const size_t pixels = (size_t)frame->options->width * (size_t)frame->options->height;

@@ -7,9 +7,9 @@
 
 #include "render/frame.h"
 
-/* Rows of a task with those around them that its samples reach, when samples are splatted. A pixel has the sums of
-   the filter's weights x channels and that of the weights, and with all layers those that its variance takes.
-   Doubles: a pixel may get millions. */
+/* Rows of a task with those around them that its samples reach, when samples are splatted. For each pixel it has the
+   weighted sums of the channels, the sum of the weights, and with all layers the sums from which the variance
+   follows; in doubles, since a pixel may get millions of samples. */
 typedef struct koksma__splat {
     int first_row, rows;
     bool done;

@@ -129,7 +129,8 @@ static bool of_materials(const koksma_scene *scene, asked *a)
             return true;
         }
         if (*m->dark && here(a)) {
-            snprintf(a->text, a->size, "material %zu doesn't glow, for want of its emissive texture: %s", i, m->dark);
+            snprintf(a->text, a->size, "material %zu emits no light, because its emissive texture is missing: %s", i,
+                     m->dark);
             return true;
         }
         if (*m->evened && here(a)) {

@@ -8,7 +8,7 @@
 
 typedef struct koksma__fit {
     double weight, x, y; /* of all pairs: their weights' sum, their means */
-    double xx, xy, yy;   /* weighted sums of products of what is left when the means are taken off */
+    double xx, xy, yy;   /* weighted sums of products of the deviations from the means */
 } koksma__fit;
 
 /* Takes a pair into the means; with weight 1 for all, fit->weight counts them. */

@@ -180,7 +180,7 @@ static void emission_is_multiplied_with_its_texture(void **state)
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1, "");
     unlink("texture.pfm");
     expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1,
-           "material 0 doesn't glow, for want of its emissive texture: texture.pfm: there is no such file");
+           "material 0 emits no light, because its emissive texture is missing: texture.pfm: there is no such file");
 }
 
 static void what_is_not_read_is_said(void **state)

@@ -30,7 +30,7 @@ enum {
     LOOKS_A_PAIR = 16
 };
 
-static const double max_work = 0x1p28; /* points looked at, when there is no time limit: seconds */
+static const double max_work = 0x1p28; /* the most point tests without a time limit, some seconds of work */
 static const double slack = 1e-12;     /* more than rounding can do to a bound */
 
 typedef struct cell {
@@ -92,7 +92,7 @@ static size_t find_neighbours(const koksma__disk_set *set, double x, double y, d
     return count;
 }
 
-/* The disks through all pairs of the neighbours first .. last, which are seen from the centre. */
+/* Tries the disks through each pair of the neighbours first .. last, with positions relative to the cell's centre. */
 static koksma_status try_pairs(const cover *c, const cell *at, const desk *d, size_t first, size_t last,
                                koksma__disk_best *best)
 {

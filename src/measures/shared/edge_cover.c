@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Bounds for the discrepancy of half-planes. Turning a line by up to eta moves it, within rho of a centre, by no more
- * than s = 2 rho sin(eta/2): a half-plane of a turned direction holds no point that the one of the middle direction,
- * moved out by s, does not, and no less mass than the one moved in by s. So over all lines of an interval of
- * directions,
+ * Bounds for the discrepancy of half-planes. Turning a line by up to eta moves it, within rho of a centre, by no
+ * more than s = 2 rho sin(eta/2): a half-plane of a turned direction holds no point that the one of the middle
+ * direction, moved out by s, does not, and no less mass than the one moved in by s. So over all lines of an interval
+ * of directions,
  *
  *     excess <= max_c #{x below c}/n - mass(below c - 2s),    deficit <= max_c mass(below c + 2s) - #{x below c}/n,
  *
- * which the points in order of one direction give. Intervals whose bound is above what is known are cut in half.
+ * both computed from the points sorted along one direction. Intervals whose bound exceeds the largest known value
+ * are halved.
  */
 #include <math.h>
 #include <stdlib.h>

@@ -237,7 +237,8 @@ static koksma_status try_block(void *context, size_t block)
     return KOKSMA_OK;
 }
 
-/* The half-plane a x + b y <= c on the left of the line. c is set so that comparing in doubles counts right. */
+/* The half-plane a x + b y <= c on the left of the line. c is chosen so that comparisons in doubles put every point
+   on its side. */
 static void make_witness(const pivots *job, const best_line *line, koksma_value *out)
 {
     const double size = fmax(fabs(line->dx), fabs(line->dy)), scale = size < 0x1p-400 ? 0x1p600 : 1;

@@ -9,7 +9,8 @@
  *
  *     K(u, v) = g(z_u) + g(z_v) + q |u - v| + r (u - v)^2,
  *
- * with g and a polynomials in z, z^2 and |z|, so that numbers drive them all: measures/l2_boxes.c has a row for each.
+ * with g and a polynomials in z, z^2 and |z|, so that a few coefficients describe each measure: measures/l2_boxes.c
+ * has one row of them for each.
  */
 #ifndef KOKSMA_MEASURES_SHARED_L2_H
 #define KOKSMA_MEASURES_SHARED_L2_H

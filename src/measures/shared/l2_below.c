@@ -58,7 +58,7 @@ static node node_of(const point *p)
    `places` on. */
 static total deal(const point *points, size_t n, int bits, int rest, node *tree, uint32_t *places, point *to)
 {
-    static const halves masks[2] = {{0, 0}, {-1, -1}}; /* quicker to load than to make */
+    static const halves masks[2] = {{0, 0}, {-1, -1}}; /* a table: loading a mask is faster than computing it */
     total sum = {0, 0};
     for (size_t i = 0; i < n; i++) {
         const point p = points[i];

@@ -3,11 +3,12 @@
  * A lower bound of the star discrepancy by threshold accepting over corners (Gnewuch, Wahlstrom and Winzen 2012),
  * with walks of their own for closed boxes (excess) and open ones (deficit).
  *
- * Where the paper snaps a corner to the nearest corner that is critical, a step here climbs to one that no single
- * coordinate can better: with the other coordinates kept, a pass over the points in order of coordinate k, counting
- * those inside along the others, gives the value of every end of the box along k, and the best is taken; until a
- * round over all coordinates gains nothing. Every point has the number of coordinates along which it is outside, so
- * that a pass is one look at each point, and moving an end looks at the points between the two places.
+ * The paper snaps a corner to the nearest critical corner. Here a step climbs instead to a corner that no change of
+ * a single coordinate improves: with the other coordinates fixed, one pass over the points in order of coordinate k,
+ * which counts those inside along the others, gives the value of every end of the box along k; the best is taken.
+ * This is repeated until a round over all coordinates gains nothing. Every point has the number of coordinates along
+ * which it is outside, so that a pass is one look at each point, and moving an end looks at the points between the
+ * two places.
  *
  * A step moves some coordinates by a bounded number of ranks, climbs, and goes back unless the value is at least the
  * last one's less a threshold. The moves get smaller and the threshold goes to zero.

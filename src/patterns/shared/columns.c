@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Fills points by blocks of rows on several threads. Coordinates come a column of 512 at a time, which stays in the
- * cache, and kernels transpose columns into rows; sets larger than the caches are stored past them.
+ * Fills points by blocks of rows on several threads. Coordinates are made in columns of 512, which stay in the
+ * cache, and kernels transpose columns into rows. Sets larger than the caches are written by streaming stores.
  */
 #include "patterns/shared/columns.h"
 

@@ -83,12 +83,14 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     if (shapes->n == 1 && !from && types[shapes->shapes->kind]->only) {
         return types[shapes->shapes->kind]->only(shapes->shapes, rays, n, hits);
     }
+    KOKSMA__LANES(int32_t, nowhere);
     for (int i = 0; i < STEP(n); i++) {
+        nowhere[i] = -1;
         hits->t[i] = INFINITY;
         hits->primitive[i] = -1;
     }
     for (size_t k = 0; k < shapes->n; k++) {
-        types[shapes->shapes[k].kind]->hit(&shapes->shapes[k], rays, from, n, hits);
+        types[shapes->shapes[k].kind]->hit(&shapes->shapes[k], rays, from ? from : nowhere, n, hits);
     }
     int done = count_hits(hits, -1, n), count = 0;
     const int hit = STEP(n) - done;
@@ -107,9 +109,13 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
 void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits *hits, int n,
                          koksma__shadows *shadows)
 {
+    KOKSMA__LANES(int32_t, nowhere);
+    for (int i = 0; i < STEP(n); i++) {
+        nowhere[i] = -1;
+    }
     for (size_t k = 0; k < shapes->n; k++) {
         const koksma__batch_shape *s = &shapes->shapes[k];
         /* a light's surface has no material */
-        types[s->kind]->shade(s, hits, s->material < 0 ? shadows->aimed : NULL, n, shadows);
+        types[s->kind]->shade(s, hits, s->material < 0 && shadows->aimed ? shadows->aimed : nowhere, n, shadows);
     }
 }

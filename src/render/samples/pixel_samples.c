@@ -69,8 +69,8 @@ static bool has_two(uint32_t use)
     return koksma_use_at((size_t)koksma__use_index(use))->dim == 2;
 }
 
-/* A fresh set of a group, from which a use's coordinates go into room->xs. The room keeps it, as the group's other
-   uses are drawn next, after this one of the pixels around. */
+/* Draws a set for a group of uses, and copies one use's coordinates to room->xs. The scratch keeps the set, because
+   the group's other uses of the same pixel are drawn later, after this use of the neighbouring pixels. */
 static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pixel, uint32_t use,
                                      koksma__sample_scratch *room)
 {

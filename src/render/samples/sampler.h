@@ -59,7 +59,7 @@ typedef struct koksma__use_list {
     int vertices;      /* of a path; with more than one, each has lobe, lobe choice and roulette too */
 } koksma__use_list;
 
-/* Bytes that koksma__image_samples takes while it draws them: less is left. */
+/* The most bytes that koksma__image_samples takes while it draws; afterwards it keeps fewer. */
 uint64_t koksma__image_samples_size(const koksma_render_options *options, const koksma__use_list *uses);
 
 /* Whether samples are spent on use u of uses.def. */

@@ -30,7 +30,7 @@ INLINE void koksma__flat_hit(const koksma__batch_shape *shape, const koksma__ray
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int away = from ? from[i] != id : 1;
+        const int away = from[i] != id;
         const int hit = away & (t > 0) & (t < h->t[i]) & within(s, u, v);
         h->t[i] = hit ? t : h->t[i];
         h->primitive[i] = hit ? id : h->primitive[i];
@@ -75,6 +75,7 @@ INLINE int koksma__flat_only(const koksma__batch_shape *shape, const koksma__ray
     return count;
 }
 
+/* aimed: the light's shape that each ray goes to, which can't block it, as the shape that it starts on can't. */
 INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
                                int n, koksma__shadows *restrict r, koksma__within *within)
 {
@@ -90,7 +91,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
         const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
         const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
         const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int other = (h->primitive[i] != id) & (aimed ? aimed[i] != id : 1);
+        const int other = (h->primitive[i] != id) & (aimed[i] != id);
         const int hit = other & (t > 0) & (t < KOKSMA__SHADOW_END) & within(s, u, v);
         r->light[i] *= hit ? 0.0f : 1.0f;
     }
@@ -101,11 +102,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
     static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,              \
                     koksma__hits *hits)                                                                              \
     {                                                                                                                \
-        if (from) {                                                                                                  \
-            koksma__flat_hit(s, rays, from, n, hits, within);                                                        \
-        } else {                                                                                                     \
-            koksma__flat_hit(s, rays, NULL, n, hits, within);                                                        \
-        }                                                                                                            \
+        koksma__flat_hit(s, rays, from, n, hits, within);                                                            \
     }                                                                                                                \
     static int only(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits)               \
     {                                                                                                                \
@@ -114,11 +111,7 @@ INLINE void koksma__flat_shade(const koksma__batch_shape *shape, const koksma__h
     static void shade(const koksma__batch_shape *s, const koksma__hits *hits, const int32_t *aimed, int n,           \
                       koksma__shadows *shadows)                                                                      \
     {                                                                                                                \
-        if (aimed) {                                                                                                 \
-            koksma__flat_shade(s, hits, aimed, n, shadows, within);                                                  \
-        } else {                                                                                                     \
-            koksma__flat_shade(s, hits, NULL, n, shadows, within);                                                   \
-        }                                                                                                            \
+        koksma__flat_shade(s, hits, aimed, n, shadows, within);                                                      \
     }
 
 /* p in the shape's own coordinates: u and v; the result is the height over its plane. */

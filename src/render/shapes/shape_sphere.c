@@ -29,7 +29,7 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
         const float rest = radius2 - (qx * qx + qy * qy + qz * qz);
         const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
         const float near = middle - reach, far = middle + reach;
-        const int away = from ? from[i] != id : 1;
+        const int away = from[i] != id;
         /* A ray that starts on the sphere has its roots at exactly 0 and 2 middle. */
         const float t = !away ? 2 * middle : near > 0 ? near : far;
         const int hit = (away ? rest > 0 : 1) & (t > 0) & (t < h->t[i]);
@@ -86,24 +86,19 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
         const int enters = (start > reach) & (end < reach);
         const int crosses = (start >= reach) & (end >= reach) & (b < 0) & (last > 0) & (reach > 0);
         const int leaves = (start < reach) & (end > reach);
-        const int other = aimed ? aimed[i] != id : 1;
+        const int other = aimed[i] != id;
         r->light[i] *= other & (enters | crosses | leaves) ? 0.0f : 1.0f;
     }
 }
 
-/* The loops are compiled once for each of: spheres that move or not, rays that start on a shape or not. A masked load
-   from NULL would be right, and slow. */
+/* The loops are compiled once for spheres that move and once for others. */
 static void hit(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits)
 {
-    if (s->moves && from) {
+    if (s->moves) {
         hit_sphere(s, rays, from, n, hits, true);
-    } else if (s->moves) {
-        hit_sphere(s, rays, NULL, n, hits, true);
-    } else if (from) {
-        hit_sphere(s, rays, from, n, hits, false);
     } else {
-        hit_sphere(s, rays, NULL, n, hits, false);
+        hit_sphere(s, rays, from, n, hits, false);
     }
 }
 
@@ -121,14 +116,10 @@ static void finish(const koksma__batch_shape *s, const koksma__rays *rays, int n
 static void shade(const koksma__batch_shape *s, const koksma__hits *hits, const int32_t *aimed, int n,
                   koksma__shadows *shadows)
 {
-    if (s->moves && aimed) {
+    if (s->moves) {
         shade_sphere(s, hits, aimed, n, shadows, true);
-    } else if (s->moves) {
-        shade_sphere(s, hits, NULL, n, shadows, true);
-    } else if (aimed) {
-        shade_sphere(s, hits, aimed, n, shadows, false);
     } else {
-        shade_sphere(s, hits, NULL, n, shadows, false);
+        shade_sphere(s, hits, aimed, n, shadows, false);
     }
 }
 

@@ -33,15 +33,15 @@ typedef struct koksma__shape_type {
        unit); the result is > 0 on the front, where the normal leads. Tests compare the loops with it. */
     double (*equation)(const koksma__shape *shape, const double p[3], double *beyond);
 
-    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer. from: NULL, or the shapes
-       that rays start on: there the shape's own t = 0 is no hit. */
+    /* The loops; n as in batch.h. hit: sets t and primitive where the shape is closer. from: the shape that each ray
+       starts on, or -1: there its t = 0 is no hit. */
     void (*hit)(const koksma__batch_shape *s, const koksma__rays *rays, const int32_t *from, int n,
                 koksma__hits *hits);
     /* Position, normal, coordinates, side and material of the hits on this shape; all: every lane hits it. NULL: flat
        shapes, which share a loop. */
     void (*finish)(const koksma__batch_shape *s, const koksma__rays *rays, int n, koksma__hits *hits, bool all);
-    /* Takes away the light of lanes that the shape blocks; aimed: NULL, or the light's shape that each ray goes to
-       and that can't block it. */
+    /* Takes away the light of lanes that the shape blocks; aimed: the shape that each ray goes to and that can't
+       block it, or -1. */
     void (*shade)(const koksma__batch_shape *s, const koksma__hits *hits, const int32_t *aimed, int n,
                   koksma__shadows *shadows);
     /* NULL, or: hit and finish in one, for rays that start nowhere and can meet nothing else; the number of hits. */

@@ -37,7 +37,8 @@ typedef struct ranking {
 
 /* ---- Checks at other sizes ------------------------------------------------------------------------------ */
 
-/* Who is checked: what is advised, or the leader where every error is coherent. NOBODY: that is not decided. */
+/* Which pattern is checked at other sizes: the advised one, or the leader if every error is coherent. NOBODY: it is
+   not decided yet. */
 static size_t checked(const koksma__contest *c)
 {
     bool all_coherent = true;

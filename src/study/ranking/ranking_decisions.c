@@ -244,8 +244,8 @@ bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
     return leads;
 }
 
-/* Whether i leads all others whose error is not coherent either. Of those without a round that is not known yet, and
-   so nobody does. */
+/* Whether i leads all others whose error is not coherent. As long as a pattern has no complete round, its coherence
+   is unknown, and nobody leads. */
 static bool leads_incoherent(const koksma__rank_table *table, size_t i)
 {
     const koksma__rank_entrant *mine = &table->entrants[i];

@@ -82,11 +82,12 @@ typedef struct koksma__rank_table {
     size_t advised;           /* the leader of those whose error is not coherent; likewise */
 } koksma__rank_table;
 
-/* What a ranking goes on for. */
+/* What the rounds of a ranking are to decide: the pattern of smallest error, the best of those whose error is not
+   coherent, or the order of every pair. */
 typedef enum koksma__rank_goal {
     KOKSMA__RANK_FIND_LEADER,
     KOKSMA__RANK_FIND_ADVISED,
-    KOKSMA__RANK_ORDER_ALL, /* has no end but that no pair matters any more */
+    KOKSMA__RANK_ORDER_ALL, /* reached when no pair needs another round */
 } koksma__rank_goal;
 
 /* Errors: MEMORY. fini takes zeros. */
@@ -97,8 +98,8 @@ void koksma__rank_table_fini(koksma__rank_table *table);
    no difference in which order rounds were completed, and later rounds revoke nothing. */
 void koksma__rank_decide(koksma__rank_table *table);
 
-/* The quotient of the errors of i and j after the last round that both have made, within the interval of the round in
-   which the pair was decided. Both have made one. */
+/* The quotient of the errors of i and j after the last round that both completed, clamped to the interval of the
+   round that decided the pair. Both have completed one. */
 koksma__estimate koksma__rank_compare(const koksma__rank_table *table, size_t i, size_t j);
 
 /* koksma__rank_matters: whether the goal needs another round of the pair. koksma__rank_reached: whether the goal is

@@ -180,8 +180,8 @@ koksma_status koksma__cases_visit(const koksma__cases *c, koksma__case_visitor v
     return status;
 }
 
-/* Adds a pattern that block b is the first to render; one without rows of both, or beyond KOKSMA__CASE_PATTERNS, only
- * counts. */
+/* Adds a pattern to the pairs, if block b is the first that renders it. A pattern that lacks results of points or of
+   images, or is beyond KOKSMA__CASE_PATTERNS, is counted but not added. */
 static koksma_status add_pair(const koksma__cases *c, const koksma__case *at, const char *pattern, size_t b,
                               koksma__pairs *out)
 {

@@ -27,8 +27,8 @@ void koksma__published_mean(koksma__document *d, const koksma__summary *mean, si
 /* A verdict in a cell of its own. */
 void koksma__published_verdict(koksma__document *d, const koksma__verdict *verdict);
 
-/* The z of a table taken together: many that are each within chance can be beyond it, all to one side or all large.
-   Those of cells that differ for a known reason are left out. */
+/* Sums over the z-values of a table: each may be within chance while all together are not, because all have one sign
+   or all are large. Cells that differ for a known reason are left out. */
 typedef struct koksma__z_sums {
     size_t count;
     double sum, squares;

@@ -21,7 +21,7 @@ koksma_status koksma__table_discrepancy(koksma_study *study, const koksma__table
 koksma_status koksma__table_image(koksma_study *study, const koksma__table *table, const koksma__reference *reference,
                                   const char *pattern, koksma__cell *cell);
 
-/* ---- How a printed mean goes with ours --------------------------------------------------------------------- */
+/* ---- Agreement of a published mean with ours ------------------------------------------------------------- */
 
 /* Published means of discrepancies are of 100 sets; |z| below this is chance. */
 static const double KOKSMA__AGREEMENT_Z = 2.6;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * selective: splits strata only in the use that causes most of the pixel's variance, which Shirley 1991, section
- * 5.6, proposes and leaves open how to find. The uses are paired by random permutations, so neighbouring strata of
- * one use are not neighbours in another, and only in the use that causes the variance do neighbours have similar
- * values. Geary's contiguity ratio (1954) measures this from the first m x m values v, without further samples: over
- * the P pairs of neighbouring cells (columns and rows) of a use
+ * selective: splits strata only in the use that causes most of the pixel's variance, a question that Shirley 1991,
+ * section 5.6, leaves open. The uses are paired by random permutations, so neighbouring strata of one use are not
+ * neighbours in another, and only in the use that causes the variance do neighbours have similar values. Geary's
+ * contiguity ratio (1954) measures this from the first m x m values v, without further samples: over the P pairs of
+ * neighbouring cells (columns and rows) of a use
  *
  *     c = (sum over pairs (v_i - v_j)^2 / P)  /  (2 s^2),     s^2 the variance of all values
  *
@@ -70,8 +70,8 @@ static double variance(const float *y, uint32_t n)
     return n > 1 ? (squares - sum * sum / n) / (n - 1) : 0;
 }
 
-/* The base use of a pixel whose first values are in its strata; false: no use carries the variance. scratch has 2 m^2
-   words. */
+/* The base use of a pixel whose first values are in its strata; false: no use carries the variance. scratch has 2
+   m^2 words. */
 static bool find_base(koksma__adaptive *run, size_t pixel, uint32_t *permutation, float *y)
 {
     const koksma__strata *s = run->state;

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Where the sample of a stratum lies in each use: a walk from one of the m x m cells down the splits, in the base use
- * and the other use together. Every random number is a hash of (seed, pixel, use, node), a node being a stratum that
- * is or was; so nothing has to be remembered.
+ * Where the sample of a stratum lies in each use: a walk from one of the m x m cells down the splits, in the base
+ * use and the other use together. Every random number is a hash of (seed, pixel, use, node), a node being a stratum
+ * that is or was; so nothing has to be remembered.
  *
  * With `kept` a node's sample is that of its parent when it is the part k where the parent's sample lies in the base
  * use, k = b; in another use that sample lies in quarter c, and so part k gets quarter k ^ b ^ c there: kept for the
  * kept, and one to one for the others. Shuffled, the other three change places at random.
  *
- * The samples of the last stage, with `fresh`, must know nothing of those that decided: k ^ b ^ c would always pair
- * the quarters (b, c) again, where the sample lay whose value had the stratum split. There part k gets a quarter that
- * is any of the four with equal chances, drawn for that stage; so the mean over the parts is that of the stratum,
- * whatever the tree.
+ * With `fresh` the samples of the last stage must be independent of those by which strata were split. k ^ b ^ c
+ * would always pair the quarters (b, c) again, where the sample lay that caused the split. So in the last stage part
+ * k gets one of the four quarters with equal probability, drawn anew. The mean over the parts is then unbiased for
+ * the stratum, whatever the tree.
  */
 #include <math.h>
 #include <string.h>
@@ -86,7 +86,8 @@ static int partner(const koksma__strata *s, const koksma__use_cells *use, uint64
     return renewed || last ? order[k] ^ (int)koksma__below(r.w[1], 4) : order[k ^ b] ^ c;
 }
 
-/* Base and use (NULL: only the base) down to a stratum; last: in the last stage. */
+/* Descends from the root to a stratum in the base use, and in `use` too unless it is NULL. last: the stratum is of
+   the last stage. */
 static void walk(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                  const koksma__stratum *stratum, bool last, spot *at_base, spot *at_use)
 {

@@ -93,7 +93,7 @@ static void fill_strata(const view *v, koksma_space *space)
     }
 }
 
-/* The splits of strata that had been split `level` times, where they lay when they were split; to: NULL only counts.
+/* The strata at depth `level` that were split, at their positions before the split; to: NULL only counts.
  */
 static size_t splits_of(const view *v, uint32_t level, koksma_split *to)
 {

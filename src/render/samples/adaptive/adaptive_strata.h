@@ -91,7 +91,7 @@ int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *ba
 void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                            const koksma__stratum *stratum, uint32_t stage, float place[2]);
 
-/* The uses of two numbers or one, of the first two vertices: which of them there are. */
+/* Lists the uses of one or two dimensions, at the first two vertices, that this scene needs; returns how many. */
 int koksma__list_spaces(const koksma__use_list *there, uint32_t list[KOKSMA_MAX_SPACES]);
 
 /* ---- The method (adaptive_strata.c) ----------------------------------------------------------------------- */
