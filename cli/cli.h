@@ -24,7 +24,7 @@ typedef struct cli_arguments cli_arguments;
 typedef struct cli_command {
     const char *name, *summary;
     const char *synopsis; /* operands and options after "koksma NAME", a line for each use */
-    const char *details;  /* of --help; lines are joined into paragraphs (cli/fill.h); may be NULL */
+    const char *details;  /* of --help; lines are joined into paragraphs (cli/paragraphs.h); may be NULL */
     const char *examples; /* command lines, each with its end of line; tests run them (tests/cli/examples.py) */
     const cli_option *options;
     int (*run)(const cli_arguments *arguments); /* the exit code */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli.h"
-#include "fill.h"
+#include "paragraphs.h"
 
 /* Text for roff: backslashes, hyphens of options, and lines that begin with a dot or quote stay what they are; a line
    may break between alternatives. */

@@ -15,7 +15,7 @@
 
 #include <koksma/render.h>
 
-#include "fill.h"
+#include "paragraphs.h"
 
 /* No table has the letter of --help. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };

@@ -19,8 +19,10 @@ bool koksma__module_path(const char *name, char *path, size_t room)
     static const char here = 0; /* an address in this object */
     Dl_info info;
     if (dladdr(&here, &info) && info.dli_fname) {
-        /* A program's name may be what it was called by, without a folder; a link leads to the folder. */
-        char *object = realpath(strchr(info.dli_fname, '/') ? info.dli_fname : "/proc/self/exe", NULL);
+        /* A program's name may be what it was called by: without a folder, or from one that it has left since. A link
+           leads to the folder. */
+        char *object = strchr(info.dli_fname, '/') ? realpath(info.dli_fname, NULL) : NULL;
+        object = object ? object : realpath("/proc/self/exe", NULL);
         const char *slash = object ? strrchr(object, '/') : NULL;
         bool found = false;
         for (size_t i = 0; slash && !found && i < sizeof PLACES / sizeof *PLACES; i++) {

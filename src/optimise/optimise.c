@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "api/evaluate.h"
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/points_io.h"
@@ -105,6 +106,9 @@ static koksma_status check(const koksma_spec *measure, const koksma_optimise_opt
         return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a measure with exact values, as star is",
                             measure->measure ? measure->measure->name : "koksma_optimise");
     }
+    if (o->keep != KOKSMA_KEEP_NONE && o->keep != KOKSMA_KEEP_LATIN && o->keep != KOKSMA_KEEP_NET) {
+        return koksma__fail(KOKSMA_ARGUMENT, "koksma_optimise: keep = %d is none of koksma_keep", (int)o->keep);
+    }
     const koksma_status status = o->first ? koksma__points_check(o->first) : KOKSMA_OK;
     if (!status && o->first && (o->first->n != o->n || o->first->dim != o->dim)) {
         return koksma__fail(KOKSMA_N, "the first set has %zu points of dim = %d, not %zu of %d", o->first->n,
@@ -137,6 +141,8 @@ static koksma_status run_steps(step *s, koksma_optimum *best)
 koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_options *options,
                               const koksma_run *run, koksma_optimum *out)
 {
+    KOKSMA__REQUIRE(measure, options, out);
+    KOKSMA__REQUIRE_RUN(run);
     static const koksma_run unlimited = {0};
     step s = {.measure = measure,
               .options = options,
@@ -146,6 +152,7 @@ koksma_status koksma_optimise(const koksma_spec *measure, const koksma_optimise_
     *out = (koksma_optimum){.lower = lower_bound(measure, options->n)};
     koksma_status status = check(measure, options, &s.method);
     status = status ? status : koksma_points_init(&out->points, options->n, options->dim);
+    status = status ? status : koksma__evaluate_check("koksma_optimise", measure, &out->points);
     for (size_t i = 0; i < SEARCHES && !status; i++) {
         status = koksma_points_init(&s.found[i], options->n, options->dim);
     }

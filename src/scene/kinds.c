@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/status.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
 #include "render/shapes/shapes.h"
@@ -17,6 +18,7 @@ static void add_fields(koksma_entry *to, const char *const *names)
 
 bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry *out)
 {
+    KOKSMA__REQUIRE_OR(false, member, out);
     const bool materials = !strcmp(member, "materials"), lights = !strcmp(member, "lights");
     const koksma__kind *const *kinds = materials                   ? koksma__material_kinds
                                        : lights                    ? koksma__light_kinds

@@ -81,9 +81,9 @@ VALID = {
     "koksma_mask_void_and_cluster.size": "4", "koksma_render_options_init.options": "a_buffer(sizeof(koksma_render_options))",
     "koksma_render_patterns.options": "render_options(\"jittered\")", "koksma_study_export.folder": "work_path(\"done\")", "koksma_study_table_row.id": "\"5.1\"",
     "koksma_study_images.places": "work_path(\"in_{trial}.pfm\")", "koksma_study_images.reference": "work_path(\"in.pfm\")",
-    "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_buffer(16)",
-    "koksma_text_escape.size": "16", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
-    "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-star\")",
+    "koksma_name_at *": "a_name", "koksma_closest_name.table": "NULL", "koksma_closest_name.word": "\"jitered\"", "koksma_text_escape.text": "a_copy(\"jittered\", 9)",
+    "koksma_text_escape.size": "9", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
+    "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-disk\")",
     "koksma_optimum *": "a_buffer(sizeof(koksma_optimum))", "koksma_optimum_fini.best": "a_zero(sizeof(koksma_optimum))",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     # Inline functions.
@@ -137,7 +137,7 @@ ALLOWED = [
     r"\w+ spectrum->sets = .*", r"koksma_image_check_finite name = .*", r"\w+ options->caption.*", r"\w+ \S*(caption|label) = .*",
     r"\w+ options->(columns|rows) = 0 .*", r"\w+ \S*(size|white|level|errors|warp|witness|splits|strata|curves) = (0|NULL) .*", r"\w+ \S*n(_splits|_curves)? = 0 .*",
     r"koksma_closest_name table = NULL.*", r"koksma_optimise options->first = NULL .*", r"koksma_optimise options->first.*absent.*",
-    r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape size = .*",
+    r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
     r"\w+ path = .(%s%n|nothing:of).*",  # names of files like others
 ]
 

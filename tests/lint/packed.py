@@ -25,6 +25,8 @@ REASONS = {
     "batch_shade": NO_BLEND,
     "batch_land": NO_BLEND + "; clang 14 gives up on it everywhere",
     "batch_step_off": NO_BLEND,
+    "batch_closest": "the loops over lanes are packed; what is the same for all rays of a shape is computed before them, once for each "
+                     "shape, and the fused loop of rectangles has tails",
 }
 ARITHMETIC = re.compile(r"v?(?:add|sub|mul|div|sqrt|min|max|u?comi|cmp\w*?|fn?m(?:add|sub)\w*)([sp])[sd]$")
 

@@ -2,6 +2,7 @@
 /* The table of pipelines, and which of them renders a picture: of those that take it, the one of highest preference.
  */
 #include "render/pipelines/pipelines.h"
+#include "core/status.h"
 
 const koksma__pipeline *const koksma__pipelines[] = {
 #define PIPELINE(name) &koksma__pipeline_##name,
@@ -27,6 +28,7 @@ koksma_status koksma__pipeline_for(koksma__frame *frame, const koksma__pipeline 
 
 bool koksma_pipeline_at(size_t i, koksma_entry *out)
 {
+    KOKSMA__REQUIRE_OR(false, out);
     const koksma__pipeline *p = koksma__pipelines[0];
     for (size_t k = 0; p && k < i; k++) {
         p = koksma__pipelines[k + 1];

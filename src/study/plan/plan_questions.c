@@ -9,6 +9,7 @@
 
 #include <koksma/study.h>
 
+#include "core/status.h"
 #include "study/plan/plan_owned.h"
 #include "study/plan/plan_section.h"
 
@@ -152,6 +153,7 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
 
 bool koksma_question_at(size_t i, koksma_entry *out)
 {
+    KOKSMA__REQUIRE_OR(false, out);
     const koksma__question_kind *k = koksma__question_kinds;
     while (k->name && i-- > 0) {
         k++;

@@ -123,6 +123,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
 
 bool koksma_report_section_at(size_t i, koksma_entry *out)
 {
+    KOKSMA__REQUIRE_OR(false, out);
     const bool found = i < sizeof sections / sizeof *sections;
     *out = (koksma_entry){0};
     if (found) {

@@ -325,9 +325,8 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
 {
     audit a = {.options = options, .out = out};
     const koksma__sink sink = {&a, look_up, put_job, put_reference};
-    if (!options || !out) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an audit takes options, and a place for what it finds");
-    }
+    KOKSMA__REQUIRE(options, out);
+    KOKSMA__REQUIRE_RUN(run);
     *out = (koksma_audit){0};
     if (!options->folder || strlen(options->folder) > 1000 || options->rows < 0) {
         return koksma__fail(KOKSMA_ARGUMENT, "an audit takes a study's folder, and a number of rows");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Help texts in lines of at most 80 columns. */
-#ifndef KOKSMA_CLI_FILL_H
-#define KOKSMA_CLI_FILL_H
+#ifndef KOKSMA_CLI_PARAGRAPHS_H
+#define KOKSMA_CLI_PARAGRAPHS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Help texts in lines of at most 80 columns: words are put on a line as long as they fit. A blank that must not become
    the end of a line is TIED until it is printed. */
-#include "fill.h"
+#include "paragraphs.h"
 
 #include <stdio.h>
 #include <string.h>
