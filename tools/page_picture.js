@@ -16,7 +16,7 @@ const [file, picture, size, text] = process.argv.slice(2), [width, height] = siz
     [before, now] = [now, await page.content()];
   }
   if (text) {
-    await page.evaluate(begin => [...document.querySelectorAll("main *")].filter(e => e.textContent.startsWith(begin)).pop().scrollIntoView(), text);
+    await page.evaluate(begin => [...document.querySelectorAll("main *")].find(e => e.textContent.startsWith(begin)).scrollIntoView(), text);
   }
   await page.screenshot({ path: picture });
   await browser.close();
