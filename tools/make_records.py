@@ -59,7 +59,7 @@ def main():
 """)
         for n, (value, _) in sorted(sets.items()):
             published, source = (CLEMENT[n], "clement2023") if n in CLEMENT else \
-                (OPENEVOLVE[n], "openevolve2025") if n in OPENEVOLVE else (0, "-")
+                (OPENEVOLVE[n], "sadikov2025") if n in OPENEVOLVE else (0, "-")
             out.write(f'RECORD(STAR, 2, {n}, {value!r}, {published}, "{source}")\n')
         out.write("#else\nstatic const uint64_t points[] = {\n")
         for _, (_, points) in sorted(sets.items()):
