@@ -3,6 +3,11 @@ include(CMakePackageConfigHelpers)
 
 if(SKBUILD) # pip: the libraries and the program go into the Python package, where _library.py and _program.py look
   set(parts koksma-shared koksma-lab-shared koksma-program)
+  foreach(module koksma-cairo koksma-exr koksma-embree) # found beside the library (src/modules/module.c)
+    if(TARGET ${module})
+      list(APPEND parts ${module})
+    endif()
+  endforeach()
   set_target_properties(koksma-shared koksma-lab-shared PROPERTIES VERSION ${KOKSMA_ABI}) # a wheel holds no links
   set_target_properties(${parts} PROPERTIES INSTALL_RPATH $ORIGIN)
   install(TARGETS ${parts} LIBRARY DESTINATION koksma/lib COMPONENT python NAMELINK_SKIP
