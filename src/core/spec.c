@@ -10,6 +10,7 @@
 #include "core/c_locale.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "core/suggestion.h"
 
 static koksma_status parse_choice(const char *member, const koksma_param *param, const char *text, double *value)
 {
@@ -70,10 +71,9 @@ static koksma_status fail_unknown_param(const char *member, const koksma_param *
     for (int i = 0; params && params[i].name; i++) {
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", params[i].name);
     }
-    const char *closest = koksma_closest_name(key, param_name, params);
-    return koksma__fail(KOKSMA_ARGUMENT, "%s: no parameter '%s'; %s%s%sit has %s", member, key,
-                        closest ? "did you mean '" : "", closest ? closest : "", closest ? "'? " : "",
-                        *names ? names : "none");
+    char meant[KOKSMA__MEANT];
+    return koksma__fail(KOKSMA_ARGUMENT, "%s: no parameter '%s'; %sit has %s", member, key,
+                        koksma__meant(key, param_name, params, meant), *names ? names : "none");
 }
 
 koksma_status koksma__params_parse(const char *member, const koksma_param *params, const char *text, double *values)

@@ -6,6 +6,7 @@
  * so that `jitter` means jittered. Equally close: the one with the longer common beginning, then the first.
  */
 #include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "core/suggestion.h"
@@ -74,10 +75,17 @@ const char *koksma_closest_name(const char *word, koksma_name_at *name, const vo
     return closest;
 }
 
+const char *koksma__meant(const char *word, koksma_name_at *name, const void *table, char text[KOKSMA__MEANT])
+{
+    const char *closest = koksma_closest_name(word, name, table);
+    snprintf(text, KOKSMA__MEANT, closest ? "did you mean '%s'? " : "%.0s", closest ? closest : "");
+    return text;
+}
+
 koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name, const void *table,
                                    const char *where)
 {
-    const char *closest = koksma_closest_name(word, name, table);
-    return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s%s%s", what, word, closest ? "did you mean '" : "",
-                        closest ? closest : "", closest ? "'? " : "", where);
+    char meant[KOKSMA__MEANT];
+    return koksma__fail(KOKSMA_UNKNOWN, "no %s '%s'; %s%s", what, word, koksma__meant(word, name, table, meant),
+                        where);
 }

@@ -5,6 +5,11 @@
 
 #include "core/status.h"
 
+enum { KOKSMA__MEANT = 96 };
+
+/* "did you mean 'NAME'? " with the nearest name of a table (koksma_closest_name()), or "". Returns text. */
+const char *koksma__meant(const char *word, koksma_name_at *name, const void *table, char text[KOKSMA__MEANT]);
+
 /* Fails with KOKSMA_UNKNOWN and "no WHAT 'WORD'; did you mean 'NAME'? WHERE", where WHERE says what names them.
    `name` and `table` are those of koksma_closest_name(). */
 KOKSMA__LAB koksma_status koksma__fail_unknown(const char *what, const char *word, koksma_name_at *name,
