@@ -12,9 +12,8 @@
 koksma_status koksma__evaluate_check(const char *caller, const koksma_spec *spec, const koksma_points *points)
 {
     const koksma_measure *m = spec->measure;
-    if (!m || !points->xs || points->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes the spec of a measure and at least 1 point", caller);
-    }
+    KOKSMA__FAIL_IF(!m || !points->xs || points->n == 0, KOKSMA_ARGUMENT,
+                    "%s: it takes the spec of a measure and at least 1 point", caller);
     koksma_status status = koksma__dim_check(m->name, points->dim, m->min_dim, m->max_dim);
     status = status ? status : koksma__params_check(m->name, m->params, spec->params);
     return status ? status : koksma__points_check(points);

@@ -28,9 +28,8 @@ koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_
     status = status ? status : koksma__array_check("sizes", sizes, n_sizes, sizeof *values);
     for (size_t i = 0; i < n_sizes && !status; i++) {
         const koksma_points prefix = {sizes[i], points->dim, points->xs};
-        if (prefix.n == 0 || prefix.n > points->n) {
-            return koksma__fail(KOKSMA_N, "prefixes: %zu points: the set has %zu", prefix.n, points->n);
-        }
+        KOKSMA__FAIL_IF(prefix.n == 0 || prefix.n > points->n, KOKSMA_N, "prefixes: %zu points: the set has %zu",
+                        prefix.n, points->n);
         status = koksma_evaluate(measure, &prefix, run, &values[i]);
     }
     return status;

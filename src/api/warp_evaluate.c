@@ -49,9 +49,7 @@ static koksma_status l2_edge(job *j, const koksma_run *run, koksma_value *out)
     const size_t n_blocks = (j->n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
     const double n = (double)j->n;
     j->sums = malloc(2 * n_blocks * sizeof *j->sums);
-    if (!j->sums) {
-        return koksma__fail_memory(2 * n_blocks * sizeof *j->sums);
-    }
+    KOKSMA__REQUIRE_MEMORY(j->sums, 2 * n_blocks * sizeof *j->sums);
     const koksma_status status = koksma__parallel(run, n_blocks, sum_rows, j);
     koksma__sum square = {0};
     for (size_t block = 0; block < n_blocks && !status; block++) {
@@ -89,9 +87,7 @@ static koksma_status disk_sampled(const job *j, const koksma_spec *measure, cons
     const double r = koksma__disk_radius(law, measure->params[1]);
     const size_t count = (size_t)measure->params[0];
     double *squares = malloc(count * sizeof *squares);
-    if (!squares) {
-        return koksma__fail_memory(count * sizeof *squares);
-    }
+    KOKSMA__REQUIRE_MEMORY(squares, count * sizeof *squares);
     bool stopped = false;
     for (size_t d = 0; d < count && !stopped; d++) {
         squares[d] = sample_disk(j, law, r, (uint64_t)measure->params[3], d);
@@ -153,13 +149,10 @@ koksma_status koksma_warp_evaluate(const koksma_warp *warp, const koksma_spec *m
     if (checked) {
         return checked;
     }
-    if (points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name, points->dim);
-    }
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "%s: it maps points of 2 dimensions, not %d", warp->name,
+                    points->dim);
     double *mapped = malloc(points->n * 3 * sizeof *mapped);
-    if (!mapped) {
-        return koksma__fail_memory(points->n * 3 * sizeof *mapped);
-    }
+    KOKSMA__REQUIRE_MEMORY(mapped, points->n * 3 * sizeof *mapped);
     for (size_t i = 0; i < points->n; i++) {
         warp->map(points->xs + 2 * i, mapped + i * (size_t)warp->dim);
     }

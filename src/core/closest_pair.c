@@ -87,9 +87,7 @@ static void divide(search *s, place *at, place *scratch, size_t n)
 static koksma_status find(search *s, place *places, size_t n)
 {
     place *scratch = malloc(n * sizeof *scratch);
-    if (!scratch) {
-        return koksma__fail_memory(n * sizeof *scratch);
-    }
+    KOKSMA__REQUIRE_MEMORY(scratch, n * sizeof *scratch);
     qsort(places, n, sizeof *places, compare_x);
     s->n = n;
     s->n_done = 0;
@@ -125,9 +123,7 @@ koksma_status koksma__closest_pair(const koksma_points *points, bool torus, cons
 {
     search s = {.run = run, .best = INFINITY, .reach = INFINITY};
     place *places = malloc(points->n * sizeof *places);
-    if (!places) {
-        return koksma__fail_memory(points->n * sizeof *places);
-    }
+    KOKSMA__REQUIRE_MEMORY(places, points->n * sizeof *places);
     for (size_t i = 0; i < points->n; i++) {
         const double *p = points->xs + 2 * i;
         places[i] = (place){p[0], p[1], p};
@@ -140,9 +136,7 @@ koksma_status koksma__closest_pair(const koksma_points *points, bool torus, cons
         const double margin = s.reach;
         const size_t n = lay_out_sides(points, margin, NULL);
         places = malloc((n ? n : 1) * sizeof *places);
-        if (!places) {
-            return koksma__fail_memory(n * sizeof *places);
-        }
+        KOKSMA__REQUIRE_MEMORY(places, n * sizeof *places);
         lay_out_sides(points, margin, places);
         status = n ? find(&s, places, n) : KOKSMA_OK;
         free(places);

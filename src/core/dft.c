@@ -26,9 +26,7 @@ koksma_status koksma__fourier_init(koksma__fourier *f, size_t longest)
 {
     const size_t count = longest < 4 ? 2 : longest / 2;
     f->cosines = malloc(2 * count * sizeof *f->cosines);
-    if (!f->cosines) {
-        return koksma__fail_memory(2 * count * sizeof *f->cosines);
-    }
+    KOKSMA__REQUIRE_MEMORY(f->cosines, 2 * count * sizeof *f->cosines);
     f->sines = f->cosines + count;
     const size_t last = count / 2;
     for (size_t p = 0; p < last; p++) {
@@ -148,9 +146,7 @@ koksma_status koksma__dft_init(koksma__dft *dft, const koksma__fourier *f, size_
     const size_t padded = koksma__dft_padded(length), count = 2 * (length + padded);
     *dft = (koksma__dft){.length = length, .padded = padded};
     double *memory = calloc(count, sizeof *memory);
-    if (!memory) {
-        return koksma__fail_memory(count * sizeof *memory);
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, count * sizeof *memory);
     dft->re = memory;
     dft->im = memory + length;
     dft->filter_re = dft->im + length;

@@ -40,9 +40,7 @@ koksma_status koksma__net_init(const koksma_points *points, size_t base, koksma_
         net->digits++;
     }
     net->strata = malloc(n * (row + 1) * sizeof *net->strata);
-    if (!net->strata) {
-        return koksma__fail_memory(n * (row + 1) * sizeof *net->strata);
-    }
+    KOKSMA__REQUIRE_MEMORY(net->strata, n * (row + 1) * sizeof *net->strata);
     net->counts = net->strata + n * row;
     for (size_t i = 0; i < n * row; i++) {
         net->strata[i] = (uint32_t)koksma__stratum(points->xs[i], net->powers[net->digits]);

@@ -8,9 +8,8 @@
 
 koksma_status koksma__points_fit(size_t n, int dim)
 {
-    if (dim < 1 || dim > KOKSMA_MAX_DIM) {
-        return koksma__fail(KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim, KOKSMA_MAX_DIM);
-    }
+    KOKSMA__FAIL_IF(dim < 1 || dim > KOKSMA_MAX_DIM, KOKSMA_DIM, "dim = %d: the number of dimensions is 1 to %d", dim,
+                    KOKSMA_MAX_DIM);
     const size_t most = KOKSMA_MAX_COORDINATES / (size_t)dim;
     return n <= most ? KOKSMA_OK
                      : koksma__fail(KOKSMA_ARGUMENT, "n = %zu: at most %zu points of %d dimensions fit into one set",
@@ -19,16 +18,12 @@ koksma_status koksma__points_fit(size_t n, int dim)
 
 koksma_status koksma__points_check(const koksma_points *points)
 {
-    if (!points->xs || points->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "no points: a set has at least 1 point");
-    }
+    KOKSMA__FAIL_IF(!points->xs || points->n == 0, KOKSMA_ARGUMENT, "no points: a set has at least 1 point");
     const koksma_status status = koksma__points_fit(points->n, points->dim);
     const size_t n = status ? 0 : points->n * (size_t)points->dim;
     for (size_t i = 0; i < n; i++) {
-        if (!(points->xs[i] >= 0 && points->xs[i] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: coordinate %.17g is outside [0,1]",
-                                i / (size_t)points->dim, points->xs[i]);
-        }
+        KOKSMA__FAIL_IF(!(points->xs[i] >= 0 && points->xs[i] <= 1), KOKSMA_ARGUMENT,
+                        "point %zu: coordinate %.17g is outside [0,1]", i / (size_t)points->dim, points->xs[i]);
     }
     return status;
 }
@@ -37,17 +32,10 @@ koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
 {
     KOKSMA__REQUIRE(points);
     *points = (koksma_points){0};
-    if (n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");
-    }
-    const koksma_status status = koksma__points_fit(n, dim);
-    if (status) {
-        return status;
-    }
+    KOKSMA__FAIL_IF(n == 0, KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");
+    KOKSMA__TRY(koksma__points_fit(n, dim));
     points->xs = calloc(n * (size_t)dim, sizeof *points->xs);
-    if (!points->xs) {
-        return koksma__fail_memory(n * (size_t)dim * sizeof *points->xs);
-    }
+    KOKSMA__REQUIRE_MEMORY(points->xs, n * (size_t)dim * sizeof *points->xs);
     koksma__large_pages(points->xs, n * (size_t)dim * sizeof *points->xs);
     points->n = n;
     points->dim = dim;

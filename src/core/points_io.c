@@ -15,15 +15,12 @@ koksma_status koksma__points_read(const char *path, koksma__named by, koksma_poi
 {
     FILE *stream;
     *points = (koksma_points){0};
-    koksma_status status = koksma__file_open(path, KOKSMA__FILE_POINTS, by, &stream);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__file_open(path, KOKSMA__FILE_POINTS, by, &stream));
     const char *name = stream == stdin ? "standard input" : path;
     const int first = getc(stream); /* the first byte of "\x93NUMPY"; no text begins with it */
     ungetc(first, stream);
-    status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
-                           : koksma__points_read_text(stream, name, points);
+    const koksma_status status = first == 0x93 ? koksma__points_read_npy(stream, name, points)
+                                               : koksma__points_read_text(stream, name, points);
     koksma__file_close(stream);
     return status;
 }
@@ -54,17 +51,11 @@ koksma_status koksma_points_write_mapped(const char *path, const koksma_points *
 {
     KOKSMA__REQUIRE(path, points);
     KOKSMA__REQUIRE_RUN(run);
-    if (!points->xs || points->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "there are no points to write");
-    }
-    const koksma_status status = koksma__points_fit(points->n, points->dim);
-    if (status) {
-        return status;
-    }
+    KOKSMA__FAIL_IF(!points->xs || points->n == 0, KOKSMA_ARGUMENT, "there are no points to write");
+    KOKSMA__TRY(koksma__points_fit(points->n, points->dim));
     for (size_t i = 0; i < points->n * (size_t)points->dim; i++) {
-        if (!isfinite(points->xs[i])) {
-            return koksma__fail(KOKSMA_ARGUMENT, "point %zu: a coordinate is not finite", i / (size_t)points->dim);
-        }
+        KOKSMA__FAIL_IF(!isfinite(points->xs[i]), KOKSMA_ARGUMENT, "point %zu: a coordinate is not finite",
+                        i / (size_t)points->dim);
     }
     return koksma__numbers_write(path, points, comment, run);
 }

@@ -57,10 +57,8 @@ static koksma_status parse_shape(const char *name, const char *shape, layout *ou
     if (n_sizes == 0 || sizes[0] == 0 || sizes[1] == 0) {
         return malformed(name, "no points");
     }
-    if (sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1]) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: npy header: claims %llu points of %llu dimensions, more than fit",
-                            name, sizes[0], sizes[1]);
-    }
+    KOKSMA__FAIL_IF(sizes[1] > KOKSMA_MAX_DIM || sizes[0] > KOKSMA_MAX_COORDINATES / sizes[1], KOKSMA_MALFORMED,
+                    "%s: npy header: claims %llu points of %llu dimensions, more than fit", name, sizes[0], sizes[1]);
     out->n = (size_t)sizes[0];
     out->dim = (size_t)sizes[1];
     return KOKSMA_OK;
@@ -126,9 +124,8 @@ static double decode(const unsigned char *bytes, const layout *l)
 /* Stores number `item` of the file in the points, or fails if it is no coordinate. */
 static koksma_status put_item(const char *name, const layout *l, size_t item, double x, koksma_points *points)
 {
-    if (!(x >= 0 && x <= 1)) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name, item, x);
-    }
+    KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: item %zu: coordinate %.17g is outside [0,1]", name,
+                    item, x);
     const size_t place = l->fortran_order ? item % l->n * l->dim + item / l->n : item;
     points->xs[place] = x == 0 ? 0.0 : x;
     return KOKSMA_OK;
@@ -142,21 +139,14 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
         const size_t wanted = n_items - first < ITEMS_AT_ONCE ? n_items - first : ITEMS_AT_ONCE;
         const size_t got = fread(bytes, l->item_size, wanted, stream);
         for (size_t i = 0; i < got; i++) {
-            const koksma_status status = put_item(name, l, first + i, decode(bytes + i * l->item_size, l), points);
-            if (status) {
-                return status;
-            }
+            KOKSMA__TRY(put_item(name, l, first + i, decode(bytes + i * l->item_size, l), points));
         }
-        if (got < wanted) {
-            return koksma__fail(KOKSMA_MALFORMED,
-                                "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
-                                first + got, l->n, l->dim);
-        }
+        KOKSMA__FAIL_IF(got < wanted, KOKSMA_MALFORMED,
+                        "%s: item %zu: the file ends before the %zu points of dim %zu that it claims", name,
+                        first + got, l->n, l->dim);
     }
-    if (getc(stream) != EOF) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: the file goes on after the %zu points of dim %zu that it claims",
-                            name, l->n, l->dim);
-    }
+    KOKSMA__FAIL_IF(getc(stream) != EOF, KOKSMA_MALFORMED,
+                    "%s: the file goes on after the %zu points of dim %zu that it claims", name, l->n, l->dim);
     return KOKSMA_OK;
 }
 
@@ -169,11 +159,9 @@ static koksma_status check_length(FILE *stream, const char *name, const layout *
     }
     const long end = ftell(stream);
     fseek(stream, here, SEEK_SET);
-    if ((size_t)(end - here) / l->item_size < l->n * l->dim) {
-        return koksma__fail(KOKSMA_MALFORMED,
-                            "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers", name,
-                            l->n, l->dim, (size_t)(end - here) / l->item_size);
-    }
+    KOKSMA__FAIL_IF((size_t)(end - here) / l->item_size < l->n * l->dim, KOKSMA_MALFORMED,
+                    "%s: npy header: claims %zu points of dim %zu, and the file holds %zu numbers", name, l->n,
+                    l->dim, (size_t)(end - here) / l->item_size);
     return KOKSMA_OK;
 }
 

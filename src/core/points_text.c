@@ -107,10 +107,9 @@ static koksma_status read_promise(reader *r, const char *line, const char *forma
                                                             : NULL;
         if (promise) {
             *promise = strtoull(digits, NULL, 10);
-            if (*promise > KOKSMA_MAX_COORDINATES) {
-                return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: claims %s = %llu, more than the %zu that fit",
-                                    r->name, r->line_number, key, *promise, KOKSMA_MAX_COORDINATES);
-            }
+            KOKSMA__FAIL_IF(*promise > KOKSMA_MAX_COORDINATES, KOKSMA_MALFORMED,
+                            "%s: line %zu: claims %s = %llu, more than the %zu that fit", r->name, r->line_number,
+                            key, *promise, KOKSMA_MAX_COORDINATES);
         }
     }
     return KOKSMA_OK;
@@ -144,16 +143,13 @@ static koksma_status append(reader *r, double x)
 {
     koksma_points *p = r->points;
     const size_t used = p->n; /* while reading, n counts coordinates */
-    if (used == KOKSMA_MAX_COORDINATES) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: more coordinates than the %zu that fit into one set",
-                            r->name, r->line_number, KOKSMA_MAX_COORDINATES);
-    }
+    KOKSMA__FAIL_IF(used == KOKSMA_MAX_COORDINATES, KOKSMA_MALFORMED,
+                    "%s: line %zu: more coordinates than the %zu that fit into one set", r->name, r->line_number,
+                    KOKSMA_MAX_COORDINATES);
     if (used == r->capacity) {
         const size_t capacity = used ? 2 * used : 64;
         double *xs = realloc(p->xs, capacity * sizeof *xs);
-        if (!xs) {
-            return koksma__fail_memory(capacity * sizeof *xs);
-        }
+        KOKSMA__REQUIRE_MEMORY(xs, capacity * sizeof *xs);
         p->xs = xs;
         r->capacity = capacity;
     }
@@ -207,10 +203,8 @@ static koksma_status read_row(reader *r, const char *s)
         if (end == s || !(is_separator(*end) || !*end)) {
             return bad_number(r, s);
         }
-        if (!(x >= 0 && x <= 1)) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: coordinate %.17g is outside [0,1]", r->name,
-                                r->line_number, x);
-        }
+        KOKSMA__FAIL_IF(!(x >= 0 && x <= 1), KOKSMA_MALFORMED, "%s: line %zu: coordinate %.17g is outside [0,1]",
+                        r->name, r->line_number, x);
         if (++fields > KOKSMA_MAX_DIM) {
             return malformed(r, "more than 4096 coordinates");
         }
@@ -226,11 +220,9 @@ static koksma_status read_row(reader *r, const char *s)
     if (r->points->dim == 0) {
         r->points->dim = fields;
     }
-    if (fields != r->points->dim) {
-        return koksma__fail(KOKSMA_MALFORMED,
-                            "%s: line %zu: ragged row: %d coordinates where the rows before have %d", r->name,
-                            r->line_number, fields, r->points->dim);
-    }
+    KOKSMA__FAIL_IF(fields != r->points->dim, KOKSMA_MALFORMED,
+                    "%s: line %zu: ragged row: %d coordinates where the rows before have %d", r->name, r->line_number,
+                    fields, r->points->dim);
     return KOKSMA_OK;
 }
 
@@ -268,18 +260,14 @@ static koksma_status take_line(reader *r)
 static koksma_status check_promises(const reader *r, size_t n)
 {
     const int dim = r->points->dim;
-    if (n == 0) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
-    }
-    if (r->promised_n && r->promised_n != n) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: the file ends after %zu points and claims %llu", r->name,
-                            r->line_number, n, r->promised_n);
-    }
-    if ((r->promised_dim && r->promised_dim != (unsigned)dim) ||
-        (r->header_fields && r->header_fields != (size_t)dim)) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu",
-                            r->name, r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
-    }
+    KOKSMA__FAIL_IF(n == 0, KOKSMA_MALFORMED, "%s: line %zu: no points in the file", r->name, r->line_number);
+    KOKSMA__FAIL_IF(r->promised_n && r->promised_n != n, KOKSMA_MALFORMED,
+                    "%s: line %zu: the file ends after %zu points and claims %llu", r->name, r->line_number, n,
+                    r->promised_n);
+    KOKSMA__FAIL_IF((r->promised_dim && r->promised_dim != (unsigned)dim) ||
+                        (r->header_fields && r->header_fields != (size_t)dim),
+                    KOKSMA_MALFORMED, "%s: line %zu: rows have %d coordinates and the header claims %llu", r->name,
+                    r->line_number, dim, r->promised_dim ? r->promised_dim : r->header_fields);
     return KOKSMA_OK;
 }
 

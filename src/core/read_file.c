@@ -50,9 +50,7 @@ static koksma_status fail_read(const char *name, int reason)
 static koksma_status check_file(const char *path, const struct stat *info, koksma__file_kind kind, koksma__named by,
                                 bool terminal)
 {
-    if (S_ISDIR(info->st_mode)) {
-        return koksma__fail(KOKSMA_MISSING, "%s: can't be read: it is a directory", path);
-    }
+    KOKSMA__FAIL_IF(S_ISDIR(info->st_mode), KOKSMA_MISSING, "%s: can't be read: it is a directory", path);
     if (S_ISCHR(info->st_mode) || S_ISBLK(info->st_mode)) {
         return terminal && by == KOKSMA__BY_USER
                    ? KOKSMA_OK
@@ -128,9 +126,7 @@ static koksma_status read_all(FILE *stream, const char *name, size_t most, koksm
     size_t capacity = KOKSMA__FILE_START, used = 0;
     for (;;) {
         unsigned char *more = realloc(*bytes, capacity + 1);
-        if (!more) {
-            return koksma__fail_memory(capacity);
-        }
+        KOKSMA__REQUIRE_MEMORY(more, capacity);
         *bytes = more;
         const size_t got = fread(more + used, 1, capacity - used, stream);
         const int reason = errno;
@@ -160,12 +156,9 @@ koksma_status koksma__read_file(const char *path, koksma__file_kind kind, koksma
     const size_t most = (size_t)koksma__file_most(kind);
     *bytes = NULL;
     *size = 0;
-    koksma_status status = koksma__file_open(path, kind, by, &stream);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__file_open(path, kind, by, &stream));
     const char *name = stream == stdin ? "standard input" : path;
-    status = read_all(stream, name, most, check, bytes, size);
+    koksma_status status = read_all(stream, name, most, check, bytes, size);
     koksma__file_close(stream);
     status = !status && *size > most ? koksma__file_too_long(name, kind) : status;
     if (status) {
@@ -180,10 +173,7 @@ koksma_status koksma__hash_file(const char *path, uint64_t *hash)
 {
     unsigned char bytes[1 << 14];
     FILE *stream;
-    const koksma_status status = koksma__file_open(path, KOKSMA__FILE_POINTS, KOKSMA__BY_FILE, &stream);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__file_open(path, KOKSMA__FILE_POINTS, KOKSMA__BY_FILE, &stream));
     *hash = KOKSMA__HASH_START;
     for (size_t n; (n = fread(bytes, 1, sizeof bytes, stream));) {
         *hash = koksma__hash_more(*hash, bytes, n);

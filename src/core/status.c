@@ -125,22 +125,17 @@ bool koksma__missing(const char *function, const char *names, const void *const 
 
 koksma_status koksma__array_check(const char *what, const void *array, size_t n, size_t bytes)
 {
-    if (!array && n) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s is NULL, and n = %zu", what, n);
-    }
+    KOKSMA__FAIL_IF(!array && n, KOKSMA_ARGUMENT, "%s is NULL, and n = %zu", what, n);
     return n <= PTRDIFF_MAX / bytes ? KOKSMA_OK
                                     : koksma__fail(KOKSMA_ARGUMENT, "%s: n = %zu is more than memory has", what, n);
 }
 
 koksma_status koksma__run_check(const char *function, const koksma_run *run)
 {
-    if (run && run->threads < 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: run->threads = %d: it is 0, for all, or more", function,
-                            run->threads);
-    }
-    if (run && !(run->time_limit_s >= 0)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: run->time_limit_s = %g: it is 0, for none, or a number of seconds",
-                            function, run->time_limit_s);
-    }
+    KOKSMA__FAIL_IF(run && run->threads < 0, KOKSMA_ARGUMENT, "%s: run->threads = %d: it is 0, for all, or more",
+                    function, run->threads);
+    KOKSMA__FAIL_IF(run && !(run->time_limit_s >= 0), KOKSMA_ARGUMENT,
+                    "%s: run->time_limit_s = %g: it is 0, for none, or a number of seconds", function,
+                    run->time_limit_s);
     return KOKSMA_OK;
 }

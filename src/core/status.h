@@ -31,10 +31,28 @@ KOKSMA__LAB koksma_status koksma__fail_in(koksma_status status, const char *name
         }                                                                                                            \
     } while (0)
 #define KOKSMA__REQUIRE(...) KOKSMA__REQUIRE_OR(KOKSMA_ARGUMENT, __VA_ARGS__)
-#define KOKSMA__REQUIRE_RUN(run)                                                                                     \
+#define KOKSMA__REQUIRE_RUN(run) KOKSMA__TRY(koksma__run_check(__func__, run))
+
+/* How a function that returns a status ends early. KOKSMA__TRY(call) returns the status of a call that failed;
+   KOKSMA__FAIL_IF(condition, status, format, ...) returns koksma__fail(status, format, ...);
+   KOKSMA__REQUIRE_MEMORY(pointer, bytes) fails where malloc gave NULL. What was claimed before must be freed by then. */
+#define KOKSMA__TRY(call)                                                                                            \
     do {                                                                                                             \
-        if (koksma__run_check(__func__, run)) {                                                                      \
-            return KOKSMA_ARGUMENT;                                                                                  \
+        const koksma_status failed_ = (call);                                                                        \
+        if (failed_) {                                                                                               \
+            return failed_;                                                                                          \
+        }                                                                                                            \
+    } while (0)
+#define KOKSMA__FAIL_IF(condition, ...)                                                                              \
+    do {                                                                                                             \
+        if (condition) {                                                                                             \
+            return koksma__fail(__VA_ARGS__);                                                                        \
+        }                                                                                                            \
+    } while (0)
+#define KOKSMA__REQUIRE_MEMORY(pointer, bytes)                                                                       \
+    do {                                                                                                             \
+        if (!(pointer)) {                                                                                            \
+            return koksma__fail_memory(bytes);                                                                       \
         }                                                                                                            \
     } while (0)
 

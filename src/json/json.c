@@ -148,9 +148,7 @@ static koksma_status read_text(koksma__json *d, json_error_t *error)
 {
     const size_t room = 4 * d->size + 4096;
     char *volatile there = malloc(room); /* volatile: compilers leave out what is only freed */
-    if (!there) {
-        return koksma__fail_memory(room);
-    }
+    KOKSMA__REQUIRE_MEMORY(there, room);
     memset(there, 1, room); /* addresses alone are cheap */
     free(there);
     d->root = json_loadb(d->text, d->size, JSON_REJECT_DUPLICATES, error);

@@ -87,9 +87,7 @@ koksma_status koksma__bootstrap_pairs(const koksma__means *x, const koksma__mean
         return KOKSMA_OK;
     }
     double *room = malloc((samples + 2 * n) * sizeof *room);
-    if (!room) {
-        return koksma__fail_memory((samples + 2 * n) * sizeof *room);
-    }
+    KOKSMA__REQUIRE_MEMORY(room, (samples + 2 * n) * sizeof *room);
     for (size_t s = 0; s < samples; s++) {
         double *a = room + samples, *b = a + n;
         resample(x, y, n, seed, s, a, b);
@@ -108,9 +106,7 @@ koksma_status koksma__bootstrap_difference(const koksma__draws *a, const koksma_
 {
     double *room = malloc(samples * sizeof *room);
     *out = (koksma__estimate){a->value - b->value, NAN, NAN};
-    if (!room) {
-        return koksma__fail_memory(samples * sizeof *room);
-    }
+    KOKSMA__REQUIRE_MEMORY(room, samples * sizeof *room);
     for (size_t s = 0; s < samples; s++) {
         room[s] = a->values[s] * a->factor - b->values[s] * b->factor;
     }

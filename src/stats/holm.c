@@ -41,9 +41,7 @@ static int compare_tests(const void *a, const void *b)
 koksma_status koksma__holm(double *p, size_t n)
 {
     test *tests = malloc((n + 1) * sizeof *tests);
-    if (!tests) {
-        return koksma__fail_memory((n + 1) * sizeof *tests);
-    }
+    KOKSMA__REQUIRE_MEMORY(tests, (n + 1) * sizeof *tests);
     for (size_t i = 0; i < n; i++) {
         tests[i] = (test){p[i], i};
     }

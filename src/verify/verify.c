@@ -51,13 +51,10 @@ koksma_status koksma_verify(const koksma_points *points, const koksma_run *run, 
     KOKSMA__REQUIRE(points, findings);
     KOKSMA__REQUIRE_RUN(run);
     *findings = (koksma_findings){0};
-    koksma_status status = koksma__points_check(points);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__points_check(points));
     koksma__verification v = {.points = points, .run = run, .findings = findings};
     v.counts = malloc((points->n + 1) * sizeof *v.counts);
-    status = v.counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *v.counts);
+    koksma_status status = v.counts ? KOKSMA_OK : koksma__fail_memory((points->n + 1) * sizeof *v.counts);
     for (size_t i = 0; i < N_PROPERTIES && !status; i++) {
         v.property = properties[i];
         status = v.property->look(&v);

@@ -98,13 +98,9 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
 {
     KOKSMA__REQUIRE(points, distance);
     KOKSMA__REQUIRE_RUN(run);
-    koksma_status status = koksma__points_check(points);
-    if (status) {
-        return status;
-    }
-    if (points->n == 1) {
-        return koksma__fail(KOKSMA_N, "smallest distance: n = 1: one point has no distance; two points or more have");
-    }
+    KOKSMA__TRY(koksma__points_check(points));
+    KOKSMA__FAIL_IF(points->n == 1, KOKSMA_N,
+                    "smallest distance: n = 1: one point has no distance; two points or more have");
     if (points->dim == 2) {
         return koksma__closest_pair(points, torus, run, distance);
     }
@@ -112,7 +108,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
     if (!sorted) {
         return KOKSMA_MEMORY;
     }
-    status = sweep(sorted, points->n, torus, run, distance);
+    const koksma_status status = sweep(sorted, points->n, torus, run, distance);
     free(sorted);
     return status;
 }
@@ -125,10 +121,7 @@ static koksma_status look_distance(koksma__verification *v)
     if (points->n == 1 || (points->dim != 2 && points->n > 20000)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma_smallest_distance(points, torus, v->run, &distance);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma_smallest_distance(points, torus, v->run, &distance));
     koksma_finding *f = koksma__finding(v);
     if (!f) {
         return KOKSMA_MEMORY;
