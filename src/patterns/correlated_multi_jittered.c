@@ -62,17 +62,12 @@ static uint64_t key_of(const uint32_t words[2])
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     size_t columns, rows;
-    koksma_status status = koksma__divisors("correlated-multi-jittered", out->n, args->params[0], &columns, &rows);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__divisors("correlated-multi-jittered", out->n, args->params[0], &columns, &rows));
     uint32_t few[FEW], *orders = few;
     if (columns + rows > FEW) {
         const size_t bytes = (columns + rows) * sizeof *orders;
         orders = malloc(bytes);
-        if (!orders) {
-            return koksma__fail_memory(bytes);
-        }
+        KOKSMA__REQUIRE_MEMORY(orders, bytes);
         koksma__large_pages(orders, bytes);
     }
     const koksma__words keys = koksma__random(seed, KOKSMA__PURPOSE_SHUFFLE, 0, 0);
@@ -80,7 +75,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const grid g = {seed, key_of(keys.w), (uint32_t)columns, (uint32_t)rows, orders, orders + rows};
     koksma__kernels()->permute(0, rows, (uint32_t)rows, key_of(keys.w + 2), g.in_column);
     koksma__kernels()->permute(0, columns, (uint32_t)columns, key_of(more.w), g.in_row);
-    status = koksma__fill_rows(args->run, out, place, &g);
+    const koksma_status status = koksma__fill_rows(args->run, out, place, &g);
     if (orders != few) {
         free(orders);
     }

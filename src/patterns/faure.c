@@ -129,9 +129,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);
-    if (!j.matrices) {
-        return koksma__fail_memory(entries * sizeof *j.matrices);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.matrices, entries * sizeof *j.matrices);
     for (int k = 0; k < out->dim; k++) {
         fill_matrix(&j, (uint32_t)k, j.matrices + (size_t)k * (size_t)(j.digits * j.digits));
     }

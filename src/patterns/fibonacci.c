@@ -21,10 +21,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         before = number;
         number = next;
     }
-    if (number != out->n) {
-        return koksma__fail(KOKSMA_N, "fibonacci: n = %zu is not a Fibonacci number; n = %llu or %llu would do",
-                            out->n, (unsigned long long)before, (unsigned long long)number);
-    }
+    KOKSMA__FAIL_IF(number != out->n, KOKSMA_N,
+                    "fibonacci: n = %zu is not a Fibonacci number; n = %llu or %llu would do", out->n,
+                    (unsigned long long)before, (unsigned long long)number);
     const uint64_t z[2] = {out->n > 1, out->n > 1 ? before : 0};
     return koksma__fill_lattice(args->run, z, out);
 }

@@ -64,9 +64,7 @@ static koksma_status move_block(void *context, size_t block)
     const size_t end = (block + 1) * BLOCK < d->copies ? (block + 1) * BLOCK : d->copies;
     const double scale = -d->tiles * d->tiles / (2 * d->s * d->s);
     koksma__run_of_points *runs = malloc(koksma__torus_rows_most(rows, d->cut) * sizeof *runs);
-    if (!runs) {
-        return koksma__fail_memory(koksma__torus_rows_most(rows, d->cut) * sizeof *runs);
-    }
+    KOKSMA__REQUIRE_MEMORY(runs, koksma__torus_rows_most(rows, d->cut) * sizeof *runs);
     for (size_t at = block * BLOCK; at < end; at++) {
         const double x = rows->xs[at], y = rows->ys[at];
         const size_t i = rows->order[at];
@@ -143,9 +141,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const int steps = (int)args->params[0];
     const size_t numbers = 3 * n + (d.tiles > 1 ? 2 * d.copies : 0);
     d.moves = calloc(numbers, sizeof *d.moves);
-    if (!d.moves) {
-        return koksma__fail_memory(numbers * sizeof *d.moves);
-    }
+    KOKSMA__REQUIRE_MEMORY(d.moves, numbers * sizeof *d.moves);
     d.least = INFINITY;
     d.squares = steps ? NULL : d.moves + 2 * n;
     d.places = d.tiles > 1 ? d.moves + 3 * n : d.xs;

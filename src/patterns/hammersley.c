@@ -76,9 +76,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     job j;
     net digital;
-    if (args->params[1] == OWEN && args->params[0] != 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "hammersley: offset has no effect with scramble=owen; leave one out");
-    }
+    KOKSMA__FAIL_IF(args->params[1] == OWEN && args->params[0] != 0, KOKSMA_ARGUMENT,
+                    "hammersley: offset has no effect with scramble=owen; leave one out");
     if (args->params[1] == OWEN) {
         return koksma__owen_hammersley(seed, args->run, out);
     }

@@ -75,10 +75,7 @@ static koksma_status best_multiplier(koksma__lattice_search *search, int dim, ui
         while (isinf(search->values[mirrored(a, n)])) {
             a++;
         }
-        const koksma_status status = error_of(search, dim, a, &error);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(error_of(search, dim, a, &error));
         if (*best == 0 || error < least) {
             least = error;
             *best = a;

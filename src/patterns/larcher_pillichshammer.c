@@ -50,9 +50,7 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
 static koksma_status generate_owen(uint64_t seed, const koksma_run *run, koksma_points *out)
 {
     uint32_t directions[32], partners[32], *v = malloc(out->n * sizeof *v);
-    if (!v) {
-        return koksma__fail_memory(out->n * sizeof *v);
-    }
+    KOKSMA__REQUIRE_MEMORY(v, out->n * sizeof *v);
     fill_directions(directions);
     koksma__partners(directions, 32, partners);
     koksma_status status = koksma__grow_column(seed, KOKSMA__PURPOSE_SCRAMBLE, partners, run, out->n, v);

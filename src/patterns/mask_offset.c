@@ -60,14 +60,11 @@ static koksma_status fill_block(void *context, size_t block)
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t width = (size_t)args->params[0], pixels = width * width;
-    if (out->n % pixels) {
-        return koksma__fail(KOKSMA_N, "mask-offset: n = %zu is no multiple of the %zu pixels; n = %zu would do",
-                            out->n, pixels, (out->n / pixels + 1) * pixels);
-    }
+    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
+                    "mask-offset: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
+                    (out->n / pixels + 1) * pixels);
     uint32_t *ranks = malloc(MASKS * pixels * sizeof *ranks);
-    if (!ranks) {
-        return koksma__fail_memory(MASKS * pixels * sizeof *ranks);
-    }
+    KOKSMA__REQUIRE_MEMORY(ranks, MASKS * pixels * sizeof *ranks);
     koksma_status status = KOKSMA_OK;
     for (size_t k = 0; k < MASKS && !status; k++) {
         status = koksma_mask_void_and_cluster((int)width, koksma__random_seed(seed, k, KOKSMA__PURPOSE_SHIFT),

@@ -50,9 +50,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     uint32_t few[FEW];
     const size_t most = columns > rows ? columns : rows;
     uint32_t *permutation = most <= FEW ? few : malloc(most * sizeof *permutation);
-    if (!permutation) {
-        return koksma__fail_memory(most * sizeof *permutation);
-    }
+    KOKSMA__REQUIRE_MEMORY(permutation, most * sizeof *permutation);
     place(seed, columns, rows, permutation, out);
     if (permutation != few) {
         free(permutation);

@@ -62,9 +62,7 @@ static koksma_status fill_space(uint64_t seed, const koksma_run *run, uint32_t *
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     uint32_t few[FEW], *permutation = out->n <= FEW ? few : malloc(out->n * sizeof *permutation);
-    if (!permutation) {
-        return koksma__fail_memory(out->n * sizeof *permutation);
-    }
+    KOKSMA__REQUIRE_MEMORY(permutation, out->n * sizeof *permutation);
     koksma__large_pages(permutation, out->n * sizeof *permutation);
     const koksma_status status =
         out->dim == 2 ? fill_plane(seed, args->run, permutation, out) : fill_space(seed, args->run, permutation, out);

@@ -56,10 +56,8 @@ static koksma_status find_levels(size_t n, int dim, int strength, size_t *levels
     if (low < 2 || low < least) {
         low = high;
     }
-    if (power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim) {
-        return koksma__fail(KOKSMA_DIM, "orthogonal-array: dim = %d: of strength %d no set that fits has so many",
-                            dim, strength);
-    }
+    KOKSMA__FAIL_IF(power(low, strength) > KOKSMA_MAX_COORDINATES / (size_t)dim, KOKSMA_DIM,
+                    "orthogonal-array: dim = %d: of strength %d no set that fits has so many", dim, strength);
     char other[32] = "";
     if (low != high && power(high, strength) <= KOKSMA_MAX_COORDINATES / (size_t)dim) {
         snprintf(other, sizeof other, " or %zu", power(high, strength));
@@ -92,9 +90,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     uint32_t few[FEW + 2 * 16 + 16];
     uint32_t *strata = n <= FEW ? few : malloc((n + 2 * s) * sizeof *strata);
-    if (!strata) {
-        return koksma__fail_memory((n + 2 * s) * sizeof *strata);
-    }
+    KOKSMA__REQUIRE_MEMORY(strata, (n + 2 * s) * sizeof *strata);
     uint32_t *order = strata + n, *used = order + s;
     for (int k = 0; k < out->dim; k++) {
         const uint64_t own = koksma__random_seed(seed, (uint64_t)k, KOKSMA__PURPOSE_SHUFFLE);

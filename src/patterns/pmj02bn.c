@@ -219,9 +219,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const size_t floats = 4 * side * width + width, words = 2 * n + 2 * side;
     const size_t bytes = 2 * n * sizeof(double) + floats * sizeof(float) + words * sizeof(uint32_t) + 2 * side;
     double *plain = malloc(bytes);
-    if (!plain) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(plain, bytes);
     m.room = (float *)(plain + 2 * n);
     m.points[0] = (uint32_t *)(m.room + floats);
     m.points[1] = m.points[0] + n;

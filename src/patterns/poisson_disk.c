@@ -123,12 +123,10 @@ static koksma_status throw_until(uint64_t seed, const koksma_args *args, koksma_
             return koksma__fail_interrupted();
         }
         most = placed > most ? placed : most;
-        if (s.work >= s.most) {
-            return koksma__fail(KOKSMA_IMPOSSIBLE,
-                                "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its "
-                                "bound of work; n = %zu or less, or a smaller d, would do",
-                                most, out->n, d, out->dim, most);
-        }
+        KOKSMA__FAIL_IF(s.work >= s.most, KOKSMA_IMPOSSIBLE,
+                        "poisson-disk: dart throwing placed %zu of %zu points at d=%g in dim %d within its "
+                        "bound of work; n = %zu or less, or a smaller d, would do",
+                        most, out->n, d, out->dim, most);
         if (restart >= 5 && most < out->n * 9 / 10) {
             break; /* hopeless */
         }
@@ -144,12 +142,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const double d = args->params[0];
     const bool torus = args->params[1] != 0;
     const double limit = koksma__packing_distance(out->n, out->dim, torus);
-    if (d > limit) {
-        return koksma__fail(KOKSMA_IMPOSSIBLE,
-                            "poisson-disk: no %zu points in dim %d are d=%g apart; no d above "
-                            "%.4f is possible, and dart throwing gets to about %.3g",
-                            out->n, out->dim, d, limit, reached(out->dim, torus) * limit);
-    }
+    KOKSMA__FAIL_IF(d > limit, KOKSMA_IMPOSSIBLE,
+                    "poisson-disk: no %zu points in dim %d are d=%g apart; no d above "
+                    "%.4f is possible, and dart throwing gets to about %.3g",
+                    out->n, out->dim, d, limit, reached(out->dim, torus) * limit);
     koksma__torus_grid grid = {0};
     const bool gridded = out->dim == 2 && out->n > FEW;
     koksma_status status = gridded ? koksma__torus_grid_init(&grid, out->n, out->xs) : KOKSMA_OK;

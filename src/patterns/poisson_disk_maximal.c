@@ -97,10 +97,9 @@ static koksma_status by_number(uint64_t seed, size_t n, const koksma_run *run, k
 static koksma_status by_distance(uint64_t seed, double d, const koksma_run *run, koksma__disks *disks)
 {
     const double most = (double)(KOKSMA_MAX_COORDINATES / 2), expected = PER_AREA / d / d;
-    if (expected > most) {
-        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d,
-                            expected, 1.01 * sqrt(PER_AREA / most));
-    }
+    KOKSMA__FAIL_IF(expected > most, KOKSMA_N,
+                    "poisson-disk-maximal: d=%g has about %.2g points; d=%.2g or more would do", d, expected,
+                    1.01 * sqrt(PER_AREA / most));
     koksma_status status = koksma__disks_init(disks, seed, d);
     return status ? status : koksma__disks_fill(disks, SIZE_MAX, run);
 }
@@ -118,10 +117,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     const double d = args->params[0];
     koksma__disks disks = {0};
-    if (d > 0 && PER_AREA / d / d > MANY && !is_possible(d, out->n)) {
-        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d,
-                            PER_AREA / d / d, out->n);
-    }
+    KOKSMA__FAIL_IF(d > 0 && PER_AREA / d / d > MANY && !is_possible(d, out->n), KOKSMA_N,
+                    "poisson-disk-maximal: d=%g has about %.3g points, not %zu; no d would do", d, PER_AREA / d / d,
+                    out->n);
     koksma_status status =
         d > 0 ? by_distance(seed, d, args->run, &disks) : by_number(seed, out->n, args->run, &disks);
     if (!status && disks.n != out->n) {
@@ -139,9 +137,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    if (args->params[0] <= 0) {
-        return koksma__fail(KOKSMA_N, "poisson-disk-maximal: without d= the number of points is missing");
-    }
+    KOKSMA__FAIL_IF(args->params[0] <= 0, KOKSMA_N,
+                    "poisson-disk-maximal: without d= the number of points is missing");
     koksma__disks disks = {0};
     koksma_status status = by_distance(seed, args->params[0], args->run, &disks);
     if (!status) {

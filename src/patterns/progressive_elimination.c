@@ -18,20 +18,15 @@
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t length = (size_t)args->params[0], factor = (size_t)args->params[1], dim = (size_t)out->dim;
-    if (out->n > length) {
-        return koksma__fail(KOKSMA_N,
-                            "progressive-elimination: length=%zu has %zu points, not %zu; n = %zu or less, or "
-                            "length=%zu, would do",
-                            length, length, out->n, length, out->n);
-    }
-    if (length > KOKSMA_MAX_COORDINATES / dim / factor) {
-        return koksma__fail(KOKSMA_N, "progressive-elimination: length=%zu is too large; length=%zu or less would do",
-                            length, KOKSMA_MAX_COORDINATES / dim / factor);
-    }
+    KOKSMA__FAIL_IF(out->n > length, KOKSMA_N,
+                    "progressive-elimination: length=%zu has %zu points, not %zu; n = %zu or less, or "
+                    "length=%zu, would do",
+                    length, length, out->n, length, out->n);
+    KOKSMA__FAIL_IF(length > KOKSMA_MAX_COORDINATES / dim / factor, KOKSMA_N,
+                    "progressive-elimination: length=%zu is too large; length=%zu or less would do", length,
+                    KOKSMA_MAX_COORDINATES / dim / factor);
     double *xs = malloc(length * dim * sizeof *xs);
-    if (!xs) {
-        return koksma__fail_memory(length * dim * sizeof *xs);
-    }
+    KOKSMA__REQUIRE_MEMORY(xs, length * dim * sizeof *xs);
     const koksma_status status =
         koksma__eliminated_set("progressive-elimination", seed, length, out->dim, factor, true, args->run, xs);
     if (!status) {

@@ -142,9 +142,7 @@ static koksma_status generate_owen(const job *j, const koksma_run *run, koksma_p
     uint32_t few[8 * 32], *partners = few;
     if (out->dim > 8) {
         partners = malloc((size_t)out->dim * 32 * sizeof *partners);
-        if (!partners) {
-            return koksma__fail_memory((size_t)out->dim * 32 * sizeof *partners);
-        }
+        KOKSMA__REQUIRE_MEMORY(partners, (size_t)out->dim * 32 * sizeof *partners);
     }
     int levels = 1;
     while ((size_t)1 << levels < out->n) {
@@ -184,9 +182,7 @@ static koksma_status generate_lms(job *j, const koksma_run *run, koksma_points *
     uint32_t few[8][32], (*matrices)[32] = few;
     if (out->dim > 8) {
         matrices = malloc((size_t)out->dim * sizeof *matrices);
-        if (!matrices) {
-            return koksma__fail_memory((size_t)out->dim * sizeof *matrices);
-        }
+        KOKSMA__REQUIRE_MEMORY(matrices, (size_t)out->dim * sizeof *matrices);
     }
     for (int k = 0; k < out->dim; k++) {
         scramble_matrix(j, k, matrices[k]);
@@ -203,15 +199,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     job j = {
         .seed = seed, .scramble = (int)args->params[0], .old = (int)args->params[1], .shuffle = args->params[2] != 0};
-    if (j.old && out->dim > KOKSMA__SOBOL_OLD_DIM) {
-        return koksma__fail(KOKSMA_DIM,
-                            "sobol: Bratley & Fox have numbers for %d dimensions, not %d; "
-                            "numbers=joe-kuo has %d",
-                            KOKSMA__SOBOL_OLD_DIM, out->dim, KOKSMA__SOBOL_DIM);
-    }
-    if (j.shuffle && j.scramble != HASH_OWEN) {
-        return koksma__fail(KOKSMA_ARGUMENT, "sobol: shuffle=1 goes with scramble=hash-owen only");
-    }
+    KOKSMA__FAIL_IF(j.old && out->dim > KOKSMA__SOBOL_OLD_DIM, KOKSMA_DIM,
+                    "sobol: Bratley & Fox have numbers for %d dimensions, not %d; "
+                    "numbers=joe-kuo has %d",
+                    KOKSMA__SOBOL_OLD_DIM, out->dim, KOKSMA__SOBOL_DIM);
+    KOKSMA__FAIL_IF(j.shuffle && j.scramble != HASH_OWEN, KOKSMA_ARGUMENT,
+                    "sobol: shuffle=1 goes with scramble=hash-owen only");
     if (j.scramble == OWEN) {
         return generate_owen(&j, args->run, out);
     }

@@ -18,14 +18,11 @@
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     const size_t size = (size_t)args->params[0], pixels = size * size;
-    if (out->n > pixels) {
-        return koksma__fail(KOKSMA_N, "void-and-cluster: size=%zu has %zu pixels, not %zu; n = %zu or less would do",
-                            size, pixels, out->n, pixels);
-    }
+    KOKSMA__FAIL_IF(out->n > pixels, KOKSMA_N,
+                    "void-and-cluster: size=%zu has %zu pixels, not %zu; n = %zu or less would do", size, pixels,
+                    out->n, pixels);
     uint32_t *ranks = malloc(pixels * sizeof *ranks);
-    if (!ranks) {
-        return koksma__fail_memory(pixels * sizeof *ranks);
-    }
+    KOKSMA__REQUIRE_MEMORY(ranks, pixels * sizeof *ranks);
     const koksma_status status = koksma_mask_void_and_cluster((int)size, seed, args->run, ranks);
     for (size_t p = 0; p < pixels && !status; p++) {
         if (ranks[p] < out->n) {

@@ -50,14 +50,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         levels++;
     }
     const size_t pixels = (size_t)width * width;
-    if (1u << levels != width) {
-        return koksma__fail(KOKSMA_ARGUMENT, "z-sampler: width=%u is not a power of two; width=%u or %u would do",
-                            width, 1u << (levels - 1), 1u << levels);
-    }
-    if (out->n % pixels) {
-        return koksma__fail(KOKSMA_N, "z-sampler: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n,
-                            pixels, (out->n / pixels + 1) * pixels);
-    }
+    KOKSMA__FAIL_IF(1u << levels != width, KOKSMA_ARGUMENT,
+                    "z-sampler: width=%u is not a power of two; width=%u or %u would do", width, 1u << (levels - 1),
+                    1u << levels);
+    KOKSMA__FAIL_IF(out->n % pixels, KOKSMA_N,
+                    "z-sampler: n = %zu is no multiple of the %zu pixels; n = %zu would do", out->n, pixels,
+                    (out->n / pixels + 1) * pixels);
     filling f = {seed, width, levels, out->n / pixels, out};
     return koksma__parallel(args->run, (out->n + BLOCK - 1) / BLOCK, fill_block, &f);
 }

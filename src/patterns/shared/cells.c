@@ -32,13 +32,9 @@ koksma_status koksma__cells(const char *name, const koksma_points *out, double c
     const size_t n = out->n;
     if (columns > 0) {
         const size_t c = (size_t)columns;
-        if (out->dim != 2) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: columns is for dim = 2", name);
-        }
-        if (n % c) {
-            return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
-                                n, n / c ? n / c * c : c, (n / c + 1) * c);
-        }
+        KOKSMA__FAIL_IF(out->dim != 2, KOKSMA_ARGUMENT, "%s: columns is for dim = 2", name);
+        KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c,
+                        n, n / c ? n / c * c : c, (n / c + 1) * c);
         *along_x = c;
         *along_rest = n / c;
         return KOKSMA_OK;
@@ -72,10 +68,8 @@ koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t
             c--;
         }
     }
-    if (n % c) {
-        return koksma__fail(KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
-                            n / c ? n / c * c : c, (n / c + 1) * c);
-    }
+    KOKSMA__FAIL_IF(n % c, KOKSMA_N, "%s: columns=%zu does not divide n = %zu; n = %zu or %zu would do", name, c, n,
+                    n / c ? n / c * c : c, (n / c + 1) * c);
     *columns = c;
     *rows = n / c;
     return KOKSMA_OK;

@@ -94,9 +94,7 @@ static koksma_status make_grid(koksma__disks *s, double d)
     s->who = who;
     s->squares = list;
     s->first = first;
-    if (!ok) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(ok, bytes);
     clear_grid(s);
     if (s->tiles > 1 && !s->times) {
         s->times = malloc(s->room * sizeof *s->times);
@@ -108,9 +106,7 @@ koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
 {
     *s = (koksma__disks){.kernels = koksma__kernels(), .seed = seed, .room = 64 + (size_t)(0.72 / d / d)};
     s->xs = malloc(2 * s->room * sizeof *s->xs);
-    if (!s->xs) {
-        return koksma__fail_memory(2 * s->room * sizeof *s->xs);
-    }
+    KOKSMA__REQUIRE_MEMORY(s->xs, 2 * s->room * sizeof *s->xs);
     koksma__large_pages(s->xs, 2 * s->room * sizeof *s->xs);
     return make_grid(s, d);
 }
@@ -244,9 +240,7 @@ koksma_status koksma__disks_refine(koksma__disks *s)
         if (most > s->spare_room) {
             const size_t room = most + most / 2 + s->n_squares * size;
             void *spare = realloc(s->spare, room);
-            if (!spare) {
-                return koksma__fail_memory(room);
-            }
+            KOKSMA__REQUIRE_MEMORY(spare, room);
             s->spare = spare;
             s->spare_room = room;
         }

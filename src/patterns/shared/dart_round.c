@@ -130,10 +130,7 @@ static koksma_status more_points(koksma__disks *s)
 static inline koksma_status keep(koksma__disks *s, const koksma__tile *t, const koksma__dart *d)
 {
     if (s->n == s->room) {
-        const koksma_status status = more_points(s);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(more_points(s));
     }
     s->xs[2 * s->n] = d->x;
     s->xs[2 * s->n + 1] = d->y;
@@ -194,9 +191,7 @@ static koksma_status wait(koksma__disks *s, queue *q, const koksma__dart *d)
     if (s->n_waiting == s->waiting_room) {
         const size_t room = 2 * s->waiting_room + 256;
         koksma__dart *waiting = realloc(s->waiting, room * sizeof *waiting);
-        if (!waiting) {
-            return koksma__fail_memory(room * sizeof *waiting);
-        }
+        KOKSMA__REQUIRE_MEMORY(waiting, room * sizeof *waiting);
         s->waiting = waiting;
         s->waiting_room = room;
     }
@@ -294,9 +289,7 @@ static koksma_status drop_last(koksma__disks *s, size_t before, size_t n)
 {
     const size_t count = s->n - before;
     koksma__dart *darts = malloc(count * sizeof *darts);
-    if (!darts) {
-        return koksma__fail_memory(count * sizeof *darts);
-    }
+    KOKSMA__REQUIRE_MEMORY(darts, count * sizeof *darts);
     for (size_t i = 0; i < count; i++) {
         darts[i] = (koksma__dart){
             .x = s->xs[2 * (before + i)], .y = s->xs[2 * (before + i) + 1], .time = s->times[before + i]};
@@ -319,16 +312,12 @@ static koksma_status sort_waiting(koksma__disks *s)
     }
     if (2 * n > s->waiting_room) {
         koksma__dart *waiting = realloc(s->waiting, 2 * n * sizeof *waiting);
-        if (!waiting) {
-            return koksma__fail_memory(2 * n * sizeof *waiting);
-        }
+        KOKSMA__REQUIRE_MEMORY(waiting, 2 * n * sizeof *waiting);
         s->waiting = waiting;
         s->waiting_room = 2 * n;
     }
     size_t *starts = calloc(n + 1, sizeof *starts);
-    if (!starts) {
-        return koksma__fail_memory((n + 1) * sizeof *starts);
-    }
+    KOKSMA__REQUIRE_MEMORY(starts, (n + 1) * sizeof *starts);
     koksma__dart *to = s->waiting, *from = s->waiting + n;
     for (size_t i = 0; i < n; i++) {
         from[i] = to[i];

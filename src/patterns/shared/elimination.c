@@ -323,9 +323,7 @@ koksma_status koksma__eliminate(size_t count, int dim, const double *points, siz
     const size_t cells = size_cells(&e), words = 4 * count + 2 * cells;
     const size_t bytes = count * ((size_t)dim * sizeof *e.xs + sizeof *e.heap) + words * sizeof *e.members;
     e.xs = malloc(bytes);
-    if (!e.xs) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(e.xs, bytes);
     e.heap = (entry *)(e.xs + count * (size_t)dim);
     e.origin = (uint32_t *)(e.heap + count);
     e.heap_place = e.origin + count;
@@ -375,14 +373,10 @@ koksma_status koksma__eliminated_set(const char *name, uint64_t seed, size_t n, 
                                      bool progressive, const koksma_run *run, double *xs)
 {
     const size_t all = factor * n, width = (size_t)dim, most = KOKSMA_MAX_COORDINATES / width / factor;
-    if (n > most) {
-        return koksma__fail(KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", name, n, most);
-    }
+    KOKSMA__FAIL_IF(n > most, KOKSMA_N, "%s: n = %zu is too large; n = %zu or less would do", name, n, most);
     const double d_max = koksma__elimination_radius(n, dim), d_min = d_max * koksma__elimination_limit(n, all);
     double *drawn = malloc(all * (width * sizeof *drawn + sizeof(uint32_t)));
-    if (!drawn) {
-        return koksma__fail_memory(all * (width * sizeof *drawn + sizeof(uint32_t)));
-    }
+    KOKSMA__REQUIRE_MEMORY(drawn, all * (width * sizeof *drawn + sizeof(uint32_t)));
     uint32_t *order = (uint32_t *)(drawn + all * width);
     koksma_status status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, run, all * width, drawn);
     status = status ? status : koksma__eliminate(all, dim, drawn, n, d_max, d_min, run, order);

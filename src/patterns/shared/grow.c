@@ -130,9 +130,7 @@ static koksma_status grow_and_store(growth *g, const uint32_t *order, const koks
     if (numbers > COLUMNS * FEW) {
         const size_t bytes = numbers * sizeof *memory;
         memory = g->v = malloc(bytes);
-        if (!memory) {
-            return koksma__fail_memory(bytes);
-        }
+        KOKSMA__REQUIRE_MEMORY(memory, bytes);
         koksma__large_pages(memory, bytes);
     }
     koksma_status status = KOKSMA_OK;

@@ -69,9 +69,7 @@ koksma_status koksma__lattice_open(koksma__lattice_search *s, size_t n, const ko
     if (n > KOKSMA__LATTICE_FEW) {
         const size_t bytes = (n + n / 2 + 1) * sizeof *s->product;
         s->product = malloc(bytes);
-        if (!s->product) {
-            return koksma__fail_memory(bytes);
-        }
+        KOKSMA__REQUIRE_MEMORY(s->product, bytes);
     }
     s->values = s->product + n;
     if (n <= KOKSMA__LATTICE_FEW) {

@@ -242,9 +242,7 @@ koksma_status koksma__owen_digits(uint64_t seed, const koksma_run *run, koksma_p
     if (out->n > FEW) {
         const size_t bytes = out->n * sizeof *j.binary;
         j.binary = malloc(bytes);
-        if (!j.binary) {
-            return koksma__fail_memory(bytes);
-        }
+        KOKSMA__REQUIRE_MEMORY(j.binary, bytes);
         koksma__large_pages(j.binary, bytes);
     }
     const koksma_status status = fill_all(&j, run);

@@ -39,9 +39,7 @@ koksma_status koksma__owen_equidistant(uint64_t seed, const koksma_run *run, kok
         m++;
     }
     void *memory = malloc(n * sizeof(double));
-    if (!memory) {
-        return koksma__fail_memory(n * sizeof(double));
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, n * sizeof(double));
     koksma_status status;
     if ((size_t)1 << m == n) {
         status = fill_net(seed, run, m, memory, out);

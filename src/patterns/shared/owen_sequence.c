@@ -172,9 +172,7 @@ static koksma_status place_all_levels(const column *c, int k, double whole)
         }
         const size_t entries = (l.size[0] + l.size[1]) * j->base;
         l.low = malloc(entries * sizeof *l.low);
-        if (!l.low) {
-            return koksma__fail_memory(entries * sizeof *l.low);
-        }
+        KOKSMA__REQUIRE_MEMORY(l.low, entries * sizeof *l.low);
         l.high = l.low + l.size[0] * j->base;
         j->relatives(j->context, k, count, digits);
         fill_map(j->base, digits, (count + 1) / 2, 1, l.step, l.low);
@@ -191,9 +189,7 @@ static koksma_status fill(void *context, size_t k)
     const size_t n = j->out->n, dim = (size_t)j->out->dim;
     uint16_t order[KOKSMA_MAX_DIM + 1], picked[KOKSMA_MAX_DIM + 1];
     double whole = j->base, *v = malloc((n + 1) * sizeof *v);
-    if (!v) {
-        return koksma__fail_memory((n + 1) * sizeof *v);
-    }
+    KOKSMA__REQUIRE_MEMORY(v, (n + 1) * sizeof *v);
     while (whole * j->base <= 0x1p53) {
         whole *= j->base;
     }

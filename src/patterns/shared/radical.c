@@ -96,9 +96,7 @@ koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, ko
     if (count > 8 || entries > sizeof r->room / sizeof *r->room) {
         const size_t bytes = (size_t)count * sizeof *r->columns + entries * sizeof *table;
         r->memory = malloc(bytes);
-        if (!r->memory) {
-            return koksma__fail_memory(bytes);
-        }
+        KOKSMA__REQUIRE_MEMORY(r->memory, bytes);
         r->columns = r->memory;
         table = (double *)(r->columns + count);
     }

@@ -24,9 +24,7 @@ koksma_status koksma__torus_grid_init(koksma__torus_grid *g, size_t n, const dou
     g->cells = (uint32_t)ceil(sqrt((double)n));
     const size_t cells = (size_t)g->cells * g->cells;
     g->head = malloc((cells + n) * sizeof *g->head);
-    if (!g->head) {
-        return koksma__fail_memory((cells + n) * sizeof *g->head);
-    }
+    KOKSMA__REQUIRE_MEMORY(g->head, (cells + n) * sizeof *g->head);
     g->next = g->head + cells;
     koksma__torus_grid_clear(g);
     return KOKSMA_OK;
@@ -161,10 +159,7 @@ void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, do
 koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order)
 {
     koksma__torus_grid g;
-    const koksma_status status = koksma__torus_grid_init(&g, n, xs);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__torus_grid_init(&g, n, xs));
     for (size_t i = n; i-- > 0;) { /* each cell's list begins with its first point */
         koksma__torus_grid_add(&g, (uint32_t)i);
     }

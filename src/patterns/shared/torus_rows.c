@@ -31,9 +31,7 @@ koksma_status koksma__torus_rows_init(koksma__torus_rows *r, size_t n)
     const size_t starts = (size_t)r->cells * r->cells + 1;
     const size_t bytes = (starts + n) * sizeof *r->start + 2 * (n + SPARE) * sizeof *r->xs;
     r->xs = malloc(bytes);
-    if (!r->xs) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(r->xs, bytes);
     r->ys = r->xs + n + SPARE;
     r->start = (uint32_t *)(r->ys + n + SPARE);
     r->order = r->start + starts;

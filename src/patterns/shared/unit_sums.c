@@ -128,9 +128,7 @@ static koksma_status make_room(koksma__unit_sums *s)
     const size_t line = longest > 64 ? longest : 64; /* and for transforms by the definition */
     const size_t bytes = 2 * (line + several) * sizeof *s->line_re;
     s->line_re = malloc(bytes);
-    if (!s->line_re) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(s->line_re, bytes);
     s->line_im = s->line_re + line;
     s->re = s->line_im + line;
     s->im = s->re + several;
@@ -251,9 +249,7 @@ static koksma_status make_block(koksma__unit_sums *s, block *b)
 koksma_status koksma__unit_sums_open(size_t n, const koksma_run *run, koksma__unit_sums **sums)
 {
     koksma__unit_sums *s = *sums = calloc(1, sizeof *s);
-    if (!s) {
-        return koksma__fail_memory(sizeof *s);
-    }
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     s->n = n;
     s->n_primes = koksma__primes_of(n, s->primes);
     koksma_status status = add_blocks(s, 1, 0);

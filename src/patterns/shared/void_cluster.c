@@ -213,9 +213,7 @@ static koksma_status make_room(mask *m)
     }
     const size_t bytes = m->n * (sizeof *m->energy + sizeof *m->set) + 2 * nodes * sizeof(best);
     m->energy = calloc(1, bytes);
-    if (!m->energy) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(m->energy, bytes);
     best *node = (best *)(m->energy + m->n);
     for (int kind = VOIDS; kind <= CLUSTERS; kind++) {
         for (int level = 1; level <= m->levels; level++) {
@@ -231,22 +229,18 @@ koksma_status koksma_mask_void_and_cluster(int size, uint64_t seed, const koksma
 {
     KOKSMA__REQUIRE(ranks);
     KOKSMA__REQUIRE_RUN(run);
-    if (size < KOKSMA_MASK_MIN || size > KOKSMA_MASK_MAX) {
-        return koksma__fail(KOKSMA_ARGUMENT, "void-and-cluster: a mask of size %d; sizes are %d to %d", size,
-                            KOKSMA_MASK_MIN, KOKSMA_MASK_MAX);
-    }
+    KOKSMA__FAIL_IF(size < KOKSMA_MASK_MIN || size > KOKSMA_MASK_MAX, KOKSMA_ARGUMENT,
+                    "void-and-cluster: a mask of size %d; sizes are %d to %d", size, KOKSMA_MASK_MIN,
+                    KOKSMA_MASK_MAX);
     mask m = {.size = size, .n = (size_t)size * (size_t)size};
-    koksma_status status = make_room(&m);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(make_room(&m));
     for (int v = -REACH; v <= REACH; v++) {
         for (int u = -REACH; u <= REACH; u++) {
             m.gauss[v + REACH][u + REACH] = koksma__exp(-(u * u + v * v) / (2 * 1.5 * 1.5));
         }
     }
     size_t count;
-    status = begin(&m, seed, run, &count);
+    koksma_status status = begin(&m, seed, run, &count);
     if (!status) {
         rank_first(&m, count, ranks);
         status = fill_voids(&m, count, run, ranks);
