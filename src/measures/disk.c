@@ -100,9 +100,7 @@ static koksma_status fill_set(koksma__disk_set *set, const koksma_points *points
 static koksma_status search_pairs(search *s, const koksma_run *run)
 {
     s->blocks = malloc(s->set.m * sizeof *s->blocks);
-    if (!s->blocks) {
-        return koksma__fail_memory(s->set.m * sizeof *s->blocks);
-    }
+    KOKSMA__REQUIRE_MEMORY(s->blocks, s->set.m * sizeof *s->blocks);
     try_singles(s);
     /* A lower bound with which all blocks prune; it is computed first, so that results do not depend on threads. */
     koksma_status status = koksma__disk_pencils(&s->set, s->set.m / 2, &s->start);

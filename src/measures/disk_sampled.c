@@ -54,9 +54,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     j.r = koksma__disk_radius(j.law, args->params[1]);
     j.disks = disks;
     j.squares = malloc(disks * sizeof *j.squares);
-    if (!j.squares) {
-        return koksma__fail_memory(disks * sizeof *j.squares);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.squares, disks * sizeof *j.squares);
     const koksma_status status =
         koksma__parallel(args->run, (disks + DISKS_PER_BLOCK - 1) / DISKS_PER_BLOCK, sample_block, &j);
     if (!status) {

@@ -80,9 +80,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
     }
     const size_t bytes = (2 * n + lines) * sizeof(double);
     j.x = malloc(bytes);
-    if (!j.x) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.x, bytes);
     j.y = j.x + n;
     j.squares = j.y + n;
     for (size_t i = 0; i < n && !cube; i++) {

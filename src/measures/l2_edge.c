@@ -105,9 +105,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
         return koksma__fail_law_of_plane("l2-edge");
     }
     job j = {.law = law, .n = n, .points = points->xs, .pairs = malloc(bytes)};
-    if (!j.pairs) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.pairs, bytes);
     j.potentials = j.pairs + n_blocks;
     j.x = (double *)(j.potentials + n_blocks);
     j.y = j.x + n;

@@ -83,9 +83,7 @@ static koksma_status row_block(void *context, size_t block)
     const size_t first_row = (j->first_block + block) * GROUP * ROWS;
     double(*sums)[ROWS][COLUMNS] = j->sums + block * GROUP * columns;
     double *x_panels = malloc(bytes);
-    if (!x_panels) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(x_panels, bytes);
     for (size_t at = 0; at < j->count; at += POINTS_PER_PANEL) {
         const size_t points = j->count - at < POINTS_PER_PANEL ? j->count - at : POINTS_PER_PANEL;
         for (size_t g = 0; g < GROUP; g++) {
@@ -137,9 +135,7 @@ koksma_status koksma__power_exact(const koksma_points *points, int half, const k
     const size_t band = n_blocks < BLOCKS_PER_BAND ? n_blocks : BLOCKS_PER_BAND;
     const size_t bytes = (wide * j.room + band * GROUP * ROWS * wide) * sizeof(double);
     j.y_panels = malloc(bytes);
-    if (!j.y_panels) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.y_panels, bytes);
     j.sums = (double(*)[ROWS][COLUMNS])(j.y_panels + wide * j.room);
     const size_t chunks = (n + j.room - 1) / j.room, bands = (n_blocks + band - 1) / band;
     koksma_status status = KOKSMA_OK;

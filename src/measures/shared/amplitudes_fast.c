@@ -73,9 +73,7 @@ static koksma_status transform_columns(void *context, size_t block)
     job *j = context;
     const size_t m = j->m, room = LANES * m;
     double *memory = aligned_alloc(64, 4 * room * sizeof *memory); /* a vector in one line of the cache */
-    if (!memory) {
-        return koksma__fail_memory(4 * room * sizeof *memory);
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     for (size_t y = 0; y < m; y++) {
         memcpy(re + LANES * y, j->grid + y * m + 2 * LANES * block, LANES * sizeof *re);
@@ -105,9 +103,7 @@ static koksma_status transform_rows(void *context, size_t block)
     job *j = context;
     const size_t m = j->m, room = LANES * m;
     double *memory = calloc(4 * room, sizeof *memory);
-    if (!memory) {
-        return koksma__fail_memory(4 * room * sizeof *memory);
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, 4 * room * sizeof *memory);
     double *re = memory, *im = re + room;
     const size_t first = LANES * block, left = (size_t)j->half + 1 - first, count = left < LANES ? left : LANES;
     for (size_t l = 0; l < count; l++) {
@@ -141,9 +137,7 @@ koksma_status koksma__power_fast(const koksma_points *points, int half, const ko
     }
     const size_t rows = (size_t)half + 1, doubles = j.m * j.m + 2 * rows * j.m + 2 * j.m + rows;
     j.grid = calloc(doubles, sizeof(double));
-    if (!j.grid) {
-        return koksma__fail_memory(doubles * sizeof(double));
-    }
+    KOKSMA__REQUIRE_MEMORY(j.grid, doubles * sizeof(double));
     j.re = j.grid + j.m * j.m;
     j.im = j.re + rows * j.m;
     j.twiddles = j.im + rows * j.m;

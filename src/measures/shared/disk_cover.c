@@ -184,9 +184,7 @@ static koksma_status look_at_block(void *context, size_t block)
                  end = first + CELLS_PER_BLOCK < c->n_cells ? first + CELLS_PER_BLOCK : c->n_cells;
     desk d = {.found = malloc(bytes)};
     c->best[block] = c->start;
-    if (!d.found) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(d.found, bytes);
     d.sorted = d.found + m;
     d.starts = (size_t *)(d.sorted + m);
     koksma_status status = KOKSMA_OK;
@@ -203,9 +201,7 @@ static koksma_status look_at_level(cover *c, const koksma_run *run)
     const size_t n_blocks = (c->n_cells + CELLS_PER_BLOCK - 1) / CELLS_PER_BLOCK;
     const size_t bytes = n_blocks * (sizeof *c->best + sizeof *c->pairs);
     c->best = malloc(bytes);
-    if (!c->best) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(c->best, bytes);
     c->pairs = (size_t *)(c->best + n_blocks);
     const koksma_status status = koksma__parallel(run, n_blocks, look_at_block, c);
     for (size_t block = 0; block < n_blocks && !status; block++) {
@@ -233,9 +229,7 @@ static void drop_cells(cover *c)
 static koksma_status cut_cells(cover *c, double half)
 {
     cell *quarters = malloc(4 * c->n_cells * sizeof *quarters);
-    if (!quarters) {
-        return koksma__fail_memory(4 * c->n_cells * sizeof *quarters);
-    }
+    KOKSMA__REQUIRE_MEMORY(quarters, 4 * c->n_cells * sizeof *quarters);
     for (size_t i = 0; i < 4 * c->n_cells; i++) {
         const cell *whole = &c->cells[i / 4];
         quarters[i] =
@@ -253,9 +247,7 @@ koksma_status koksma__disk_cover(const koksma__disk_set *set, const koksma_run *
     cover c = {.set = set, .deadline_s = deadline_s, .start = *best, .n_cells = FIRST_COLUMNS * FIRST_COLUMNS};
     double half = 0.5 / FIRST_COLUMNS;
     c.cells = malloc(c.n_cells * sizeof *c.cells);
-    if (!c.cells) {
-        return koksma__fail_memory(c.n_cells * sizeof *c.cells);
-    }
+    KOKSMA__REQUIRE_MEMORY(c.cells, c.n_cells * sizeof *c.cells);
     for (size_t i = 0; i < c.n_cells; i++) {
         c.cells[i] =
             (cell){(double)(2 * (i % FIRST_COLUMNS) + 1) * half, (double)(2 * (i / FIRST_COLUMNS) + 1) * half, 1};

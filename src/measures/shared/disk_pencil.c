@@ -205,10 +205,7 @@ koksma_status koksma__disk_pair(const koksma__disk_set *set, size_t i, size_t j,
 koksma_status koksma__disk_pencils(const koksma__disk_set *set, size_t i, koksma__disk_best *best)
 {
     pencil p;
-    const koksma_status status = open_pencil(&p, set, best);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(open_pencil(&p, set, best));
     for (size_t j = i + 1; j < set->m; j++) {
         const double dx = set->xs[j] - set->xs[i], dy = set->ys[j] - set->ys[i];
         const double xs[2] = {dx, dx > 0 ? dx - 1 : dx + 1}, ys[2] = {dy, dy > 0 ? dy - 1 : dy + 1};

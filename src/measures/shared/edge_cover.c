@@ -126,10 +126,7 @@ static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *
         v->cuts[i] = (cut){.middle = ((double)i + 0.5) * M_PI / FIRST_CUTS, .bound = 1, .line.value = -1};
     }
     for (v->width = M_PI / FIRST_CUTS;; v->width /= 2) {
-        const koksma_status status = koksma__parallel(run, count, look_along, v);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(koksma__parallel(run, count, look_along, v));
         *upper = best->value;
         for (size_t i = 0; i < count; i++) {
             *best = v->cuts[i].line.value > best->value ? v->cuts[i].line : *best;
@@ -144,9 +141,7 @@ static koksma_status refine(cover *v, const koksma_run *run, koksma__edge_line *
             return KOKSMA_OK;
         }
         cut *const halves = malloc(2 * open * sizeof *halves);
-        if (!halves) {
-            return koksma__fail_memory(2 * open * sizeof *halves);
-        }
+        KOKSMA__REQUIRE_MEMORY(halves, 2 * open * sizeof *halves);
         count = halve(v, count, best->value, halves);
         free(v->cuts);
         v->cuts = halves;
@@ -158,9 +153,7 @@ koksma_status koksma__edge_cover(const koksma__domain *domain, size_t n, const d
 {
     cover v = {.domain = domain, .n = n, .xs = xs, .deadline_s = deadline_s};
     v.cuts = malloc(FIRST_CUTS * sizeof *v.cuts);
-    if (!v.cuts) {
-        return koksma__fail_memory(FIRST_CUTS * sizeof *v.cuts);
-    }
+    KOKSMA__REQUIRE_MEMORY(v.cuts, FIRST_CUTS * sizeof *v.cuts);
     const koksma_status status = refine(&v, run, best, upper);
     free(v.cuts);
     return status;

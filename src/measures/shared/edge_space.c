@@ -284,15 +284,11 @@ static void finish(const search *s, koksma_value *out)
 koksma_status koksma__edge_space(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n;
-    if (n > MAX_N) {
-        return koksma__fail(KOKSMA_N, "edge: n = %zu: up to %d points in 3D; l2-edge takes more", n, MAX_N);
-    }
+    KOKSMA__FAIL_IF(n > MAX_N, KOKSMA_N, "edge: n = %zu: up to %d points in 3D; l2-edge takes more", n, MAX_N);
     search s = {.n = n, .points = points->xs, .deadline_s = koksma__deadline_s(run, 0.95)};
     const size_t bytes = n * (sizeof *s.best + 3 * sizeof(double));
     s.best = malloc(bytes);
-    if (!s.best) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(s.best, bytes);
     for (size_t k = 0; k < 3; k++) {
         s.coordinates[k] = (double *)(s.best + n) + k * n;
         for (size_t i = 0; i < n; i++) {

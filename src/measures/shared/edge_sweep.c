@@ -246,9 +246,7 @@ static koksma_status try_block(void *context, size_t block)
     }
     const size_t bytes = 2 * job->n * (sizeof(ray) + sizeof(uint64_t));
     ray *rays = malloc(bytes);
-    if (!rays) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(rays, bytes);
     const size_t first = block * PIVOTS_PER_BLOCK;
     best_line best = {.value = -1};
     for (size_t pivot = first; pivot < first + PIVOTS_PER_BLOCK && pivot < job->n; pivot++) {
@@ -325,17 +323,13 @@ koksma_status koksma__edge_sweep(const koksma__domain *domain, size_t n, const d
 {
     const size_t n_blocks = (n + PIVOTS_PER_BLOCK - 1) / PIVOTS_PER_BLOCK;
     const double end_s = koksma__deadline_s(run, 0.95);
-    if (n > UINT32_MAX / 2) {
-        return koksma__fail(KOKSMA_N, "edge: n = %zu: fewer than 2^31 points", n);
-    }
+    KOKSMA__FAIL_IF(n > UINT32_MAX / 2, KOKSMA_N, "edge: n = %zu: fewer than 2^31 points", n);
     pivots job = {.domain = domain,
                   .xs = xs,
                   .n = n,
                   .best = malloc(n_blocks * sizeof *job.best),
                   .deadline_s = koksma__deadline_s(run, 0.5)};
-    if (!job.best) {
-        return koksma__fail_memory(n_blocks * sizeof *job.best);
-    }
+    KOKSMA__REQUIRE_MEMORY(job.best, n_blocks * sizeof *job.best);
     koksma_status status = koksma__parallel(run, n_blocks, try_block, &job);
     if (!status) {
         best_line best = {.value = -1};

@@ -64,15 +64,12 @@ static void best_of_columns(const size_t *counts, int grid, double n, int a, int
 
 koksma_status koksma__extreme_grid(const koksma_points *points, int grid, const koksma_run *run, koksma_value *out)
 {
-    if (points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2", points->dim);
-    }
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "extreme:grid: it has no %d-dimensional form, only dim = 2",
+                    points->dim);
     const size_t m = (size_t)grid;
     size_t *counts =
         calloc((m + 1) * (m + 1), sizeof *counts); /* column by column: points with x below, in each row */
-    if (!counts) {
-        return koksma__fail_memory((m + 1) * (m + 1) * sizeof *counts);
-    }
+    KOKSMA__REQUIRE_MEMORY(counts, (m + 1) * (m + 1) * sizeof *counts);
     for (size_t i = 0; i < points->n; i++) {
         const int cx = cell_of(points->xs[2 * i], grid), cy = cell_of(points->xs[2 * i + 1], grid);
         if (cx < grid && cy < grid) {

@@ -350,9 +350,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
     const size_t bytes =
         max_blocks * (sizeof(best_strip) + sizeof(double)) + (3 * n + 4) * sizeof(double) + (2 * n + 4) * 4;
     plane p = {.n = n, .best = malloc(bytes), .deadline_s = koksma__deadline_s(run, 0.8), .method = method};
-    if (!p.best) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(p.best, bytes);
     p.upper = (double *)(p.best + max_blocks);
     p.levels = p.upper + max_blocks;
     p.x = p.levels + n + 2;

@@ -159,18 +159,14 @@ static void fill_levels(search *s, bool closed)
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     const size_t n = points->n, dim = (size_t)points->dim;
-    if (dim == 3 && n > MAX_N_3D) {
-        return koksma__fail(KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
-    }
+    KOKSMA__FAIL_IF(dim == 3 && n > MAX_N_3D, KOKSMA_N, "extreme: n = %zu: up to %d points in 3D", n, MAX_N_3D);
     if (!koksma__keep_going(run, 0)) {
         return koksma__fail_interrupted();
     }
     search s = {.n = n, .dim = points->dim, .run = run, .deadline_s = koksma__deadline_s(run, 0.95), .out = out};
     const size_t bytes = dim * (n * dim + n + 2) * sizeof(double);
     double *memory = malloc(bytes);
-    if (!memory) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, bytes);
     for (size_t k = 0; k < dim; k++) {
         s.lists[k] = memory + k * (n * dim + n + 2);
         s.levels[k] = s.lists[k] + n * dim;

@@ -165,9 +165,7 @@ koksma_status koksma__extreme_sweep(const koksma__sweep_plane *p, size_t from, s
     open.closed = false;
     const size_t bytes = 4 * closed.leaves * sizeof(node);
     closed.nodes = malloc(bytes);
-    if (!closed.nodes) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(closed.nodes, bytes);
     open.nodes = closed.nodes + 2 * closed.leaves;
     for (size_t left = from; left < end && !*late; left++) {
         *late = sweep_right(p, left, deadline_s, &closed, &open, best) || koksma__now_s() > deadline_s;

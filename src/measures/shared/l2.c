@@ -107,9 +107,7 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
     const size_t n_blocks = (n + ROWS_PER_BLOCK - 1) / ROWS_PER_BLOCK;
     const size_t bytes = 2 * coordinates * sizeof(double) + n_blocks * sizeof(koksma__sum);
     pairs p = {.row = row, .n = n, .dim = points->dim, .u = malloc(bytes)};
-    if (!p.u) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(p.u, bytes);
     p.g = p.u + coordinates;
     p.sums = (koksma__sum *)(p.g + coordinates);
     koksma__dd linear = {0, 0};

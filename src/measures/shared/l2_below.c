@@ -201,9 +201,7 @@ koksma_status koksma__l2_sum_below(const koksma_run *run, size_t n, koksma__l2_p
     j.rest -= MAX_BITS;
     const size_t bytes = j.n_chunks * sizeof *j.starts + (j.n_chunks + PARTS) * sizeof *j.totals;
     j.starts = malloc(bytes);
-    if (!j.starts) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(j.starts, bytes);
     j.totals = (total *)(j.starts + j.n_chunks);
     const koksma_status status = run_job(&j, run, sum);
     free(j.starts);

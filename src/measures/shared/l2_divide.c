@@ -328,9 +328,7 @@ koksma_status koksma__l2_by_dividing(const koksma__l2_row *row, const koksma_poi
     const size_t n = points->n, n_blocks = (n + PIECE - 1) / PIECE;
     const size_t bytes = 2 * n * sizeof(item) + n_blocks * sizeof(koksma__sum) + n * sizeof(uint32_t);
     divider d = {.row = row, .dim = points->dim, .ranks = koksma__l2_ranks(row), .n = n, .items = malloc(bytes)};
-    if (!d.items) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(d.items, bytes);
     void *const memory = d.items;
     d.spare = d.items + n;
     d.sums = (koksma__sum *)(d.spare + n);

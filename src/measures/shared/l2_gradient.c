@@ -85,9 +85,7 @@ koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points
 {
     const size_t n = points->n, dim = (size_t)points->dim, bytes = (4 * dim + 1) * n * sizeof(double);
     job p = {.row = row, .n = n, .dim = dim, .u = malloc(bytes)};
-    if (!p.u) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(p.u, bytes);
     p.g = p.u + dim * n;
     p.factors = p.g + dim * n;
     p.behind = p.factors + dim * n;

@@ -358,9 +358,7 @@ koksma_status koksma__l2_by_sorting(const koksma__l2_row *row, const koksma_poin
     const size_t bytes = n_blocks * (2 * sizeof(partial) + sizeof *p.sums) +
                          n * (2 * sizeof(point) + sizeof(double) + sizeof(uint32_t));
     p.before_x = malloc(bytes);
-    if (!p.before_x) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(p.before_x, bytes);
     p.before_y = p.before_x + n_blocks;
     p.sums = (dd(*)[SUMS])(p.before_y + n_blocks);
     p.by_x = (point *)(p.sums + n_blocks);

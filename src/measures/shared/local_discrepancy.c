@@ -16,18 +16,11 @@ koksma_status koksma_local_discrepancy(const koksma_points *points, const double
     KOKSMA__REQUIRE(points, x, out);
     double volume = 1;
     size_t inside = 0;
-    if (!points || !x || !out) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "koksma_local_discrepancy takes points, a corner and room for the result");
-    }
-    const koksma_status status = koksma__points_check(points);
-    if (status) {
-        return status;
-    }
+    KOKSMA__FAIL_IF(!points || !x || !out, KOKSMA_ARGUMENT,
+                    "koksma_local_discrepancy takes points, a corner and room for the result");
+    KOKSMA__TRY(koksma__points_check(points));
     for (int k = 0; k < points->dim; k++) {
-        if (!(x[k] >= 0 && x[k] <= 1)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");
-        }
+        KOKSMA__FAIL_IF(!(x[k] >= 0 && x[k] <= 1), KOKSMA_ARGUMENT, "the corner has a coordinate outside [0,1]");
         volume *= x[k];
     }
     for (size_t i = 0; i < points->n; i++) {
@@ -56,18 +49,11 @@ static size_t first_corner(double coordinate, size_t side)
 koksma_status koksma_local_discrepancy_grid(const koksma_points *points, size_t side, double *out)
 {
     KOKSMA__REQUIRE(points, out);
-    if (!points || !out || side < 1 || side > KOKSMA_MAX_LOCAL_GRID) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a grid of local discrepancies has a side of 1 to %d",
-                            KOKSMA_MAX_LOCAL_GRID);
-    }
-    const koksma_status status = koksma__points_check(points);
-    if (status) {
-        return status;
-    }
-    if (points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "a grid of local discrepancies takes points of 2 dimensions, not %d",
-                            points->dim);
-    }
+    KOKSMA__FAIL_IF(!points || !out || side < 1 || side > KOKSMA_MAX_LOCAL_GRID, KOKSMA_ARGUMENT,
+                    "a grid of local discrepancies has a side of 1 to %d", KOKSMA_MAX_LOCAL_GRID);
+    KOKSMA__TRY(koksma__points_check(points));
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM,
+                    "a grid of local discrepancies takes points of 2 dimensions, not %d", points->dim);
     for (size_t i = 0; i < side * side; i++) {
         out[i] = 0;
     }

@@ -158,9 +158,7 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
 koksma_status koksma__min_distance(const char *name, const koksma_points *points, bool torus, const koksma_run *run,
                                    double *distance)
 {
-    if (points->n < 2) {
-        return koksma__fail(KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
-    }
+    KOKSMA__FAIL_IF(points->n < 2, KOKSMA_N, "%s: n = 1: one point has no distance; two points or more have", name);
     double least = HUGE_VAL, r = fmin(1.1 / sqrt((double)points->n), 0.5); /* no n points are further apart */
     if (points->n < 16) {
         for (size_t i = 0; i < points->n; i++) {
@@ -182,30 +180,24 @@ koksma_status koksma_pair_correlation(const koksma_points *points, double r_max,
 {
     KOKSMA__REQUIRE(points, values);
     KOKSMA__REQUIRE_RUN(run);
-    if (points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2", points->dim);
-    }
-    if (!(r_max > 0 && r_max <= 0.5) || bins == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins",
-                            r_max);
-    }
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "pair correlation: it has no %d-dimensional form, only dim = 2",
+                    points->dim);
+    KOKSMA__FAIL_IF(!(r_max > 0 && r_max <= 0.5) || bins == 0, KOKSMA_ARGUMENT,
+                    "pair correlation: r_max = %g: it takes 0 < r_max <= 1/2, and bins", r_max);
     koksma_status checked = koksma__points_check(points);
     checked = checked ? checked : koksma__array_check("bins", values, bins, sizeof *values);
     if (checked) {
         return checked;
     }
     koksma__torus_cells g;
-    koksma_status status = open_grid(points, r_max, &g);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(open_grid(points, r_max, &g));
     visit v = {.g = &g,
                .r2 = r_max * r_max,
                .run = run,
                .scale = (double)bins / r_max,
                .bins = bins,
                .counts = calloc(bins + 8, sizeof *v.counts)};
-    status = v.counts ? visit_pairs(&v) : koksma__fail_memory((bins + 8) * sizeof *v.counts);
+    const koksma_status status = v.counts ? visit_pairs(&v) : koksma__fail_memory((bins + 8) * sizeof *v.counts);
     koksma__torus_cells_fini(&g);
     const double pairs = (double)points->n * ((double)points->n - 1) / 2, width = r_max / (double)bins;
     for (size_t b = 0; b < bins && !status; b++) {

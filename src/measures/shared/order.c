@@ -119,9 +119,7 @@ static int compare(const void *a, const void *b)
 static koksma_status settle(const sorter *s, const item *items, size_t n_items, uint32_t *order)
 {
     exact few[FEW], *list = n_items <= FEW ? few : malloc(n_items * sizeof *list);
-    if (!list) {
-        return koksma__fail_memory(n_items * sizeof *list);
-    }
+    KOKSMA__REQUIRE_MEMORY(list, n_items * sizeof *list);
     bool sorted = true;
     for (size_t i = 0; i < n_items; i++) {
         list[i] = (exact){s->xs[items[i].index * s->stride], items[i].index};
@@ -185,9 +183,7 @@ koksma_status koksma__order(const koksma_run *run, size_t n, const double *xs, s
     const int bits = n < MANY ? 8 : 11;
     const size_t bytes = 2 * n * sizeof *s.from + s.n_blocks * sizeof *s.starts;
     s.from = malloc(bytes);
-    if (!s.from) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(s.from, bytes);
     item *const memory = s.from;
     s.to = s.from + n;
     s.starts = (uint32_t(*)[MAX_VALUES])(s.to + n);

@@ -26,15 +26,12 @@ koksma_status koksma_spectrum_init(koksma_spectrum *spectrum, int half)
 {
     KOKSMA__REQUIRE(spectrum);
     *spectrum = (koksma_spectrum){0};
-    if (half < 1 || half > KOKSMA_SPECTRUM_MAX_HALF) {
-        return koksma__fail(KOKSMA_ARGUMENT, "spectrum: half = %d: it takes 1 to %d", half, KOKSMA_SPECTRUM_MAX_HALF);
-    }
+    KOKSMA__FAIL_IF(half < 1 || half > KOKSMA_SPECTRUM_MAX_HALF, KOKSMA_ARGUMENT,
+                    "spectrum: half = %d: it takes 1 to %d", half, KOKSMA_SPECTRUM_MAX_HALF);
     const size_t rows = (size_t)half + 1, count = rows * side_of(half);
     const size_t bytes = rows * sizeof(koksma_tally) + count * sizeof(double);
     spectrum->rings = calloc(1, bytes);
-    if (!spectrum->rings) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(spectrum->rings, bytes);
     spectrum->power = (double *)(spectrum->rings + rows);
     spectrum->half = half;
     return KOKSMA_OK;
@@ -84,9 +81,8 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
 {
     KOKSMA__REQUIRE(spectrum, points);
     KOKSMA__REQUIRE_RUN(run);
-    if (points->dim != 2) {
-        return koksma__fail(KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2", points->dim);
-    }
+    KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2",
+                    points->dim);
     koksma_status status = koksma__spectrum_check(spectrum);
     status = status ? status : koksma__points_check(points);
     if (!status && method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST) {
@@ -97,9 +93,7 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     }
     const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
-    if (!power) {
-        return koksma__fail_memory((count + 2 * rows) * sizeof *power);
-    }
+    KOKSMA__REQUIRE_MEMORY(power, (count + 2 * rows) * sizeof *power);
     status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(points, spectrum->half, run,
                                                                                           power);
     if (!status) {
@@ -133,14 +127,9 @@ koksma_status koksma_spectrum_write(const char *path, const koksma_spectrum *spe
     KOKSMA__REQUIRE(path, spectrum);
     const int half = spectrum->half;
     const size_t side = side_of(half);
-    const koksma_status status = koksma__spectrum_check(spectrum);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__spectrum_check(spectrum));
     double *grid = malloc(side * side * sizeof *grid);
-    if (!grid) {
-        return koksma__fail_memory(side * side * sizeof *grid);
-    }
+    KOKSMA__REQUIRE_MEMORY(grid, side * side * sizeof *grid);
     for (int ky = -half; ky <= half; ky++) {
         for (int kx = -half; kx <= half; kx++) {
             grid[(size_t)(half + ky) * side + (size_t)(half + kx)] = koksma_spectrum_power(spectrum, kx, ky);
@@ -168,16 +157,11 @@ static double anisotropy_db(double points, double power, double variance)
 koksma_status koksma_spectrum_rings(const koksma_spectrum *spectrum, koksma_ring *rings)
 {
     KOKSMA__REQUIRE(spectrum, rings);
-    const koksma_status status = koksma__spectrum_check(spectrum);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__spectrum_check(spectrum));
     const int half = spectrum->half;
     const size_t rows = (size_t)half + 1;
     double *means = calloc(3 * rows, sizeof *means), *counts = means + rows, *spreads = counts + rows;
-    if (!means) {
-        return koksma__fail_memory(3 * rows * sizeof *means);
-    }
+    KOKSMA__REQUIRE_MEMORY(means, 3 * rows * sizeof *means);
     find_means(half, spectrum->power, means, counts);
     FOR_EACH_FREQUENCY(half, kx, ky, ring)
     {

@@ -122,9 +122,7 @@ koksma_status koksma__star_2d_by(bool kinetic, const koksma_points *points, cons
 {
     const size_t n = points->n, bytes = (3 * n + 17) * sizeof(double) + 2 * n * sizeof(uint32_t);
     double *memory = malloc(bytes);
-    if (!memory) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(memory, bytes);
     sweep s = {.x = memory, .y = memory + n, .count = memory + 2 * n + 8};
     s.order = (uint32_t *)(memory + 3 * n + 17);
     s.rank = s.order + n;
@@ -151,9 +149,7 @@ static koksma_status star_line(const koksma_points *points, const koksma_run *ru
 {
     const size_t n = points->n;
     uint32_t *order = malloc(n * sizeof *order);
-    if (!order) {
-        return koksma__fail_memory(n * sizeof *order);
-    }
+    KOKSMA__REQUIRE_MEMORY(order, n * sizeof *order);
     const koksma_status status = koksma__order(run, n, points->xs, 1, order);
     double best[2] = {-INFINITY, -INFINITY}, ends[2] = {0};
     for (size_t i = 0; i < n && !status; i++) {

@@ -105,9 +105,7 @@ koksma_status koksma__star_cover(const koksma_points *points, const koksma_run *
     c.room = MAX_BOXES / (size_t)points->dim;
     const size_t bytes = c.room * (c.size * sizeof(double) + sizeof(double *));
     c.boxes = malloc(bytes);
-    if (!c.boxes) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(c.boxes, bytes);
     c.heap = (double **)(c.boxes + c.room * c.size);
     c.heap[0] = c.boxes;
     for (size_t k = 0; k < c.dim; k++) {

@@ -294,9 +294,7 @@ static koksma_status walk_one(void *context, size_t block)
                  end = w->n * (part + 1) / w->parts + (deficit && part + 1 == w->parts);
     const size_t bytes = 2 * t.n_blocks * sizeof(node) + 2 * t.n_blocks * BLOCK * sizeof(double);
     t.nodes = malloc(bytes);
-    if (!t.nodes) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(t.nodes, bytes);
     t.k = (double *)(t.nodes + 2 * t.n_blocks);
     t.b = t.k + t.n_blocks * BLOCK;
     const koksma_status status = walk(w, &t, from, end, deficit ? -1 : 1, &w->best[deficit][part]);

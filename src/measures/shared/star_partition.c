@@ -333,9 +333,7 @@ koksma_status koksma__star_partition(const koksma_points *points, const koksma_r
     p.spacing = (size_t)ceil(sqrt((double)n));
     const size_t bytes = (n + 2) * (sizeof(koksma_value) + sizeof(double) + dim * sizeof(uint32_t) + 1);
     p.values = malloc(bytes);
-    if (!p.values) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(p.values, bytes);
     p.cuts = (double *)(p.values + n + 2);
     p.orders = (uint32_t *)(p.cuts + n + 2);
     p.cut_short = (bool *)(p.orders + dim * (n + 2));

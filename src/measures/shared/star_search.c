@@ -212,9 +212,7 @@ koksma_status koksma__star_search(const koksma_points *points, const koksma_run 
               .n_walks = 2 * (uint32_t)restarts,
               .run = run,
               .deadline_s = deadline_s};
-    if (!w.levels) {
-        return koksma__fail_memory(bytes);
-    }
+    KOKSMA__REQUIRE_MEMORY(w.levels, bytes);
     w.orders = (uint32_t *)(w.levels + dim * (n + 1));
     w.outside = (uint8_t *)(w.orders + dim * n);
     koksma_status status = KOKSMA_OK;

@@ -66,9 +66,7 @@ koksma_status koksma__warp_caps(size_t n, const double *xs, bool cosine, const k
 {
     const size_t n_blocks = (n + BLOCK - 1) / BLOCK;
     rows r = {.n = n, .xs = xs, .cosine = cosine, .pairs = calloc(2 * n_blocks, sizeof *r.pairs)};
-    if (!r.pairs) {
-        return koksma__fail_memory(2 * n_blocks * sizeof *r.pairs);
-    }
+    KOKSMA__REQUIRE_MEMORY(r.pairs, 2 * n_blocks * sizeof *r.pairs);
     r.linear = r.pairs + n_blocks;
     const koksma_status status = koksma__parallel(run, n_blocks, block, &r);
     if (!status) {
