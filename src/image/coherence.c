@@ -59,10 +59,7 @@ koksma_status koksma_coherence_init(koksma_coherence *coherence, int width, int 
 {
     KOKSMA__REQUIRE(coherence);
     *coherence = (koksma_coherence){0};
-    const koksma_status status = koksma__image_check_shape(width, height, 1);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_check_shape(width, height, 1));
     coherence->width = width;
     coherence->height = height;
     const size_t doubles = pixels_of(coherence) + 2 * powers_of(coherence);
@@ -131,10 +128,9 @@ static koksma_status standardise(const koksma_coherence *c, double *errors, bool
     koksma__sum sum = {0}, squares = {0};
     double largest = 0;
     for (size_t i = 0; i < n; i++) {
-        if (!isfinite(errors[i])) {
-            return koksma__fail(KOKSMA_MALFORMED, "pixel %zu,%zu of an image or its reference is no finite number",
-                                i % (size_t)c->width, i / (size_t)c->width);
-        }
+        KOKSMA__FAIL_IF(!isfinite(errors[i]), KOKSMA_MALFORMED,
+                        "pixel %zu,%zu of an image or its reference is no finite number", i % (size_t)c->width,
+                        i / (size_t)c->width);
         largest = fmax(largest, fabs(errors[i]));
     }
     const double scale = largest > 0 ? 1 / largest : 1; /* squares neither overflow nor vanish */
@@ -174,9 +170,7 @@ static void add_power(koksma_coherence *c, const double *errors, const double *p
 koksma_status koksma__coherence_add_errors(koksma_coherence *coherence, double *errors)
 {
     double *power = malloc(powers_of(coherence) * sizeof *power);
-    if (!power) {
-        return koksma__fail_memory(powers_of(coherence) * sizeof *power);
-    }
+    KOKSMA__REQUIRE_MEMORY(power, powers_of(coherence) * sizeof *power);
     bool even = false;
     koksma_status status = standardise(coherence, errors, &even);
     if (!status && !even) {
@@ -202,17 +196,13 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
         if ((status = koksma__image_usable(both[i]))) {
             return status;
         }
-        if (both[i]->width != coherence->width || both[i]->height != coherence->height) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s of %d x %d pixels does not fit a coherence of %d x %d",
-                                i ? "a reference" : "an image", both[i]->width, both[i]->height, coherence->width,
-                                coherence->height);
-        }
+        KOKSMA__FAIL_IF(both[i]->width != coherence->width || both[i]->height != coherence->height, KOKSMA_ARGUMENT,
+                        "%s of %d x %d pixels does not fit a coherence of %d x %d", i ? "a reference" : "an image",
+                        both[i]->width, both[i]->height, coherence->width, coherence->height);
     }
     const size_t n = pixels_of(coherence);
     double *errors = malloc(n * sizeof *errors);
-    if (!errors) {
-        return koksma__fail_memory(n * sizeof *errors);
-    }
+    KOKSMA__REQUIRE_MEMORY(errors, n * sizeof *errors);
     for (size_t i = 0; i < n; i++) {
         errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
     }

@@ -28,10 +28,9 @@ static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
     if (status) {
         return status;
     }
-    if (a->width != b->width || a->height != b->height) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image of %d x %d pixels can't be compared with one of %d x %d",
-                            a->width, a->height, b->width, b->height);
-    }
+    KOKSMA__FAIL_IF(a->width != b->width || a->height != b->height, KOKSMA_ARGUMENT,
+                    "an image of %d x %d pixels can't be compared with one of %d x %d", a->width, a->height, b->width,
+                    b->height);
     return KOKSMA_OK;
 }
 
@@ -43,10 +42,7 @@ static double absolute_error(const koksma_image *image, const koksma_image *refe
 koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference, koksma_image_error *out)
 {
     KOKSMA__REQUIRE(image, reference, out);
-    const koksma_status status = check_sizes(image, reference);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check_sizes(image, reference));
     const size_t n = (size_t)image->width * (size_t)image->height;
     koksma__sum sum = {0}, squares = {0}, deviations = {0};
     double max = 0;

@@ -205,21 +205,16 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
     if (r) {
         return fail(r, KOKSMA_MALFORMED);
     }
-    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
-        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: deep images are not read");
-    }
+    KOKSMA__FAIL_IF(storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED, KOKSMA_MALFORMED,
+                    "as an EXR: deep images are not read");
     const int channels = count_channels(list);
-    if (!channels) {
-        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: no channels R, G, B and no channel Y");
-    }
+    KOKSMA__FAIL_IF(!channels, KOKSMA_MALFORMED, "as an EXR: no channels R, G, B and no channel Y");
     for (int i = 0; i < list->num_channels; i++) {
-        if (list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1) {
-            return koksma__fail(KOKSMA_MALFORMED, "as an EXR: subsampled channels are not read");
-        }
+        KOKSMA__FAIL_IF(list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1, KOKSMA_MALFORMED,
+                        "as an EXR: subsampled channels are not read");
     }
-    if (storage == EXR_STORAGE_TILED && !tiles_fit(file, &window)) {
-        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: its tiles are larger than the image");
-    }
+    KOKSMA__FAIL_IF(storage == EXR_STORAGE_TILED && !tiles_fit(file, &window), KOKSMA_MALFORMED,
+                    "as an EXR: its tiles are larger than the image");
     if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
         return read_rgba(s, list, channels, out);
     }

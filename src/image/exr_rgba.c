@@ -27,16 +27,11 @@ static koksma_status read_pixels(ImfInputFile *file, size_t size, int channels, 
 {
     int low_x, low_y, high_x, high_y;
     ImfHeaderDataWindow(ImfInputHeader(file), &low_x, &low_y, &high_x, &high_y);
-    const koksma_status status = KOKSMA__EXR_HOST->image_claim(
-        (long long)high_x - low_x + 1, (long long)high_y - low_y + 1, channels, size, 4096, out);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(KOKSMA__EXR_HOST->image_claim((long long)high_x - low_x + 1, (long long)high_y - low_y + 1, channels,
+                                              size, 4096, out));
     const size_t width = (size_t)out->width;
     ImfRgba *row = malloc(width * sizeof *row);
-    if (!row) {
-        return koksma__fail_memory(width * sizeof *row);
-    }
+    KOKSMA__REQUIRE_MEMORY(row, width * sizeof *row);
     bool whole = true, fits = true;
     for (int y = low_y; whole && y <= high_y; y++) {
         /* the base is where pixel (0, 0) would be */
@@ -145,9 +140,8 @@ koksma_status koksma__exr_rgba_read(const unsigned char *bytes, size_t size, int
                                     koksma_image *out)
 {
     char path[64];
-    if (!header_fits(bytes, size)) {
-        return koksma__fail(KOKSMA_MALFORMED, "as an EXR: an attribute of its header states a wrong size");
-    }
+    KOKSMA__FAIL_IF(!header_fits(bytes, size), KOKSMA_MALFORMED,
+                    "as an EXR: an attribute of its header states a wrong size");
     const int descriptor = memfd_create("koksma", MFD_CLOEXEC);
     ssize_t n = descriptor < 0 ? -1 : 0;
     for (size_t done = 0; n >= 0 && done < size; done += (size_t)(n > 0 ? n : 0)) {

@@ -40,9 +40,7 @@ static koksma_status open_lines(size_t n, lines *l)
     *l = (lines){.n = n, .power_of_two = (n & (n - 1)) == 0};
     const size_t doubles = 2 * n + 4 * LANES * n;
     l->twiddles = malloc(doubles * sizeof *l->twiddles);
-    if (!l->twiddles) {
-        return koksma__fail_memory(doubles * sizeof *l->twiddles);
-    }
+    KOKSMA__REQUIRE_MEMORY(l->twiddles, doubles * sizeof *l->twiddles);
     l->work = l->twiddles + 2 * n;
     for (size_t k = 0; k < n; k++) {
         const double angle = 2 * M_PI * (double)k / (double)n;

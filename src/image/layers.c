@@ -33,23 +33,18 @@ size_t koksma__layers_find(const koksma_layer *layers, size_t n, const char *wan
 
 static koksma_status check_layer(const koksma_layer *layer, const koksma_image *first)
 {
-    if (!layer->name || !layer->image) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a layer without %s", layer->name ? "an image" : "a name");
-    }
-    if (!layer->image->pixels) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
-    }
+    KOKSMA__FAIL_IF(!layer->name || !layer->image, KOKSMA_ARGUMENT, "a layer without %s",
+                    layer->name ? "an image" : "a name");
+    KOKSMA__FAIL_IF(!layer->image->pixels, KOKSMA_ARGUMENT, "an image without pixels");
     const koksma_status status =
         koksma__image_check_shape(layer->image->width, layer->image->height, layer->image->channels);
     if (status) {
         return status;
     }
-    if (strlen(layer->name) > KOKSMA__LAYER_NAME) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the layer's name '%s' is too long", layer->name);
-    }
-    if (layer->image->width != first->width || layer->image->height != first->height) {
-        return koksma__fail(KOKSMA_ARGUMENT, "layer '%s' is of another size", layer->name);
-    }
+    KOKSMA__FAIL_IF(strlen(layer->name) > KOKSMA__LAYER_NAME, KOKSMA_ARGUMENT, "the layer's name '%s' is too long",
+                    layer->name);
+    KOKSMA__FAIL_IF(layer->image->width != first->width || layer->image->height != first->height, KOKSMA_ARGUMENT,
+                    "layer '%s' is of another size", layer->name);
     return KOKSMA_OK;
 }
 
@@ -65,9 +60,8 @@ koksma_status koksma__layers_check(const koksma_layer *layers, size_t n)
         for (int k = 0; k < layers[l].image->channels; k++) {
             int first;
             koksma__layer_channel(&layers[l], k, name);
-            if (koksma__layers_find(layers, n, name, &first) != l || first != k) {
-                return koksma__fail(KOKSMA_ARGUMENT, "two layers have a channel '%s'", name);
-            }
+            KOKSMA__FAIL_IF(koksma__layers_find(layers, n, name, &first) != l || first != k, KOKSMA_ARGUMENT,
+                            "two layers have a channel '%s'", name);
         }
     }
     return status;

@@ -49,25 +49,18 @@ static koksma_status read(const unsigned char *bytes, size_t size, koksma_image 
     long long width, height;
     int used = 0;
     memcpy(header, bytes + 2, size - 2 < sizeof header - 1 ? size - 2 : sizeof header - 1);
-    if (sscanf(header, "%9lld %9lld %23s%n", &width, &height, scale_text, &used) != 3) {
-        return koksma__fail(KOKSMA_MALFORMED, "line 1: a PFM header is PF or Pf, width, height and scale");
-    }
+    KOKSMA__FAIL_IF(sscanf(header, "%9lld %9lld %23s%n", &width, &height, scale_text, &used) != 3, KOKSMA_MALFORMED,
+                    "line 1: a PFM header is PF or Pf, width, height and scale");
     const double scale = koksma__strtod(scale_text, &end);
-    if (*end || !isfinite(scale) || scale == 0) {
-        return koksma__fail(KOKSMA_MALFORMED, "line 3: the scale '%s' is not a number other than 0", scale_text);
-    }
+    KOKSMA__FAIL_IF(*end || !isfinite(scale) || scale == 0, KOKSMA_MALFORMED,
+                    "line 3: the scale '%s' is not a number other than 0", scale_text);
     const int channels = bytes[1] == 'F' ? 3 : 1;
     const size_t head = 2 + (size_t)used, left = size > head + 1 ? size - head - 1 : 0;
-    const koksma_status status = koksma__image_claim(width, height, channels, left, 0.25 / channels, out);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_claim(width, height, channels, left, 0.25 / channels, out));
     const size_t row = (size_t)width * (size_t)channels, start = size - 4 * row * (size_t)height;
-    if (!is_end(bytes + head, start - head)) {
-        return koksma__fail(KOKSMA_MALFORMED,
-                            "line 3: %zu bytes follow the scale: too many for one blank and %lld x %lld pixels",
-                            size - head, width, height);
-    }
+    KOKSMA__FAIL_IF(!is_end(bytes + head, start - head), KOKSMA_MALFORMED,
+                    "line 3: %zu bytes follow the scale: too many for one blank and %lld x %lld pixels", size - head,
+                    width, height);
     for (size_t y = 0; y < (size_t)height; y++) {
         const unsigned char *from = bytes + start + 4 * row * ((size_t)height - 1 - y);
         for (size_t i = 0; i < row; i++) {

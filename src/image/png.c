@@ -28,10 +28,8 @@ static koksma_status check_chunks(const unsigned char *bytes, size_t size)
     for (size_t at = 8; size - at >= 12;) {
         const size_t length = (size_t)bytes[at] << 24 | (size_t)bytes[at + 1] << 16 | (size_t)bytes[at + 2] << 8 |
                               (size_t)bytes[at + 3];
-        if (length > size - at - 12) {
-            return koksma__fail(KOKSMA_MALFORMED, "as a PNG: cut short: a chunk claims %zu bytes, and %zu are left",
-                                length, size - at - 12);
-        }
+        KOKSMA__FAIL_IF(length > size - at - 12, KOKSMA_MALFORMED,
+                        "as a PNG: cut short: a chunk claims %zu bytes, and %zu are left", length, size - at - 12);
         if (!memcmp(bytes + at + 4, "IEND", 4)) {
             break;
         }
@@ -148,9 +146,7 @@ static koksma_status to_linear(const unsigned char *levels, const head *h, size_
 {
     const size_t n = (size_t)1 << 8 * h->level_bytes;
     float *table = malloc(n * sizeof *table);
-    if (!table) {
-        return koksma__fail_memory(n * sizeof *table);
-    }
+    KOKSMA__REQUIRE_MEMORY(table, n * sizeof *table);
     for (size_t i = 0; i < n; i++) {
         const double s = (double)i / (double)(n - 1);
         table[i] = (float)(h->power > 0   ? pow(s, h->power)
@@ -178,16 +174,11 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
         return fail(s);
     }
     /* Deflate packs 1032 bytes into one at most, and a pixel has 1 bit at least. */
-    koksma_status status = koksma__image_claim(h.width, h.height, h.channels, size, 8 * 1032, out);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_claim(h.width, h.height, h.channels, size, 8 * 1032, out));
     const size_t count = (size_t)h.width * h.height * (size_t)h.channels;
     unsigned char *levels = calloc(count, (size_t)h.level_bytes);
-    if (!levels) {
-        return koksma__fail_memory(count * (size_t)h.level_bytes);
-    }
-    status = get_rows(png, &h, levels) ? to_linear(levels, &h, count, out->pixels) : fail(s);
+    KOKSMA__REQUIRE_MEMORY(levels, count * (size_t)h.level_bytes);
+    const koksma_status status = get_rows(png, &h, levels) ? to_linear(levels, &h, count, out->pixels) : fail(s);
     free(levels);
     return status;
 }

@@ -44,14 +44,11 @@ bool koksma__bytes_put(koksma__bytes *bytes, size_t offset, const void *data, si
 
 koksma_status koksma__image_check_shape(int width, int height, int channels)
 {
-    if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-        (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d x %d pixels: a side is 1 to %d, and all are at most %zu", width,
-                            height, KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
-    }
-    if (channels != 1 && channels != 3) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
-    }
+    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+                        (size_t)width * (size_t)height > KOKSMA_MAX_PIXELS,
+                    KOKSMA_ARGUMENT, "%d x %d pixels: a side is 1 to %d, and all are at most %zu", width, height,
+                    KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+    KOKSMA__FAIL_IF(channels != 1 && channels != 3, KOKSMA_ARGUMENT, "%d channels: an image has 1 or 3", channels);
     return KOKSMA_OK;
 }
 
@@ -59,15 +56,10 @@ koksma_status koksma_image_init(koksma_image *image, int width, int height, int 
 {
     KOKSMA__REQUIRE(image);
     *image = (koksma_image){0};
-    const koksma_status status = koksma__image_check_shape(width, height, channels);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_check_shape(width, height, channels));
     const size_t count = (size_t)width * (size_t)height * (size_t)channels;
     image->pixels = calloc(count, sizeof *image->pixels);
-    if (!image->pixels) {
-        return koksma__fail_memory(count * sizeof *image->pixels);
-    }
+    KOKSMA__REQUIRE_MEMORY(image->pixels, count * sizeof *image->pixels);
     image->width = width;
     image->height = height;
     image->channels = channels;
@@ -85,16 +77,12 @@ void koksma_image_fini(koksma_image *image)
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out)
 {
-    if (width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-        (size_t)(width * height) > KOKSMA_MAX_PIXELS) {
-        return koksma__fail(KOKSMA_MALFORMED,
-                            "it claims %lld x %lld pixels: a side is 1 to %d, and all are at most %zu", width, height,
-                            KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
-    }
-    if ((double)width * (double)height > (double)bytes * pixels_a_byte) {
-        return koksma__fail(KOKSMA_MALFORMED, "cut short: it claims %lld x %lld pixels and has %zu bytes", width,
-                            height, bytes);
-    }
+    KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
+                        (size_t)(width * height) > KOKSMA_MAX_PIXELS,
+                    KOKSMA_MALFORMED, "it claims %lld x %lld pixels: a side is 1 to %d, and all are at most %zu",
+                    width, height, KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+    KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
+                    "cut short: it claims %lld x %lld pixels and has %zu bytes", width, height, bytes);
     return koksma_image_init(out, (int)width, (int)height, channels);
 }
 
@@ -173,11 +161,8 @@ koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksm
     unsigned char *bytes;
     size_t size;
     *out = (koksma_image){0};
-    koksma_status status = koksma__read_file(path, kind, by, check_start, &bytes, &size);
-    if (status) {
-        return status;
-    }
-    status = koksma__image_read_bytes(bytes, size, out);
+    KOKSMA__TRY(koksma__read_file(path, kind, by, check_start, &bytes, &size));
+    const koksma_status status = koksma__image_read_bytes(bytes, size, out);
     free(bytes);
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }
@@ -212,9 +197,7 @@ koksma_status koksma__image_check(const koksma_image *image, const char *name)
 koksma_status koksma_image_check_finite(const koksma_image *image, const char *name)
 {
     KOKSMA__REQUIRE(image, name);
-    if (!image->pixels) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
-    }
+    KOKSMA__FAIL_IF(!image->pixels, KOKSMA_ARGUMENT, "an image without pixels");
     const koksma_status status = koksma__image_check_shape(image->width, image->height, image->channels);
     for (size_t i = 0; !status && i < count_numbers(image); i++) {
         if (!isfinite(image->pixels[i])) {
@@ -259,11 +242,8 @@ static koksma_status write_file(const char *folder, const char *path, const koks
 {
     KOKSMA__REQUIRE(path, layers);
     koksma__bytes bytes = {0};
-    koksma_status status = koksma_image_check_path(path);
-    if (status) {
-        return status;
-    }
-    status = koksma__layers_check(layers, n);
+    KOKSMA__TRY(koksma_image_check_path(path));
+    koksma_status status = koksma__layers_check(layers, n);
     status = status ? status : format_of_name(path)->write(layers, n, metadata ? metadata : "", &bytes);
     status = status ? koksma__fail_in(status, path) : koksma__atomic_put(folder, path, bytes.data, bytes.size);
     free(bytes.data);

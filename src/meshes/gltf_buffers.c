@@ -52,9 +52,7 @@ koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *u
     uint32_t bits = 0;
     int n_bits = 0;
     size_t size = 0;
-    if (!bytes) {
-        return koksma__fail_memory(length / 4 * 3 + 4);
-    }
+    KOKSMA__REQUIRE_MEMORY(bytes, length / 4 * 3 + 4);
     for (size_t i = 0; i < length && text[i] != '='; i++) {
         const int value = base64_value(text[i]);
         if (value < 0) {
@@ -82,10 +80,7 @@ static koksma_status load(koksma__gltf *g, const field *f, const char *uri, koks
     if (!koksma__find_named(g->out->path, uri, file)) {
         return KOKSMA_OK;
     }
-    const koksma_status status = koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__read_file(file, KOKSMA__FILE_BUFFER, KOKSMA__BY_FILE, NULL, &bytes, &size));
     g->out->hash += koksma__hash(bytes, size);
     return keep(g, bytes, size, out);
 }
@@ -147,12 +142,9 @@ koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *objec
     koksma__gltf_bytes bytes = {0};
     size_t stride = 0;
     *out = (koksma__gltf_elements){0};
-    koksma_status status = koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number));
     const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)*number);
-    status = koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n);
+    koksma_status status = koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n);
     status = status ? status : koksma__json_get_whole(&f, "componentType", true, 5120, 5126, &component);
     status = status ? status : koksma__json_get_text(&f, "type", true, &type);
     status = status ? status : koksma__json_get_flag(&f, "normalized", false, &out->normalised);

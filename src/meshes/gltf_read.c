@@ -154,16 +154,14 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     if (size < 4 || memcmp(file, "glTF", 4) != 0) {
         return KOKSMA_OK;
     }
-    if (size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
-        number_at(file + 12) > size - 20) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: no glTF 2 in its binary form, or cut short", path);
-    }
+    KOKSMA__FAIL_IF(size < 20 || number_at(file + 4) != 2 || memcmp(file + 16, "JSON", 4) != 0 ||
+                        number_at(file + 12) > size - 20,
+                    KOKSMA_MALFORMED, "%s: no glTF 2 in its binary form, or cut short", path);
     *text = (koksma__gltf_bytes){file + 20, number_at(file + 12)};
     const size_t next = 20 + text->size;
-    if (number_at(file + 8) != size ||
-        (next < size && (size - next < 8 || number_at(file + next) > size - next - 8))) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
-    }
+    KOKSMA__FAIL_IF(number_at(file + 8) != size ||
+                        (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
+                    KOKSMA_MALFORMED, "%s: its pieces are not as long as the file", path);
     if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
         return koksma__fail(KOKSMA_MALFORMED, "%s: its first piece has %zu bytes, no multiple of 4", path,
                             text->size);
@@ -205,11 +203,8 @@ koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma_
     koksma__gltf g = {.out = out};
     koksma__json *document;
     koksma__gltf_bytes text = {bytes, size};
-    koksma_status status = split(out->path, &text, &g.binary);
-    if (status) {
-        return status;
-    }
-    status = koksma__json_open("glTF", out->path, (const char *)text.bytes, text.size, &document);
+    KOKSMA__TRY(split(out->path, &text, &g.binary));
+    koksma_status status = koksma__json_open("glTF", out->path, (const char *)text.bytes, text.size, &document);
     if (!status) {
         g.root = koksma__json_root(document);
         status = read_all(&g);

@@ -18,10 +18,9 @@
 
 koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out)
 {
-    if (n_vertices > KOKSMA__MAX_VERTICES || n_triangles > KOKSMA__MAX_TRIANGLES) {
-        return koksma__fail(KOKSMA_MALFORMED, "%zu vertices and %zu triangles: a mesh has at most %zu of each",
-                            n_vertices, n_triangles, KOKSMA__MAX_TRIANGLES);
-    }
+    KOKSMA__FAIL_IF(n_vertices > KOKSMA__MAX_VERTICES || n_triangles > KOKSMA__MAX_TRIANGLES, KOKSMA_MALFORMED,
+                    "%zu vertices and %zu triangles: a mesh has at most %zu of each", n_vertices, n_triangles,
+                    KOKSMA__MAX_TRIANGLES);
     out->n_vertices = n_vertices;
     out->n_triangles = n_triangles;
     out->vertices = calloc(3 * n_vertices + 1, sizeof *out->vertices);
@@ -65,18 +64,14 @@ static koksma_status check_vertices(koksma__mesh *m)
     }
     for (size_t i = 0; i < 3 * m->n_vertices; i++) {
         const double x = (double)(m->vertices[i] += 0.0f); /* -0 and 0 are one place */
-        if (!(fabs(x) <= FAR)) {
-            return koksma__fail(KOKSMA_MALFORMED, "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i / 3,
-                                x);
-        }
+        KOKSMA__FAIL_IF(!(fabs(x) <= FAR), KOKSMA_MALFORMED,
+                        "vertex %zu has a coordinate of %g: it takes -1e6 to 1e6", i / 3, x);
         m->low[i % 3] = fmin(m->low[i % 3], x);
         m->high[i % 3] = fmax(m->high[i % 3], x);
     }
     for (size_t i = 0; m->uvs && i < 2 * m->n_vertices; i++) {
-        if (!(fabs((double)m->uvs[i]) <= FAR)) {
-            return koksma__fail(KOKSMA_MALFORMED, "vertex %zu has a texture coordinate of %g", i / 2,
-                                (double)m->uvs[i]);
-        }
+        KOKSMA__FAIL_IF(!(fabs((double)m->uvs[i]) <= FAR), KOKSMA_MALFORMED,
+                        "vertex %zu has a texture coordinate of %g", i / 2, (double)m->uvs[i]);
     }
     for (size_t i = 0; m->normals && i < m->n_vertices; i++) {
         float *n = m->normals + 3 * i;
@@ -91,15 +86,11 @@ static koksma_status check_vertices(koksma__mesh *m)
 
 koksma_status koksma__mesh_check(koksma__mesh *m)
 {
-    if (!m->n_triangles) {
-        return koksma__fail(KOKSMA_MALFORMED, "no triangles");
-    }
+    KOKSMA__FAIL_IF(!m->n_triangles, KOKSMA_MALFORMED, "no triangles");
     const koksma_status status = check_vertices(m);
     for (size_t i = 0; !status && i < 3 * m->n_triangles; i++) {
-        if (m->indices[i] >= m->n_vertices) {
-            return koksma__fail(KOKSMA_MALFORMED, "triangle %zu names a vertex that is not there: there are %zu",
-                                i / 3, m->n_vertices);
-        }
+        KOKSMA__FAIL_IF(m->indices[i] >= m->n_vertices, KOKSMA_MALFORMED,
+                        "triangle %zu names a vertex that is not there: there are %zu", i / 3, m->n_vertices);
     }
     m->n_degenerate = 0;
     for (size_t t = 0; !status && t < m->n_triangles; t++) {
@@ -107,9 +98,7 @@ koksma_status koksma__mesh_check(koksma__mesh *m)
         twice_area(m, t, area);
         m->n_degenerate += !(koksma__dot(area, area) > 0);
     }
-    if (!status && m->n_degenerate == m->n_triangles) {
-        return koksma__fail(KOKSMA_MALFORMED, "no triangle has any area");
-    }
+    KOKSMA__FAIL_IF(!status && m->n_degenerate == m->n_triangles, KOKSMA_MALFORMED, "no triangle has any area");
     return status;
 }
 

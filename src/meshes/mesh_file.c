@@ -112,9 +112,8 @@ koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, s
 koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    if (f->placements.n == MAX_PLACEMENTS) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: over %d meshes at nodes", f->path, MAX_PLACEMENTS);
-    }
+    KOKSMA__FAIL_IF(f->placements.n == MAX_PLACEMENTS, KOKSMA_MALFORMED, "%s: over %d meshes at nodes", f->path,
+                    MAX_PLACEMENTS);
     koksma__file_placement *to = koksma__list_add(&f->placements, 1, sizeof *to);
     if (!to) {
         return KOKSMA_MEMORY;
@@ -139,9 +138,8 @@ koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uin
     if (n < 3) {
         return KOKSMA_OK;
     }
-    if (indices->n / 3 + n > KOKSMA__MAX_TRIANGLES) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh has at most %zu triangles", path, KOKSMA__MAX_TRIANGLES);
-    }
+    KOKSMA__FAIL_IF(indices->n / 3 + n > KOKSMA__MAX_TRIANGLES, KOKSMA_MALFORMED,
+                    "%s: a mesh has at most %zu triangles", path, KOKSMA__MAX_TRIANGLES);
     uint32_t *to = koksma__list_add(indices, 3 * (n - 2), sizeof *to);
     for (size_t i = 2; to && i < n; i++, to += 3) {
         to[0] = corners[0];

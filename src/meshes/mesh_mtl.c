@@ -162,9 +162,7 @@ static koksma_status take_texture(koksma__text *t, koksma__file_texture *out)
         return KOKSMA_OK;
     }
     out->name = malloc(length + 1);
-    if (!out->name) {
-        return koksma__fail_memory(length);
-    }
+    KOKSMA__REQUIRE_MEMORY(out->name, length);
     memcpy(out->name, rest, length);
     out->name[length] = '\0';
     return KOKSMA_OK;

@@ -236,9 +236,8 @@ static koksma_status take_corners(obj *o, bool face)
     if (!p) {
         return KOKSMA_MEMORY;
     }
-    if (before + n > KOKSMA__MAX_VERTICES) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: over %zu corners", o->text.path, KOKSMA__MAX_VERTICES);
-    }
+    KOKSMA__FAIL_IF(before + n > KOKSMA__MAX_VERTICES, KOKSMA_MALFORMED, "%s: over %zu corners", o->text.path,
+                    KOKSMA__MAX_VERTICES);
     p->kinds |= first;
     uint32_t *to = koksma__list_add(&o->indices, 3 * (n - 2), sizeof *to);
     for (size_t i = 2; to && i < n; i++, to += 3) {
@@ -300,9 +299,8 @@ static koksma_status take_libraries(obj *o, const char *rest, size_t length)
             return KOKSMA_OK;
         }
     }
-    if (o->n_libraries == MAX_LIBRARIES) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: more than %d material files", o->text.path, MAX_LIBRARIES);
-    }
+    KOKSMA__FAIL_IF(o->n_libraries == MAX_LIBRARIES, KOKSMA_MALFORMED, "%s: more than %d material files",
+                    o->text.path, MAX_LIBRARIES);
     o->libraries[o->n_libraries++] = hash;
     if (length >= sizeof name) {
         return wrong(o, "the name of a material file is longer than 4095 characters");
@@ -372,10 +370,9 @@ static koksma_status check_corners(const obj *o)
 {
     static const char *const names[KINDS] = {[PLACE] = "vertex", [TEXTURE] = "texture vertex", [NORMAL] = "normal"};
     for (int kind = 0; kind < KINDS; kind++) {
-        if (o->highest[kind] > count_of(o, kind)) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: a corner names %s %zu; there are %zu", o->text.path,
-                                o->line_of[kind], names[kind], o->highest[kind], count_of(o, kind));
-        }
+        KOKSMA__FAIL_IF(o->highest[kind] > count_of(o, kind), KOKSMA_MALFORMED,
+                        "%s: line %zu: a corner names %s %zu; there are %zu", o->text.path, o->line_of[kind],
+                        names[kind], o->highest[kind], count_of(o, kind));
     }
     return KOKSMA_OK;
 }
@@ -431,9 +428,7 @@ koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__
 {
     koksma__file_material *grey;
     obj *o = calloc(1, sizeof *o);
-    if (!o) {
-        return koksma__fail_memory(sizeof *o);
-    }
+    KOKSMA__REQUIRE_MEMORY(o, sizeof *o);
     o->out = out;
     o->text = koksma__text_open(out->path, bytes, size);
     o->group = o->object = koksma__hash("", 0);

@@ -207,9 +207,7 @@ static koksma_status check_length(const ply *p)
     for (int i = 0; i < p->n_elements; i++) {
         const element *e = &p->elements[i];
         bytes += (double)e->count * (double)e->bytes;
-        if (e->count && !e->n) {
-            return koksma__fail(KOKSMA_MALFORMED, "%s: element '%s' has no properties", t->path, e->name);
-        }
+        KOKSMA__FAIL_IF(e->count && !e->n, KOKSMA_MALFORMED, "%s: element '%s' has no properties", t->path, e->name);
     }
     if (bytes > (double)(t->end - t->next) + 1) { /* the last blank may be missing */
         return koksma__fail(KOKSMA_MALFORMED,
@@ -451,9 +449,7 @@ static koksma_status finish(ply *p)
 koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
 {
     ply *p = calloc(1, sizeof *p);
-    if (!p) {
-        return koksma__fail_memory(sizeof *p);
-    }
+    KOKSMA__REQUIRE_MEMORY(p, sizeof *p);
     p->out = out;
     p->text = (koksma__text){.path = out->path, .next = (const char *)bytes, .end = (const char *)bytes + size};
     koksma_status status = take_header(p);

@@ -63,22 +63,15 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
     size_t size = 0;
     const reader *how = find_reader(path);
     *out = (koksma__mesh_file){.path = path};
-    if (!how) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
-    }
-    koksma_status status = koksma__read_file(path, KOKSMA__FILE_MESH, by, check_start, &bytes, &size);
-    if (status) {
-        return status;
-    }
+    KOKSMA__FAIL_IF(!how, KOKSMA_MALFORMED, "%s: a mesh file's name ends in .obj, .ply, .off, .gltf or .glb", path);
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_MESH, by, check_start, &bytes, &size));
     unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
     if (!kept) {
         free(bytes);
         return KOKSMA_MEMORY;
     }
     *kept = bytes;
-    if (!size) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: empty", path);
-    }
+    KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: empty", path);
     out->hash = how->times * koksma__hash(bytes, size);
     return how->read(bytes, size, out);
 }
@@ -132,10 +125,7 @@ static koksma_status join(const koksma__mesh_file *f, koksma__mesh *out)
         normals &= mesh->normals != NULL;
         uvs &= mesh->uvs != NULL;
     }
-    const koksma_status status = koksma__mesh_init(n_vertices, n_triangles, normals, uvs, out);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__mesh_init(n_vertices, n_triangles, normals, uvs, out));
     out->n_vertices = out->n_triangles = 0;
     for (size_t i = 0; i < f->placements.n; i++) {
         const koksma__file_placement *p = koksma__file_placement_at(f, i);

@@ -67,10 +67,7 @@ koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_sce
     scene->width = 512;
     scene->height = 384;
     scene->clamp = INFINITY;
-    const koksma_status status = koksma__model_read(path, by, scene, &has_camera);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__model_read(path, by, scene, &has_camera));
     if (!has_camera) {
         frame_all(scene);
     }

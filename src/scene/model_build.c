@@ -46,12 +46,9 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
         status = status ? koksma__fail_in(status, from->name) : koksma__image_check(image, from->name);
         return status;
     }
-    if (from->within) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: no bytes", from->name);
-    }
-    if (!koksma__find_named(build->file->path, from->name, full)) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: there is no such file", from->name);
-    }
+    KOKSMA__FAIL_IF(from->within, KOKSMA_MALFORMED, "%s: no bytes", from->name);
+    KOKSMA__FAIL_IF(!koksma__find_named(build->file->path, from->name, full), KOKSMA_MALFORMED,
+                    "%s: there is no such file", from->name);
     const koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, image);
     return status ? status : koksma__image_check(image, from->name);
 }
@@ -249,9 +246,8 @@ static koksma_status place(builder *build, const koksma__file_placement *from)
     memcpy(p->matrix, matrix, sizeof p->matrix);
     koksma__placement_box(&scene->meshes[mesh], p);
     for (int k = 0; k < 3; k++) {
-        if (!(p->low[k] >= -FAR && p->high[k] <= FAR)) {
-            return koksma__fail(KOKSMA_MALFORMED, "a node places a mesh beyond 1e6");
-        }
+        KOKSMA__FAIL_IF(!(p->low[k] >= -FAR && p->high[k] <= FAR), KOKSMA_MALFORMED,
+                        "a node places a mesh beyond 1e6");
     }
     const double *glow = build->glows[material];
     if (glow[0] > 0 || glow[1] > 0 || glow[2] > 0) {
@@ -295,10 +291,7 @@ static koksma_status build_light(builder *build, size_t i)
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1};
     const koksma__file_light *from = (koksma__file_light *)build->file->lights.items + i;
     koksma__light *to = NULL;
-    const koksma_status status = koksma__scene_add_light(build->scene, &to);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__scene_add_light(build->scene, &to));
     to->kind = from->far_away ? &koksma__light_directional : &koksma__light_point;
     transform(from->matrix, origin, 1, to->centre);
     transform(from->matrix, ahead, 0, to->normal);
@@ -306,9 +299,8 @@ static koksma_status build_light(builder *build, size_t i)
         to->radiance[k] = from->colour[k];
     }
     dim(build, to->radiance);
-    if (!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal))) {
-        return koksma__fail(KOKSMA_MALFORMED, "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
-    }
+    KOKSMA__FAIL_IF(!within(to->centre, FAR) || (from->far_away && !koksma__normalise(to->normal)), KOKSMA_MALFORMED,
+                    "light %zu has a coordinate beyond 1e6 or a direction of length 0", i);
     return KOKSMA_OK;
 }
 
@@ -317,12 +309,9 @@ static koksma_status build_light(builder *build, size_t i)
 static koksma_status build_all(builder *build, bool *has_camera)
 {
     const koksma__mesh_file *f = build->file;
-    if (f->materials.n > KOKSMA__MAX_MATERIALS - 1) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d materials", KOKSMA__MAX_MATERIALS - 1);
-    }
-    if (f->lights.n > KOKSMA__MAX_LIGHTS) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
-    }
+    KOKSMA__FAIL_IF(f->materials.n > KOKSMA__MAX_MATERIALS - 1, KOKSMA_MALFORMED, "more than %d materials",
+                    KOKSMA__MAX_MATERIALS - 1);
+    KOKSMA__FAIL_IF(f->lights.n > KOKSMA__MAX_LIGHTS, KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
     build->meshes = malloc((f->meshes.n + 1) * sizeof *build->meshes);
     build->glows = calloc(f->materials.n + 1, sizeof *build->glows);
     if (!build->meshes || !build->glows) {
@@ -338,9 +327,7 @@ static koksma_status build_all(builder *build, bool *has_camera)
     for (size_t i = 0; !status && i < f->placements.n; i++) {
         status = place(build, koksma__file_placement_at(f, i));
     }
-    if (!status && !build->scene->n_placements) {
-        return koksma__fail(KOKSMA_MALFORMED, "no triangles");
-    }
+    KOKSMA__FAIL_IF(!status && !build->scene->n_placements, KOKSMA_MALFORMED, "no triangles");
     *has_camera = !status && build_camera(build);
     for (size_t i = 0; !status && i < f->lights.n; i++) {
         status = build_light(build, i);

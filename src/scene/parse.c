@@ -36,9 +36,7 @@ static koksma_status open_list(const field *root, const char *key, size_t max, s
         return status;
     }
     void *items = calloc(*n + 1, size);
-    if (!items) {
-        return koksma__fail_memory(*n * size);
-    }
+    KOKSMA__REQUIRE_MEMORY(items, *n * size);
     memcpy(out, &items, sizeof items);
     return KOKSMA_OK;
 }
@@ -48,9 +46,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     field list, item;
     size_t n = 0;
     scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights); /* meshes bring some, too */
-    if (!scene->lights) {
-        return koksma__fail_memory(KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
-    }
+    KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
     koksma_status status =
         open_list(root, "materials", KOKSMA__MAX_MATERIALS, sizeof *scene->materials, &scene->materials, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {

@@ -55,10 +55,7 @@ static koksma_status close_failed(koksma_status status, koksma_scene **out)
 
 koksma_status koksma__scene_open_text(const char *name, const char *text, size_t size, koksma_scene **out)
 {
-    const koksma_status status = new_scene(out);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(new_scene(out));
     (*out)->hash = koksma__hash(text, size);
     return close_failed(koksma__scene_parse(name, text, size, *out), out);
 }
@@ -79,9 +76,7 @@ koksma_status koksma__scene_open(const char *name_or_path, koksma__named by, kok
 {
     KOKSMA__REQUIRE(name_or_path, out);
     *out = NULL;
-    if (!name_or_path) {
-        return koksma__fail(KOKSMA_ARGUMENT, "there is no name of a scene");
-    }
+    KOKSMA__FAIL_IF(!name_or_path, KOKSMA_ARGUMENT, "there is no name of a scene");
     for (size_t i = 0; i < N_SHIPPED; i++) {
         if (!strcmp(embedded_texts[i].name, name_or_path)) {
             return koksma__scene_open_text(name_or_path, embedded_texts[i].text, embedded_texts[i].size, out);
