@@ -22,9 +22,8 @@ int koksma__find_material(const koksma_scene *scene, const char *name)
 
 koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *from, koksma__shape **out)
 {
-    if (scene->n_shapes == KOKSMA__MAX_SHAPES) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d shapes", KOKSMA__MAX_SHAPES);
-    }
+    KOKSMA__FAIL_IF(scene->n_shapes == KOKSMA__MAX_SHAPES, KOKSMA_MALFORMED, "more than %d shapes",
+                    KOKSMA__MAX_SHAPES);
     koksma__shape *shapes =
         koksma__room_for_one(scene->shapes, scene->n_shapes, &scene->shape_capacity, 16, sizeof *shapes);
     if (!shapes) {
@@ -38,9 +37,8 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
 
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out)
 {
-    if (scene->n_lights == KOKSMA__MAX_LIGHTS) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d lights", KOKSMA__MAX_LIGHTS);
-    }
+    KOKSMA__FAIL_IF(scene->n_lights == KOKSMA__MAX_LIGHTS, KOKSMA_MALFORMED, "more than %d lights",
+                    KOKSMA__MAX_LIGHTS);
     *out = &scene->lights[scene->n_lights++];
     return KOKSMA_OK;
 }

@@ -35,9 +35,7 @@ koksma_status koksma__parse_image(const char *name, const field *f, const char *
         return koksma__json_fail(f, "the path is too long");
     }
     *out = calloc(1, sizeof **out);
-    if (!*out) {
-        return koksma__fail_memory(sizeof **out);
-    }
+    KOKSMA__REQUIRE_MEMORY(*out, sizeof **out);
     koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, *out);
     status = status ? status : koksma__image_check(*out, full);
     if (status == KOKSMA_MISSING) {
@@ -84,10 +82,7 @@ koksma_status koksma__parse_axes(const field *object, const double normal[3], do
 {
     double up[3] = {0, 1, 0};
     if (koksma__json_has(object, "up")) {
-        const koksma_status status = koksma__parse_direction(object, "up", up);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(koksma__parse_direction(object, "up", up));
     } else if (fabs(normal[1]) > 0.999999) {
         up[1] = 0;
         up[2] = -1;

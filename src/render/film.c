@@ -326,9 +326,7 @@ koksma_status koksma__film_finish(const koksma__frame *frame, koksma__film *film
     float *has = film->layers->samples.pixels, *weights = NULL;
     if (film->splats) {
         has = weights = malloc(pixels * sizeof *weights);
-        if (!weights) {
-            return koksma__fail_memory(pixels * sizeof *weights);
-        }
+        KOKSMA__REQUIRE_MEMORY(weights, pixels * sizeof *weights);
         finish_splats(frame, film, whole, weights);
     }
     bool any = false;

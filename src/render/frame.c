@@ -163,23 +163,17 @@ static koksma_status check(const koksma_render_options *o)
         koksma_image none;
         return koksma_image_init(&none, o->width, o->height, 1); /* says what is wrong with them */
     }
-    if (o->spp < 1 || o->spp > KOKSMA_MAX_SPP) {
-        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", o->spp, KOKSMA_MAX_SPP);
-    }
-    if (!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) || !koksma_light_selection_name(o->lights) ||
-        !o->integrator || !o->filter) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "the options lack a pairing, scope, light selection, integrator or filter");
-    }
-    if (o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH) {
-        return koksma__fail(KOKSMA_ARGUMENT, "depth = %d: bounces are 0 to %d", o->depth, KOKSMA_MAX_DEPTH);
-    }
-    if (o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0) {
-        return koksma__fail(
-            KOKSMA_ARGUMENT,
-            "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
-            o->filter->name);
-    }
+    KOKSMA__FAIL_IF(o->spp < 1 || o->spp > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d",
+                    o->spp, KOKSMA_MAX_SPP);
+    KOKSMA__FAIL_IF(!koksma_pairing_name(o->pairing) || !koksma_scope_name(o->scope) ||
+                        !koksma_light_selection_name(o->lights) || !o->integrator || !o->filter,
+                    KOKSMA_ARGUMENT, "the options lack a pairing, scope, light selection, integrator or filter");
+    KOKSMA__FAIL_IF(o->depth < -1 || o->depth > KOKSMA_MAX_DEPTH, KOKSMA_ARGUMENT, "depth = %d: bounces are 0 to %d",
+                    o->depth, KOKSMA_MAX_DEPTH);
+    KOKSMA__FAIL_IF(o->scope == KOKSMA_SCOPE_IMAGE && !o->splat && strcmp(o->filter->name, "box") != 0,
+                    KOKSMA_ARGUMENT,
+                    "filter %s with scope image: the samples lie where the pattern has them, so it takes splatting",
+                    o->filter->name);
     return koksma__check_use_patterns(o);
 }
 
@@ -187,10 +181,7 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
                                  const koksma_run *run, koksma__frame *out)
 {
     *out = (koksma__frame){.scene = scene, .options = options};
-    const koksma_status status = check(options);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check(options));
     out->flags = options->integrator->flags;
     out->depth = depth_of(options);
     out->channels = scene->grey ? 1 : 3;

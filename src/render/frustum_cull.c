@@ -140,9 +140,7 @@ koksma_status koksma__frustum_cull_open(const koksma__batch_camera *camera, cons
 {
     const size_t size = sizeof(koksma__frustum_cull) + shapes->n * sizeof(bound);
     koksma__frustum_cull *cull = *out = malloc(size);
-    if (!cull) {
-        return koksma__fail_memory(size);
-    }
+    KOKSMA__REQUIRE_MEMORY(cull, size);
     const double x = length1(camera->step_x), y = length1(camera->step_y);
     const double longest = length1(camera->base) + (width + 2) * x + (height + 2) * y;
     cull->n = shapes->n;

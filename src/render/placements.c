@@ -22,9 +22,7 @@ static void *grow(void *list, size_t n, size_t size)
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
 {
     koksma__mesh *meshes = grow(scene->meshes, scene->n_meshes, sizeof *meshes);
-    if (!meshes) {
-        return koksma__fail_memory(2 * scene->n_meshes * sizeof *meshes);
-    }
+    KOKSMA__REQUIRE_MEMORY(meshes, 2 * scene->n_meshes * sizeof *meshes);
     scene->meshes = meshes;
     *out = &meshes[scene->n_meshes++];
     memset(*out, 0, sizeof **out);
@@ -33,13 +31,10 @@ koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
 
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out)
 {
-    if (scene->n_placements == MAX_PLACEMENTS) {
-        return koksma__fail(KOKSMA_MALFORMED, "more than %d meshes and instances", MAX_PLACEMENTS);
-    }
+    KOKSMA__FAIL_IF(scene->n_placements == MAX_PLACEMENTS, KOKSMA_MALFORMED, "more than %d meshes and instances",
+                    MAX_PLACEMENTS);
     koksma__placement *placements = grow(scene->placements, scene->n_placements, sizeof *placements);
-    if (!placements) {
-        return koksma__fail_memory(2 * scene->n_placements * sizeof *placements);
-    }
+    KOKSMA__REQUIRE_MEMORY(placements, 2 * scene->n_placements * sizeof *placements);
     scene->placements = placements;
     *out = &placements[scene->n_placements++];
     memset(*out, 0, sizeof **out);
@@ -60,9 +55,8 @@ static bool has_area(const koksma__mesh *mesh, const koksma__placement *p)
 koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, const double radiance[3])
 {
     koksma__light *light = NULL;
-    if (!has_area(&scene->meshes[p->mesh], p)) {
-        return koksma__fail(KOKSMA_MALFORMED, "a luminous mesh has no area where it stands");
-    }
+    KOKSMA__FAIL_IF(!has_area(&scene->meshes[p->mesh], p), KOKSMA_MALFORMED,
+                    "a luminous mesh has no area where it stands");
     const koksma_status status = koksma__scene_add_light(scene, &light);
     if (!status) {
         light->kind = &koksma__light_mesh;

@@ -481,10 +481,7 @@ static koksma_status make_shared(embree *e, part *p, size_t m)
 
 static koksma_status make_instance(embree *e, part *p, size_t m, RTCGeometry *out)
 {
-    const koksma_status status = make_shared(e, p, m);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(make_shared(e, p, m));
     RTCGeometry g = *out = rtcNewGeometry(e->device, RTC_GEOMETRY_TYPE_INSTANCE);
     p->is_instance = true;
     rtcSetGeometryInstancedScene(g, e->shared[m]);
@@ -506,9 +503,7 @@ static koksma_status build(const koksma_scene *scene, embree *e)
     size_t first = scene->n_shapes;
     koksma_status status = check(e);
     int *uses = calloc(scene->n_meshes + 1, sizeof *uses);
-    if (!uses) {
-        return koksma__fail_memory(scene->n_meshes * sizeof *uses);
-    }
+    KOKSMA__REQUIRE_MEMORY(uses, scene->n_meshes * sizeof *uses);
     for (size_t i = 0; i < e->n_parts; i++) {
         uses[scene->placements[i].mesh]++;
     }
@@ -542,9 +537,7 @@ static koksma_status make(const koksma_scene *scene, koksma__geometry *out)
     const size_t size = sizeof(embree) + scene->n_placements * sizeof(part);
     embree *e = calloc(1, size);
     *out = (koksma__geometry){e, NULL, closest, occlude, light_of, release};
-    if (!e) {
-        return koksma__fail_memory(size);
-    }
+    KOKSMA__REQUIRE_MEMORY(e, size);
     fenv_t mode; /* Embree may change it while it builds */
     fegetenv(&mode);
     e->n_parts = scene->n_placements;

@@ -102,9 +102,7 @@ koksma_status koksma__accel_shapes(const koksma_scene *scene, koksma__geometry *
     const size_t size = sizeof(shapes) + 2 * scene->n_shapes * sizeof(koksma__batch_shape);
     shapes *s = malloc(size);
     *out = (koksma__geometry){0};
-    if (!s) {
-        return koksma__fail_memory(size);
-    }
+    KOKSMA__REQUIRE_MEMORY(s, size);
     s->all = (koksma__batch_shapes){scene->n_shapes, s->list};
     s->occluders = (koksma__batch_shapes){0, s->list + scene->n_shapes};
     for (size_t i = 0; i < scene->n_shapes; i++) {

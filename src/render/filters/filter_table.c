@@ -44,9 +44,7 @@ koksma_status koksma__filter_open(const koksma_filter *filter, koksma__filter_ta
 {
     koksma__filter_table *t = malloc(sizeof *t);
     *out = t;
-    if (!t) {
-        return koksma__fail_memory(sizeof *t);
-    }
+    KOKSMA__REQUIRE_MEMORY(t, sizeof *t);
     const double width = 2 * filter->radius / CELLS;
     double sum = 0, integral = 0, positive = 0;
     t->filter = filter;

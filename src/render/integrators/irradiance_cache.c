@@ -143,9 +143,7 @@ static koksma_status enter(cache *c, const record *from)
     if (c->n == c->capacity) {
         const size_t capacity = c->capacity ? 2 * c->capacity : 1024;
         record *records = capacity <= MAX_RECORDS ? realloc(c->records, capacity * sizeof *records) : NULL;
-        if (!records) {
-            return koksma__fail_memory(capacity * sizeof *records);
-        }
+        KOKSMA__REQUIRE_MEMORY(records, capacity * sizeof *records);
         c->records = records;
         c->capacity = capacity;
     }
@@ -327,9 +325,7 @@ static koksma_status fill_grid(cache *c, int step, float time, const koksma_run 
               .time = time};
     const size_t n = (size_t)g.columns * (size_t)g.rows;
     g.found = calloc(n, sizeof *g.found);
-    if (!g.found) {
-        return koksma__fail_memory(n * sizeof *g.found);
-    }
+    KOKSMA__REQUIRE_MEMORY(g.found, n * sizeof *g.found);
     koksma_status status = koksma__parallel(run, (size_t)g.rows, compute_row, &g);
     for (size_t i = 0; !status && i < n; i++) {
         float light[3];

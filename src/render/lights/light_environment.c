@@ -83,9 +83,7 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
 {
     koksma__environment *e = calloc(1, sizeof *e);
     *out = e;
-    if (!e) {
-        return koksma__fail_memory(sizeof *e);
-    }
+    KOKSMA__REQUIRE_MEMORY(e, sizeof *e);
     for (int k = 0; k < 3; k++) {
         e->radiance[k] = (float)light->radiance[k];
     }

@@ -51,9 +51,7 @@ static koksma_status open_scratch(const koksma__frame *frame, size_t capacity, v
 {
     scratch *r = calloc(1, sizeof *r);
     *out = r;
-    if (!r) {
-        return koksma__fail_memory(sizeof *r);
-    }
+    KOKSMA__REQUIRE_MEMORY(r, sizeof *r);
     r->capacity = capacity;
     r->positions = malloc(2 * capacity * (frame->lights.n + 1) * sizeof *r->positions);
     koksma_status status = koksma__sample_scratch_init(&r->draw, &frame->sampler);

@@ -31,9 +31,7 @@ koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity
 {
     koksma__wavefront_scratch *scratch = calloc(1, sizeof *scratch);
     *out = scratch;
-    if (!scratch) {
-        return koksma__fail_memory(sizeof *scratch);
-    }
+    KOKSMA__REQUIRE_MEMORY(scratch, sizeof *scratch);
     scratch->capacity = capacity;
     scratch->sums = malloc(3 * capacity * sizeof *scratch->sums);
     koksma_status status = koksma__sample_scratch_init(&scratch->draw, &frame->sampler);
@@ -61,11 +59,8 @@ koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *p
 
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
 {
-    if (scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "more than %zu samples of this many uses: fewer samples a pixel would do",
-                            scratch->capacity);
-    }
+    KOKSMA__FAIL_IF(scratch->n_drawn * scratch->capacity > KOKSMA__MAX_DRAWN, KOKSMA_ARGUMENT,
+                    "more than %zu samples of this many uses: fewer samples a pixel would do", scratch->capacity);
     koksma__drawn *list = realloc(scratch->drawn, (scratch->n_drawn + 1) * sizeof *list);
     float *pairs = malloc(2 * scratch->capacity * sizeof *pairs);
     scratch->drawn = list ? list : scratch->drawn;

@@ -41,9 +41,7 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     while (from < end && from->use != use) {
         from++;
     }
-    if (from == end) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the image's samples were drawn without use %u", (unsigned)use);
-    }
+    KOKSMA__FAIL_IF(from == end, KOKSMA_ARGUMENT, "the image's samples were drawn without use %u", (unsigned)use);
     const float width = (float)s->options->width, height = (float)s->options->height;
     for (uint32_t i = s->first[pixel]; i < s->first[pixel + 1]; i++) {
         const float *pair = from->pairs + 2 * (size_t)s->order[i];
@@ -231,16 +229,12 @@ static koksma_status make_room(const koksma_render_options *options, const koksm
 {
     const size_t pixels = (size_t)options->width * (size_t)options->height;
     const size_t n_sets = list_uses(uses, NULL);
-    if (pixels * (size_t)options->spp > MAX_NUMBERS / 2 / n_sets) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "%dx%d pixels of %d samples with %zu uses: scope image keeps at most %zu numbers",
-                            options->width, options->height, options->spp, n_sets, MAX_NUMBERS);
-    }
+    KOKSMA__FAIL_IF(pixels * (size_t)options->spp > MAX_NUMBERS / 2 / n_sets, KOKSMA_ARGUMENT,
+                    "%dx%d pixels of %d samples with %zu uses: scope image keeps at most %zu numbers", options->width,
+                    options->height, options->spp, n_sets, MAX_NUMBERS);
     image_samples *s = calloc(1, sizeof *s + n_sets * sizeof *s->sets);
     *out = s;
-    if (!s) {
-        return koksma__fail_memory(sizeof *s);
-    }
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     s->options = options;
     s->n = pixels * (size_t)options->spp;
     s->n_sets = n_sets;

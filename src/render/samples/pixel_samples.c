@@ -224,9 +224,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
     const size_t n = (size_t)options->spp;
     double *xs = malloc(2 * n * sizeof *xs);
     *fixed = NULL;
-    if (!xs) {
-        return koksma__fail_memory(2 * n * sizeof *xs);
-    }
+    KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
     koksma_status status = koksma__check_single_use(spec);
     status = status ? status : generate(spec, options->seed, n, dims, &alone, xs);
     if (!status && koksma__spec_is_deterministic(spec)) {
@@ -282,9 +280,7 @@ static koksma_status try_group(pixel_samples *samples, int g)
     const size_t n = (size_t)options->spp;
     const int dim = samples->places[group->uses[0]].dim;
     double *xs = malloc(n * (size_t)dim * sizeof *xs);
-    if (!xs) {
-        return koksma__fail_memory(n * (size_t)dim * sizeof *xs);
-    }
+    KOKSMA__REQUIRE_MEMORY(xs, n * (size_t)dim * sizeof *xs);
     koksma_status status = generate(&group->pattern, options->seed, n, dim, &alone, xs);
     for (int i = 0; !status && i < group->n_uses; i++) {
         const int u = group->uses[i];
@@ -346,9 +342,7 @@ koksma_status koksma__pixel_samples(const koksma_render_options *options, const 
 {
     pixel_samples *samples = calloc(1, sizeof *samples);
     *out = (koksma__sampler){.most = (size_t)options->spp, .count = count, .draw = draw, .release = release};
-    if (!samples) {
-        return koksma__fail_memory(sizeof *samples);
-    }
+    KOKSMA__REQUIRE_MEMORY(samples, sizeof *samples);
     *samples = (pixel_samples){.options = options, .batch = koksma__batch(), .uses = *uses};
     out->made = samples;
     for (int u = 0; u < KOKSMA_N_USES; u++) {

@@ -57,19 +57,15 @@ static koksma_status check_group(const koksma_use_group *group)
     if (!group->n_uses) {
         return KOKSMA_OK;
     }
-    if (group->n_uses < 2 || group->n_uses > KOKSMA_N_USES) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
-    }
+    KOKSMA__FAIL_IF(group->n_uses < 2 || group->n_uses > KOKSMA_N_USES, KOKSMA_ARGUMENT,
+                    "a group of %d uses: it takes 2 to %d", group->n_uses, KOKSMA_N_USES);
     for (int i = 0; i < group->n_uses; i++) {
-        if (group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES) {
-            return koksma__fail(KOKSMA_ARGUMENT, "use %d of a group: there are 0 to %d", group->uses[i],
-                                KOKSMA_N_USES - 1);
-        }
+        KOKSMA__FAIL_IF(group->uses[i] < 0 || group->uses[i] >= KOKSMA_N_USES, KOKSMA_ARGUMENT,
+                        "use %d of a group: there are 0 to %d", group->uses[i], KOKSMA_N_USES - 1);
     }
     koksma_use_group_text(group, name);
-    if (!group->pattern.pattern) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern for '%s' is not the spec of a pattern", name);
-    }
+    KOKSMA__FAIL_IF(!group->pattern.pattern, KOKSMA_ARGUMENT,
+                    "the options' pattern for '%s' is not the spec of a pattern", name);
     const int dim = dimensions(group);
     return dim < group->pattern.pattern->min_dim || dim > group->pattern.pattern->max_dim ? fail_dimensions(group)
                                                                                           : KOKSMA_OK;
@@ -109,21 +105,16 @@ static koksma_status check_native(const koksma_render_options *options)
 koksma_status koksma__check_use_patterns(const koksma_render_options *options)
 {
     koksma_status status = KOKSMA_OK;
-    if (!options->pattern.pattern) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern is not the spec of a pattern");
-    }
+    KOKSMA__FAIL_IF(!options->pattern.pattern, KOKSMA_ARGUMENT, "the options' pattern is not the spec of a pattern");
     for (int g = 0; !status && g < KOKSMA_MAX_USE_GROUPS; g++) {
         status = check_group(&options->groups[g]);
     }
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const char *name = koksma_use_at((size_t)u)->name;
-        if (!options->patterns[u].pattern && options->patterns[u].measure) {
-            return koksma__fail(KOKSMA_ARGUMENT, "the options' pattern for '%s' is the spec of a measure", name);
-        }
-        if (patterns_of(options, u) > 1) {
-            return koksma__fail(KOKSMA_ARGUMENT, "use %s has two patterns: it takes one, alone or in one group",
-                                name);
-        }
+        KOKSMA__FAIL_IF(!options->patterns[u].pattern && options->patterns[u].measure, KOKSMA_ARGUMENT,
+                        "the options' pattern for '%s' is the spec of a measure", name);
+        KOKSMA__FAIL_IF(patterns_of(options, u) > 1, KOKSMA_ARGUMENT,
+                        "use %s has two patterns: it takes one, alone or in one group", name);
     }
     return !status && options->pairing == KOKSMA_PAIRING_NATIVE ? check_native(options) : status;
 }
@@ -212,17 +203,14 @@ static koksma_status parse_uses(const char *part, const char *text, size_t lengt
     for (const char *at = text, *end = text + length; at <= end; at++) {
         const size_t name = strcspn(at, "+=");
         const int use = find_use(at, name);
-        if (use < 0) {
-            return koksma__fail(KOKSMA_UNKNOWN,
-                                "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
-                                "lobe-choice and roulette",
-                                part);
-        }
+        KOKSMA__FAIL_IF(use < 0, KOKSMA_UNKNOWN,
+                        "%s: no such use; a sample is spent on pixel, lens, time, light-choice, light, lobe, "
+                        "lobe-choice and roulette",
+                        part);
         for (int i = 0; i < group->n_uses; i++) {
-            if (group->uses[i] == use) {
-                return koksma__fail(KOKSMA_ARGUMENT, "%s: use %s is there twice; a group takes each once", part,
-                                    koksma_use_at((size_t)use)->name);
-            }
+            KOKSMA__FAIL_IF(group->uses[i] == use, KOKSMA_ARGUMENT,
+                            "%s: use %s is there twice; a group takes each once", part,
+                            koksma_use_at((size_t)use)->name);
         }
         group->uses[group->n_uses++] = use;
         at += name;
@@ -235,11 +223,9 @@ static koksma_status add_group(const char *part, const koksma_use_group *group, 
 {
     int g = 0;
     for (int i = 0; i < group->n_uses; i++) {
-        if (patterns_of(options, group->uses[i])) {
-            return koksma__fail(KOKSMA_ARGUMENT,
-                                "%s: use %s has a pattern already; it takes one, alone or in one group", part,
-                                koksma_use_at((size_t)group->uses[i])->name);
-        }
+        KOKSMA__FAIL_IF(patterns_of(options, group->uses[i]), KOKSMA_ARGUMENT,
+                        "%s: use %s has a pattern already; it takes one, alone or in one group", part,
+                        koksma_use_at((size_t)group->uses[i])->name);
     }
     if (group->n_uses == 1) {
         options->patterns[group->uses[0]] = group->pattern;
@@ -277,18 +263,14 @@ koksma_status koksma_render_patterns(const char *text, koksma_render_options *op
         char part[2 * KOKSMA_MAX_SPEC];
         const char *end = end_of_part(text);
         size_t length = (size_t)(end - text);
-        if (length >= sizeof part) {
-            return koksma__fail(KOKSMA_ARGUMENT, "'%.20s...' is longer than %zu characters", text, sizeof part - 1);
-        }
+        KOKSMA__FAIL_IF(length >= sizeof part, KOKSMA_ARGUMENT, "'%.20s...' is longer than %zu characters", text,
+                        sizeof part - 1);
         memcpy(part, text, length);
         while (*end && length && part[length - 1] == ' ') { /* blanks before a ';' */
             length--;
         }
         part[length] = '\0';
-        const koksma_status status = parse_part(part, &changed);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(parse_part(part, &changed));
         text = end + (*end == ';');
         text += strspn(text, " ");
     }

@@ -49,10 +49,7 @@ static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, k
 static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma__placement *p)
 {
     double radiance[3];
-    const koksma_status status = koksma__parse_colour(f, "emission", true, BRIGHT, radiance);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__parse_colour(f, "emission", true, BRIGHT, radiance));
     if (p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth) {
         return koksma__json_fail(f, "a light is neither smooth nor does it move");
     }

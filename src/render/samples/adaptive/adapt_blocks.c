@@ -37,16 +37,11 @@ typedef struct blocks {
 
 static koksma_status open(koksma__adaptive *run)
 {
-    koksma_status status = koksma__sets_open(run);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__sets_open(run));
     const koksma_render_options *options = run->frame->options;
     blocks *b = malloc(sizeof *b + run->pixels * sizeof *b->list);
     run->extra = b;
-    if (!b) {
-        return koksma__fail_memory(sizeof *b + run->pixels * sizeof *b->list);
-    }
+    KOKSMA__REQUIRE_MEMORY(b, sizeof *b + run->pixels * sizeof *b->list);
     b->n = 1;
     b->list[0] = (block){.width = options->width, .height = options->height};
     return KOKSMA_OK;

@@ -54,9 +54,8 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
 static koksma_status open(koksma__adaptive *run)
 {
     const koksma_status status = koksma__sets_open(run);
-    if (!status && run->asks[0].now < 2) {
-        return koksma__fail(KOKSMA_N, "confidence: 2 samples are needed at first: a larger spp, or first=2");
-    }
+    KOKSMA__FAIL_IF(!status && run->asks[0].now < 2, KOKSMA_N,
+                    "confidence: 2 samples are needed at first: a larger spp, or first=2");
     double *factors = status ? NULL : malloc((FACTORS + 1) * sizeof *factors);
     run->extra = factors;
     if (!status && !factors) {

@@ -53,9 +53,7 @@ koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *served)
         return KOKSMA_OK;
     }
     candidate *list = malloc(n * sizeof *list);
-    if (!list) {
-        return koksma__fail_memory(n * sizeof *list);
-    }
+    KOKSMA__REQUIRE_MEMORY(list, n * sizeof *list);
     n = 0;
     for (size_t p = 0; p < run->pixels; p++) {
         if (run->asks[p].now) {

@@ -214,21 +214,17 @@ static void write_results(const job *j)
 
 static koksma_status check(const koksma_render_options *options, const koksma_adaptive_options *adaptive)
 {
-    if (!adaptive->method) {
-        return koksma__fail(KOKSMA_ARGUMENT, "adaptive sampling takes a method");
-    }
+    KOKSMA__FAIL_IF(!adaptive->method, KOKSMA_ARGUMENT, "adaptive sampling takes a method");
     const char *name = adaptive->method->name;
     const koksma_param *params = adaptive->method->params;
     for (int i = 0; params && params[i].name; i++) {
-        if (!(adaptive->params[i] >= params[i].min && adaptive->params[i] <= params[i].max)) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: %s=%.9g: it takes %.9g to %.9g", name, params[i].name,
-                                adaptive->params[i], params[i].min, params[i].max);
-        }
+        KOKSMA__FAIL_IF(!(adaptive->params[i] >= params[i].min && adaptive->params[i] <= params[i].max),
+                        KOKSMA_ARGUMENT, "%s: %s=%.9g: it takes %.9g to %.9g", name, params[i].name,
+                        adaptive->params[i], params[i].min, params[i].max);
     }
-    if (options->splat || options->scope == KOKSMA_SCOPE_IMAGE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: adaptive sampling keeps samples in their pixels, without %s", name,
-                            options->splat ? "splatting" : "scope image");
-    }
+    KOKSMA__FAIL_IF(options->splat || options->scope == KOKSMA_SCOPE_IMAGE, KOKSMA_ARGUMENT,
+                    "%s: adaptive sampling keeps samples in their pixels, without %s", name,
+                    options->splat ? "splatting" : "scope image");
     for (int g = 0; adaptive->method->own_samples && g < KOKSMA_MAX_USE_GROUPS; g++) {
         if (options->groups[g].n_uses) {
             char group[KOKSMA_MAX_SPEC];
@@ -240,26 +236,19 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
                 name, group);
         }
     }
-    if (!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget,
-                            KOKSMA_MAX_SPP);
-    }
-    if (adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES) {
-        return koksma__fail(KOKSMA_ARGUMENT, "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
-    }
+    KOKSMA__FAIL_IF(!(adaptive->budget >= 0 && adaptive->budget <= KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
+                    "budget = %.9g: it is 0 to %d samples a pixel", adaptive->budget, KOKSMA_MAX_SPP);
+    KOKSMA__FAIL_IF(adaptive->probes < 0 || adaptive->probes > KOKSMA_MAX_PROBES, KOKSMA_ARGUMENT,
+                    "probes = %d: it takes 0 to %d", adaptive->probes, KOKSMA_MAX_PROBES);
     const koksma__adaptive_method *method = adaptive->method->functions;
-    if (adaptive->probes && !method->probes) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s splits no strata, so that probes have no effect; leave them out",
-                            name);
-    }
+    KOKSMA__FAIL_IF(adaptive->probes && !method->probes, KOKSMA_ARGUMENT,
+                    "%s splits no strata, so that probes have no effect; leave them out", name);
     const koksma_strata *strata = adaptive->strata;
-    if (strata && !method->show) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
-    }
-    if (strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "pixel %d,%d is outside of %d x %d pixels", strata->x, strata->y,
-                            options->width, options->height);
-    }
+    KOKSMA__FAIL_IF(strata && !method->show, KOKSMA_ARGUMENT, "%s: it has no strata to show", name);
+    KOKSMA__FAIL_IF(
+        strata && (strata->x < 0 || strata->y < 0 || strata->x >= options->width || strata->y >= options->height),
+        KOKSMA_ARGUMENT, "pixel %d,%d is outside of %d x %d pixels", strata->x, strata->y, options->width,
+        options->height);
     return KOKSMA_OK;
 }
 
@@ -277,11 +266,9 @@ static koksma_status open_run(koksma__adaptive *run)
         run->spent += (uint64_t)run->asks[p].now + run->asks[p].later;
         run->report.first += run->asks[p].now;
     }
-    if (!status && run->spent > run->budget) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: a budget of %.9g samples a pixel: the first round takes %.9g",
-                            run->options->method->name, run->options->budget,
-                            (double)run->spent / (double)run->pixels);
-    }
+    KOKSMA__FAIL_IF(!status && run->spent > run->budget, KOKSMA_ARGUMENT,
+                    "%s: a budget of %.9g samples a pixel: the first round takes %.9g", run->options->method->name,
+                    run->options->budget, (double)run->spent / (double)run->pixels);
     return status;
 }
 
@@ -310,13 +297,10 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
     KOKSMA__REQUIRE(scene, options, adaptive, out);
     KOKSMA__REQUIRE_RUN(how);
     *out = (koksma_layers){0};
-    koksma_status status = check(options, adaptive);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check(options, adaptive));
     koksma__adaptive run = {.options = adaptive, .method = adaptive->method->functions, .budget = UINT64_MAX};
     job j = {.run = &run, .layers = out};
-    status = koksma__frame_open(scene, options, how, &j.frame);
+    koksma_status status = koksma__frame_open(scene, options, how, &j.frame);
     if (!status) {
         run.frame = &j.frame;
         run.pixels = (size_t)options->width * (size_t)options->height;

@@ -63,11 +63,9 @@ static koksma_status check_patterns(const koksma__adaptive *run)
         if (p->min_dim <= dim && p->max_dim >= dim) {
             status = compare_sets(spec, (size_t)options->spp, dim, &same);
         }
-        if (same) {
-            return koksma__fail(KOKSMA_ARGUMENT,
-                                "%s: every set of pattern %s is the same; with shift=1 they would differ",
-                                run->options->method->name, p->name);
-        }
+        KOKSMA__FAIL_IF(same, KOKSMA_ARGUMENT,
+                        "%s: every set of pattern %s is the same; with shift=1 they would differ",
+                        run->options->method->name, p->name);
     }
     return status;
 }
@@ -78,22 +76,14 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     const char *name = run->options->method->name;
     const double first = params[KOKSMA__SETS_FIRST], most = params[KOKSMA__SETS_MOST];
     const double samples = (double)run->frame->options->spp * (first + most);
-    koksma_status status = check_patterns(run);
-    if (status) {
-        return status;
-    }
-    if (most < first || samples > KOKSMA_MAX_SPP) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "%s: first=%.0f and most=%.0f sets of %d samples: it takes first to most, and %d samples",
-                            name, first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
-    }
-    if (!run->options->budget && !(params[KOKSMA__SETS_THRESHOLD] > 0)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a threshold, or a budget, or both", name);
-    }
+    KOKSMA__TRY(check_patterns(run));
+    KOKSMA__FAIL_IF(most < first || samples > KOKSMA_MAX_SPP, KOKSMA_ARGUMENT,
+                    "%s: first=%.0f and most=%.0f sets of %d samples: it takes first to most, and %d samples", name,
+                    first, most, run->frame->options->spp, KOKSMA_MAX_SPP);
+    KOKSMA__FAIL_IF(!run->options->budget && !(params[KOKSMA__SETS_THRESHOLD] > 0), KOKSMA_ARGUMENT,
+                    "%s: it takes a threshold, or a budget, or both", name);
     run->state = calloc(run->pixels, sizeof(koksma__pixel_sets));
-    if (!run->state) {
-        return koksma__fail_memory(run->pixels * sizeof(koksma__pixel_sets));
-    }
+    KOKSMA__REQUIRE_MEMORY(run->state, run->pixels * sizeof(koksma__pixel_sets));
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
         run->asks[p] = (koksma__ask){.now = n, .later = run->method->pilot ? (uint32_t)run->frame->options->spp : 0};
@@ -127,11 +117,8 @@ static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint
     const koksma_render_options *options = run->frame->options;
     const size_t n = koksma__set_size(run);
     koksma_points points = {(first + count) * n, 2, room->xs};
-    const koksma_status status = koksma_generate(koksma__use_spec(options, use),
-                                                 koksma__random_seed(options->seed, pixel, use), &alone, &points);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma_generate(koksma__use_spec(options, use), koksma__random_seed(options->seed, pixel, use),
+                                &alone, &points));
     for (size_t k = first; k < first + count; k++, pairs += 2 * n) {
         const bool shuffles = options->pairing == KOKSMA_PAIRING_SHUFFLED && use != KOKSMA__USE_PIXEL;
         run->frame->batch->place(room->xs + 2 * k * n, n, none, shuffles ? room->pairs : pairs);

@@ -30,16 +30,12 @@ static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
 {
     const uint32_t n = s->m * s->m;
     s->trees = calloc(run->pixels, sizeof *s->trees);
-    if (!s->trees) {
-        return koksma__fail_memory(run->pixels * sizeof *s->trees);
-    }
+    KOKSMA__REQUIRE_MEMORY(s->trees, run->pixels * sizeof *s->trees);
     atomic_store(&s->total, run->pixels * n);
     for (size_t p = 0; p < run->pixels; p++) {
         koksma__tree *tree = &s->trees[p];
         tree->strata = malloc(n * sizeof *tree->strata);
-        if (!tree->strata) {
-            return koksma__fail_memory(run->pixels * n * sizeof *tree->strata);
-        }
+        KOKSMA__REQUIRE_MEMORY(tree->strata, run->pixels * n * sizeof *tree->strata);
         tree->n = n;
         for (uint32_t i = 0; i < n; i++) {
             tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
@@ -56,22 +52,16 @@ koksma_status koksma__strata_open(koksma__adaptive *run)
     const uint32_t spp = (uint32_t)run->frame->options->spp, m = (uint32_t)lround(sqrt(spp));
     koksma__strata *s = calloc(1, sizeof *s);
     run->state = s;
-    if (!s) {
-        return koksma__fail_memory(sizeof *s);
-    }
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
     s->m = m;
     s->levels = (uint32_t)params[KOKSMA__STRATA_LEVELS];
     s->threshold = (float)params[KOKSMA__STRATA_THRESHOLD];
     s->reuse = (int)params[KOKSMA__STRATA_REUSE];
-    if (m * m != spp) {
-        return koksma__fail(KOKSMA_N, "%s: spp = %u is not m^2; %u or %u would do", name, spp,
-                            (unsigned)(floor(sqrt(spp)) * floor(sqrt(spp))),
-                            (unsigned)(ceil(sqrt(spp)) * ceil(sqrt(spp))));
-    }
-    if (m << s->levels > KOKSMA__MAX_STRATA_SIDE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: levels=%u of %u x %u strata: at most %d x %d can come of it", name,
-                            s->levels, m, m, KOKSMA__MAX_STRATA_SIDE, KOKSMA__MAX_STRATA_SIDE);
-    }
+    KOKSMA__FAIL_IF(m * m != spp, KOKSMA_N, "%s: spp = %u is not m^2; %u or %u would do", name, spp,
+                    (unsigned)(floor(sqrt(spp)) * floor(sqrt(spp))), (unsigned)(ceil(sqrt(spp)) * ceil(sqrt(spp))));
+    KOKSMA__FAIL_IF(m << s->levels > KOKSMA__MAX_STRATA_SIDE, KOKSMA_ARGUMENT,
+                    "%s: levels=%u of %u x %u strata: at most %d x %d can come of it", name, s->levels, m, m,
+                    KOKSMA__MAX_STRATA_SIDE, KOKSMA__MAX_STRATA_SIDE);
     if (run->pixels > MAX_STRATA / spp) {
         return too_many(run);
     }
@@ -190,9 +180,7 @@ koksma_status koksma__strata_serve(koksma__adaptive *run, size_t pixel)
     }
     koksma__stratum *strata = malloc(n * sizeof *strata), *to = strata;
     koksma__use_cells base;
-    if (!strata) {
-        return koksma__fail_memory(n * sizeof *strata);
-    }
+    KOKSMA__REQUIRE_MEMORY(strata, n * sizeof *strata);
     koksma__use_cells_init(run, pixel, tree->base, NULL, &base);
     for (uint32_t i = 0; i < tree->n; i++) {
         const koksma__stratum *from = &tree->strata[i];
