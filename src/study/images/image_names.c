@@ -81,9 +81,7 @@ koksma_status koksma__image_name_read(const char *places, const char *path, koks
     *out = (koksma__image_name){0};
     *fits = false;
     t.failed = calloc(MAX_PLACES + 1, t.length + 1);
-    if (!t.failed) {
-        return koksma__fail_memory((MAX_PLACES + 1) * (t.length + 1));
-    }
+    KOKSMA__REQUIRE_MEMORY(t.failed, (MAX_PLACES + 1) * (t.length + 1));
     *fits = fit_from(&t, places, 0, 0);
     free(t.failed);
     if (*fits) {
@@ -97,18 +95,13 @@ koksma_status koksma__image_names_pattern(const char *places, char *pattern, siz
 {
     size_t used = 0;
     int n = 0;
-    if (2 * strlen(places) + 4 > size) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the path is longer than %zu characters", size / 2);
-    }
+    KOKSMA__FAIL_IF(2 * strlen(places) + 4 > size, KOKSMA_ARGUMENT, "the path is longer than %zu characters",
+                    size / 2);
     for (const char *at = places; *at; at++) {
         if (*at == '{') {
             at = strchr(at, '}');
-            if (++n > MAX_PLACES) {
-                return koksma__fail(KOKSMA_ARGUMENT, "'%s': more than %d places", places, MAX_PLACES);
-            }
-            if (!at) {
-                return koksma__fail(KOKSMA_ARGUMENT, "'%s': a place that is not closed", places);
-            }
+            KOKSMA__FAIL_IF(++n > MAX_PLACES, KOKSMA_ARGUMENT, "'%s': more than %d places", places, MAX_PLACES);
+            KOKSMA__FAIL_IF(!at, KOKSMA_ARGUMENT, "'%s': a place that is not closed", places);
             pattern[used++] = '*';
         } else {
             if (strchr("*?[]\\", *at)) {

@@ -46,9 +46,7 @@ static int compare_pictures(const void *a, const void *b)
 static koksma_status collect(const char *places, const glob_t *found, pictures *out)
 {
     out->at = calloc(found->gl_pathc + 1, sizeof *out->at);
-    if (!out->at) {
-        return koksma__fail_memory(found->gl_pathc * sizeof *out->at);
-    }
+    KOKSMA__REQUIRE_MEMORY(out->at, found->gl_pathc * sizeof *out->at);
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < found->gl_pathc; i++) {
         picture p = {.path = found->gl_pathv[i]};
@@ -127,9 +125,7 @@ static void fill_row(const picture *first, size_t n, koksma_images_row *row)
 static koksma_status make_rows(const pictures *all, koksma_images_row **rows, size_t *n)
 {
     *rows = calloc(all->n, sizeof **rows);
-    if (!*rows) {
-        return koksma__fail_memory(all->n * sizeof **rows);
-    }
+    KOKSMA__REQUIRE_MEMORY(*rows, all->n * sizeof **rows);
     for (size_t i = 0, end; i < all->n; i = end) {
         for (end = i + 1; end < all->n && !strcmp(all->at[end].name.group, all->at[i].name.group) &&
                           all->at[end].name.spp == all->at[i].name.spp;) {
@@ -181,12 +177,9 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     pictures all = {0};
     *rows = NULL;
     *n = 0;
-    koksma_status status = koksma__image_names_pattern(places, pattern, sizeof pattern);
-    if (status) {
-        return status;
-    }
-    status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
-                                                            : collect(places, &found, &all);
+    KOKSMA__TRY(koksma__image_names_pattern(places, pattern, sizeof pattern));
+    koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
+                                                                          : collect(places, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
     status = status ? status : koksma_image_check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);

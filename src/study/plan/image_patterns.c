@@ -22,15 +22,10 @@ koksma_status koksma__image_pattern_text(const char *text, char out[KOKSMA_MAX_S
 {
     koksma_render_options options = {0};
     char all[KOKSMA_MAX_PATTERNS_TEXT];
-    const koksma_status status = koksma__image_pattern_set(text, &options);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_pattern_set(text, &options));
     koksma_render_patterns_text(&options, all);
-    if (strlen(all) >= KOKSMA_MAX_SPEC) {
-        return koksma__fail(KOKSMA_ARGUMENT, "'%.40s...': the patterns of an image take at most %d characters", all,
-                            KOKSMA_MAX_SPEC - 1);
-    }
+    KOKSMA__FAIL_IF(strlen(all) >= KOKSMA_MAX_SPEC, KOKSMA_ARGUMENT,
+                    "'%.40s...': the patterns of an image take at most %d characters", all, KOKSMA_MAX_SPEC - 1);
     memcpy(out, all, strlen(all) + 1);
     return KOKSMA_OK;
 }

@@ -56,10 +56,7 @@ static koksma_status of_points(const char *pattern, const char *warp_name, const
 static koksma_status of_image(const char *pattern, bool first, char text[KOKSMA__MADE_BY])
 {
     koksma_render_options options = {0};
-    const koksma_status status = koksma__image_pattern_set(pattern, &options);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_pattern_set(pattern, &options));
     add(text, "renderer", first ? 0 : KOKSMA__RENDERER_REVISION);
     add_pattern(text, &options.pattern, first);
     for (int u = 0; u < KOKSMA_N_USES; u++) {
@@ -91,10 +88,9 @@ koksma_status koksma__reference_parse(const char *text, char name[KOKSMA_MAX_SPE
     const char *colon = strchr(text, ':'), *at = strrchr(text, '@');
     int end = 0;
     const bool fits = colon && at && at > colon && colon - text < KOKSMA_MAX_SPEC && at - colon - 1 < KOKSMA_MAX_SPEC;
-    if (!fits || sscanf(at, "@%18lldx%18lld%n", spp, replicates, &end) != 2 || at[end] || *spp < 1 ||
-        *replicates < 1) {
-        return koksma__fail(KOKSMA_MALFORMED, "'%.100s' names no reference", text);
-    }
+    KOKSMA__FAIL_IF(!fits || sscanf(at, "@%18lldx%18lld%n", spp, replicates, &end) != 2 || at[end] || *spp < 1 ||
+                        *replicates < 1,
+                    KOKSMA_MALFORMED, "'%.100s' names no reference", text);
     snprintf(name, KOKSMA_MAX_SPEC, "%.*s", (int)(colon - text), text);
     snprintf(pattern, KOKSMA_MAX_SPEC, "%.*s", (int)(at - colon - 1), colon + 1);
     return KOKSMA_OK;

@@ -10,6 +10,7 @@
 #include <koksma/study.h>
 #include <koksma/warp.h>
 
+#include "core/status.h"
 #include "scene/scene.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_owned.h"
@@ -201,12 +202,9 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
     static const koksma__plan_trials as_planned = {0};
     koksma__json *document;
     *plan = (koksma__plan){0};
-    koksma_status status = koksma__json_open("plan", name, text, size, &document);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_open("plan", name, text, size, &document));
     const koksma__json_node root = koksma__json_root(document);
-    status = parse(&root, trials ? trials : &as_planned, plan);
+    const koksma_status status = parse(&root, trials ? trials : &as_planned, plan);
     koksma__json_close(document);
     if (status) {
         koksma__plan_fini(plan);

@@ -16,9 +16,7 @@ static koksma_status join(void **to, size_t *n, void **from, size_t *n_from, siz
         return KOKSMA_OK;
     }
     char *all = realloc(*to, (*n + *n_from) * item_size);
-    if (!all) {
-        return koksma__fail_memory((*n + *n_from) * item_size);
-    }
+    KOKSMA__REQUIRE_MEMORY(all, (*n + *n_from) * item_size);
     memcpy(all + *n * item_size, *from, *n_from * item_size);
     free(*from);
     *to = all;
@@ -37,9 +35,7 @@ static koksma_status join_text(char **to, const char *between, const char *from)
     }
     const size_t size = strlen(*to) + strlen(between) + strlen(from) + 1;
     char *text = malloc(size);
-    if (!text) {
-        return koksma__fail_memory(size);
-    }
+    KOKSMA__REQUIRE_MEMORY(text, size);
     snprintf(text, size, "%s%s%s", *to, between, from);
     free(*to);
     *to = text;

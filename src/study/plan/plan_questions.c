@@ -143,10 +143,7 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
             return koksma__json_fail(&node, "no block of the plan has the id '%s'",
                                      discrepancies ? q->images : q->discrepancies);
         }
-        const koksma_status status = check_groups(&node, p, q);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(check_groups(&node, p, q));
     }
     return KOKSMA_OK;
 }

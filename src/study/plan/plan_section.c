@@ -40,11 +40,8 @@ static koksma_status canonical(const koksma__json_node *node, koksma__spec_parse
 {
     const char *text;
     char name[KOKSMA_MAX_SPEC];
-    koksma_status status = koksma__json_text(node, &text);
-    if (status) {
-        return status;
-    }
-    status = parser(text, name);
+    KOKSMA__TRY(koksma__json_text(node, &text));
+    const koksma_status status = parser(text, name);
     return status ? koksma__json_fail_in(node, status) : copy(name, out);
 }
 

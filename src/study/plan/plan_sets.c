@@ -97,10 +97,8 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
     const bool native = v.render.pairing == KOKSMA_PAIRING_NATIVE;
     const bool takes_one = native || (v.adaptive.method && v.adaptive.method->own_samples);
     for (size_t p = 0; !status && takes_one && p < patterns->n; p++) {
-        if (!koksma__image_pattern_is_one(patterns->at[p])) {
-            return koksma__fail(KOKSMA_ARGUMENT, "%s: %s: it takes one pattern for all uses", patterns->at[p],
-                                variant);
-        }
+        KOKSMA__FAIL_IF(!koksma__image_pattern_is_one(patterns->at[p]), KOKSMA_ARGUMENT,
+                        "%s: %s: it takes one pattern for all uses", patterns->at[p], variant);
     }
     return status;
 }

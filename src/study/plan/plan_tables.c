@@ -35,10 +35,7 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
             return status;
         }
     } else {
-        const koksma_status status = koksma__json_number(node, 0, 1e6, &out->value);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(koksma__json_number(node, 0, 1e6, &out->value));
         koksma__snprintf(number, sizeof number, "%.9g", out->value);
         text = number;
     }

@@ -241,14 +241,11 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
     size_t total = 1;
     for (int i = 0; i < N_KNOWN; i++) {
         total *= words[i].n ? words[i].n : 1;
-        if (total > MAX_COMBINATIONS) {
-            return koksma__fail(KOKSMA_ARGUMENT, "more than %d combinations of options", MAX_COMBINATIONS);
-        }
+        KOKSMA__FAIL_IF(total > MAX_COMBINATIONS, KOKSMA_ARGUMENT, "more than %d combinations of options",
+                        MAX_COMBINATIONS);
     }
     out->at = calloc(total, sizeof *out->at);
-    if (!out->at) {
-        return koksma__fail_memory(total * sizeof *out->at);
-    }
+    KOKSMA__REQUIRE_MEMORY(out->at, total * sizeof *out->at);
     for (; out->n < total; out->n++) {
         char text[KOKSMA__VARIANT_TEXT] = "";
         size_t below = total, rest = out->n;
@@ -260,9 +257,7 @@ static koksma_status combine(const koksma__texts words[N_KNOWN], koksma__texts *
             }
         }
         out->at[out->n] = strdup(text);
-        if (!out->at[out->n]) {
-            return koksma__fail_memory(strlen(text));
-        }
+        KOKSMA__REQUIRE_MEMORY(out->at[out->n], strlen(text));
         const koksma_status status = check_together(text);
         if (status) {
             out->n++; /* the text that was made must be freed */

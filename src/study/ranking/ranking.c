@@ -299,9 +299,7 @@ static void fill_row(const koksma__contest *c, size_t i, size_t first, koksma_ra
 static koksma_status fill_rows(const koksma__contest *c, koksma_rank_row *rows, koksma_ranking *out)
 {
     size_t *order = malloc(c->n * sizeof *order);
-    if (!order) {
-        return koksma__fail_memory(c->n * sizeof *order);
-    }
+    KOKSMA__REQUIRE_MEMORY(order, c->n * sizeof *order);
     out->complete = true;
     for (size_t i = 0; i < c->n; i++) {
         size_t at = i;
@@ -361,9 +359,7 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
 {
     const size_t n = r->options->n_patterns;
     size_t *patterns = malloc(n * sizeof *patterns);
-    if (!patterns) {
-        return koksma__fail_memory(n * sizeof *patterns);
-    }
+    KOKSMA__REQUIRE_MEMORY(patterns, n * sizeof *patterns);
     for (size_t p = 0; p < n; p++) {
         patterns[p] = p;
     }
@@ -410,24 +406,20 @@ static koksma_status check(const koksma_rank_options *options)
         status =
             options->patterns[i] ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "options->patterns[%zu] is NULL", i);
     }
-    if (!status && !options->n_patterns) {
-        return koksma__fail(KOKSMA_ARGUMENT, "n_patterns = 0: a ranking has at least one pattern");
-    }
-    if (!status && (options->spp < 1 || options->spp > KOKSMA_MAX_SPP)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
-    }
+    KOKSMA__FAIL_IF(!status && !options->n_patterns, KOKSMA_ARGUMENT,
+                    "n_patterns = 0: a ranking has at least one pattern");
+    KOKSMA__FAIL_IF(!status && (options->spp < 1 || options->spp > KOKSMA_MAX_SPP), KOKSMA_ARGUMENT,
+                    "spp = %d: samples a pixel are 1 to %d", options->spp, KOKSMA_MAX_SPP);
     if (!status && options->width) {
         status = koksma__image_check_shape(options->width, options->height, 1);
     }
-    if (!status && !(options->time_limit_s >= 0)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "time_limit_s = %g: it is 0, for none, or a number of seconds",
-                            options->time_limit_s);
-    }
-    if (!status && options->max_trials &&
-        (options->max_trials < KOKSMA__RANK_FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0",
-                            options->max_trials, KOKSMA__RANK_FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
-    }
+    KOKSMA__FAIL_IF(!status && !(options->time_limit_s >= 0), KOKSMA_ARGUMENT,
+                    "time_limit_s = %g: it is 0, for none, or a number of seconds", options->time_limit_s);
+    KOKSMA__FAIL_IF(
+        !status && options->max_trials &&
+            (options->max_trials < KOKSMA__RANK_FIRST_ROUND || options->max_trials > KOKSMA_MAX_RANK_TRIALS),
+        KOKSMA_ARGUMENT, "max_trials %lld: a ranking takes %d to %d trials, or 0", options->max_trials,
+        KOKSMA__RANK_FIRST_ROUND, KOKSMA_MAX_RANK_TRIALS);
     return status;
 }
 
@@ -437,15 +429,12 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
     KOKSMA__REQUIRE(options, rows, out);
     KOKSMA__REQUIRE(options->scene, options->patterns);
     KOKSMA__REQUIRE_RUN(run);
-    koksma_status status = check(options);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check(options));
     ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
     *out = (koksma_ranking){.reference_error = NAN};
     koksma__variant_text(options->integrator, options->filter, r.variant);
-    status = koksma_scene_open(options->scene, &r.scene.scene);
+    koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
     if (!status) {
         set_sizes(options, &r.scene, out);
         snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));

@@ -116,9 +116,7 @@ static koksma_status measure_coherence(koksma__contest *c, koksma__contestant *p
                                        const koksma_image *image)
 {
     double *errors = malloc(c->reference.pixels * sizeof *errors);
-    if (!errors) {
-        return koksma__fail_memory(c->reference.pixels * sizeof *errors);
-    }
+    KOKSMA__REQUIRE_MEMORY(errors, c->reference.pixels * sizeof *errors);
     koksma__rank_reference_subtract(&c->reference, image, errors);
     return add_coherence(c, p, trial, errors);
 }
@@ -312,9 +310,7 @@ koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 {
     koksma_status status = KOKSMA_OK;
     size_t *active = malloc(c->n * sizeof *active), n_active;
-    if (!active) {
-        return koksma__fail_memory(c->n * sizeof *active);
-    }
+    KOKSMA__REQUIRE_MEMORY(active, c->n * sizeof *active);
     if (!c->reference.pixels) {
         const double start_s = koksma__now_s();
         status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->control->run);
@@ -368,9 +364,7 @@ koksma_status koksma__contest_init(koksma__contest *c, const koksma_rank_options
     while (c->max_rounds < KOKSMA__RANK_ROUNDS && (size_t)FIRST << c->max_rounds <= most) {
         c->max_rounds++;
     }
-    if (!c->contestants) {
-        return koksma__fail_memory(n * sizeof *c->contestants);
-    }
+    KOKSMA__REQUIRE_MEMORY(c->contestants, n * sizeof *c->contestants);
     for (size_t i = 0; i < n; i++) {
         c->contestants[i].pattern = patterns[i];
         pthread_mutex_init(&c->contestants[i].lock, NULL);

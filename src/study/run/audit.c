@@ -235,10 +235,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
     const koksma__series key = koksma__reference_key(reference, name);
     koksma__reference_row row;
     bool same = true;
-    koksma_status status = koksma__store_reference(a->study->store, &key, &row);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__store_reference(a->study->store, &key, &row));
     if (row.pixels[0] && strcmp(row.pixels, made->pixels) != 0) {
         same = false;
         differ(a, "reference %s of %s: the stored hash is not that of its pixels", name, reference->scene->name);
@@ -249,7 +246,7 @@ static koksma_status put_reference(void *context, const koksma__reference_image 
         differ(a, "reference %s of %s: its own error %.17g is stored, and %.17g is made", name,
                reference->scene->name, row.standard_error, made->standard_error);
     }
-    status = check_file(a, reference, made->pixels, name, &same);
+    const koksma_status status = check_file(a, reference, made->pixels, name, &same);
     pthread_mutex_lock(&a->lock);
     a->out->references++;
     a->out->references_agree += same;
@@ -328,9 +325,8 @@ koksma_status koksma_study_audit(const koksma_audit_options *options, const koks
     KOKSMA__REQUIRE(options, out);
     KOKSMA__REQUIRE_RUN(run);
     *out = (koksma_audit){0};
-    if (!options->folder || strlen(options->folder) > 1000 || options->rows < 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "an audit takes a study's folder, and a number of rows");
-    }
+    KOKSMA__FAIL_IF(!options->folder || strlen(options->folder) > 1000 || options->rows < 0, KOKSMA_ARGUMENT,
+                    "an audit takes a study's folder, and a number of rows");
     a.study = calloc(1, sizeof *a.study);
     if (!a.study || !(a.study->folder = strdup(options->folder))) {
         free(a.study);

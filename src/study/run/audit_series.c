@@ -170,9 +170,7 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
 static koksma_status set_text(koksma__texts *texts, const char *text)
 {
     char **at = realloc(texts->at, (texts->n + 1) * sizeof *at);
-    if (!at) {
-        return koksma__fail_memory((texts->n + 1) * sizeof *at);
-    }
+    KOKSMA__REQUIRE_MEMORY(at, (texts->n + 1) * sizeof *at);
     texts->at = at;
     at[texts->n] = strdup(text);
     texts->n += at[texts->n] != NULL;
@@ -182,9 +180,7 @@ static koksma_status set_text(koksma__texts *texts, const char *text)
 static koksma_status set_whole(koksma__wholes *wholes, long long value)
 {
     wholes->at = malloc(sizeof *wholes->at);
-    if (!wholes->at) {
-        return koksma__fail_memory(sizeof *wholes->at);
-    }
+    KOKSMA__REQUIRE_MEMORY(wholes->at, sizeof *wholes->at);
     wholes->at[0] = value;
     wholes->n = 1;
     return KOKSMA_OK;

@@ -230,13 +230,10 @@ static koksma_status estimate_kind(koksma_study *study, bool images, const koksm
                                    koksma_study_cost *cost)
 {
     koksma__tasks tasks;
-    koksma_status status = koksma__tasks_open(study, images, &tasks);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     guesses g = {calloc(tasks.n + 1, sizeof *g.at), tasks.n};
     bool *counted = calloc(study->n_references + 1, sizeof *counted);
-    status = g.at && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
+    koksma_status status = g.at && counted ? KOKSMA_OK : koksma__fail_memory(tasks.n * sizeof *g.at);
     for (size_t i = 0; !status && i < g.n; i++) {
         g.at[i] = (guess){&tasks.at[i], (size_t)NONE, 0};
     }

@@ -91,9 +91,7 @@ static koksma_status make_room(outbox *l, size_t more)
     if (l->size + more > l->room) {
         const size_t room = 2 * (l->size + more);
         unsigned char *bytes = realloc(l->bytes, room);
-        if (!bytes) {
-            return koksma__fail_memory(room);
-        }
+        KOKSMA__REQUIRE_MEMORY(bytes, room);
         l->bytes = bytes;
         l->room = room;
     }
@@ -209,9 +207,7 @@ koksma_status koksma__mpi_work(koksma_study *study, const koksma_run *job)
     const koksma__mpi *mpi = koksma__mpi_get();
     worker w = {.mpi = mpi->mpi, .rank = mpi->rank, .study = study, .job = job};
     koksma_status status = KOKSMA_OK;
-    if (mpi->size < 2) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a study without a folder can't be run");
-    }
+    KOKSMA__FAIL_IF(mpi->size < 2, KOKSMA_ARGUMENT, "a study without a folder can't be run");
     bool over = false;
     for (int phase = 0; !status && !over && phase < KOKSMA__PHASES; phase++) {
         status = work_phase(&w, phase, &over);

@@ -43,9 +43,7 @@ koksma_status koksma__reference_index(koksma_study *study, const koksma__image_b
         }
     }
     koksma__reference_image *more = realloc(study->references, (study->n_references + 1) * sizeof *study->references);
-    if (!more) {
-        return koksma__fail_memory((study->n_references + 1) * sizeof *more);
-    }
+    KOKSMA__REQUIRE_MEMORY(more, (study->n_references + 1) * sizeof *more);
     study->references = more;
     more[study->n_references++] = wanted;
     return KOKSMA_OK;

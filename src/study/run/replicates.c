@@ -30,9 +30,7 @@ koksma_status koksma__replicates_init(koksma__replicates *s, size_t pixels, size
 {
     const size_t n = koksma__replicates_numbers(&(koksma__replicates){.pixels = pixels, .channels = channels});
     double *zeros = calloc(n, sizeof *zeros);
-    if (!zeros) {
-        return koksma__fail_memory(n * sizeof *zeros);
-    }
+    KOKSMA__REQUIRE_MEMORY(zeros, n * sizeof *zeros);
     *s = koksma__replicates_over(zeros, n, pixels);
     return KOKSMA_OK;
 }

@@ -70,12 +70,10 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
                                koksma_study_summary *summary, koksma__failures *failures)
 {
     koksma__tasks tasks;
-    koksma_status status = koksma__tasks_open(study, images, &tasks);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__tasks_open(study, images, &tasks));
     koksma__phase phase = {.tasks = &tasks, .control = control, .last = images || !study->plan.n_images};
-    status = study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks);
+    koksma_status status =
+        study->sink ? study->sink->look_up(study->sink->context, &tasks) : koksma__tasks_look_up(&tasks);
     summary->jobs += tasks.n_jobs;
     size_t done_before = 0;
     for (size_t i = 0; i < tasks.n; i++) {
@@ -110,14 +108,11 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     if (!study->store) {
         return koksma__mpi_work(study, &control.job);
     }
-    koksma_status status = koksma__study_open_to_write(study);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__study_open_to_write(study));
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};
-    status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
+    koksma_status status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
     status = koksma__run_kind(study, true, &control, status, summary, &failures);
     summary->workers = koksma__mpi_size() > 1 ? koksma__mpi_size() : control.run.threads;
     summary->seconds = koksma__now_s() - start_s;

@@ -23,10 +23,8 @@ static koksma_status load_plan(const char *name, const koksma__plan_trials *tria
     koksma_status status = KOKSMA_OK;
     if (!strchr(name, '/') && !(length > 5 && !strcmp(name + length - 5, ".json"))) {
         const char *shipped = koksma__plan_shipped(name, &size);
-        if (!shipped) {
-            return koksma__fail(KOKSMA_UNKNOWN, "no plan '%s' ships; a plan of your own is a file, such as ./%s.json",
-                                name, name);
-        }
+        KOKSMA__FAIL_IF(!shipped, KOKSMA_UNKNOWN,
+                        "no plan '%s' ships; a plan of your own is a file, such as ./%s.json", name, name);
         text = (unsigned char *)strdup(shipped);
         status = text ? KOKSMA_OK : koksma__fail_memory(size);
     } else {
@@ -53,16 +51,11 @@ koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
         return KOKSMA_OK;
     }
     koksma__study_scene *scenes = realloc(study->scenes, (study->n_scenes + 1) * sizeof *scenes);
-    if (!scenes) {
-        return koksma__fail_memory((study->n_scenes + 1) * sizeof *scenes);
-    }
+    KOKSMA__REQUIRE_MEMORY(scenes, (study->n_scenes + 1) * sizeof *scenes);
     study->scenes = scenes;
     koksma__study_scene *s = &scenes[study->n_scenes];
     *s = (koksma__study_scene){.name = name};
-    const koksma_status status = koksma__scene_open(name, KOKSMA__BY_FILE, &s->scene);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__scene_open(name, KOKSMA__BY_FILE, &s->scene));
     koksma_render_options options;
     koksma_render_options_init(&options, s->scene);
     s->width = options.width;
@@ -106,12 +99,9 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
 
 static koksma_status make_folder(koksma_study *study, const char *folder)
 {
-    if (strlen(folder) > 1000) {
-        return koksma__fail(KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
-    }
-    if (mkdir(folder, 0777) && errno != EEXIST) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", folder, strerror(errno));
-    }
+    KOKSMA__FAIL_IF(strlen(folder) > 1000, KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
+    KOKSMA__FAIL_IF(mkdir(folder, 0777) && errno != EEXIST, KOKSMA_IO, "%s: can't be made: %s", folder,
+                    strerror(errno));
     study->folder = strdup(folder);
     return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
 }
@@ -172,9 +162,7 @@ static koksma_status recall_plan(koksma_study *study)
 static koksma_status check_text(const koksma_study_options *options, char *const *texts, size_t i)
 {
     for (size_t k = 0; k < i; k++) {
-        if (!strcmp(texts[k], texts[i])) {
-            return koksma__fail(KOKSMA_ARGUMENT, "plan '%s' stands twice", options->plans[i]);
-        }
+        KOKSMA__FAIL_IF(!strcmp(texts[k], texts[i]), KOKSMA_ARGUMENT, "plan '%s' stands twice", options->plans[i]);
     }
     return KOKSMA_OK;
 }
@@ -199,9 +187,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
     const koksma__plan_trials trials = {options->trials, options->quick};
     char path[KOKSMA__PATH];
     char **texts = calloc(options->n_plans, sizeof *texts);
-    if (!texts) {
-        return koksma__fail_memory(options->n_plans * sizeof *texts);
-    }
+    KOKSMA__REQUIRE_MEMORY(texts, options->n_plans * sizeof *texts);
     koksma_status status = load_plans(study, options, texts);
     status = status ? status : open_scenes(study);
     if (!status && options->folder) {
@@ -223,9 +209,7 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     char path[KOKSMA__PATH];
     koksma__mpi_release();
     study->folder = strdup(folder);
-    if (!study->folder) {
-        return koksma__fail_memory(strlen(folder));
-    }
+    KOKSMA__REQUIRE_MEMORY(study->folder, strlen(folder));
     snprintf(path, sizeof path, "%s/results.sqlite", folder);
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
@@ -234,13 +218,10 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
 
 static koksma_status check_options(const koksma_study_options *options)
 {
-    if (!options->n_plans && !options->folder) {
-        return koksma__fail(KOKSMA_ARGUMENT, "a study has a plan, or a folder with results");
-    }
-    if (options->trials < 0) {
-        return koksma__fail(KOKSMA_ARGUMENT, "trials = %lld: it is 0, for those of the plan, or more",
-                            options->trials);
-    }
+    KOKSMA__FAIL_IF(!options->n_plans && !options->folder, KOKSMA_ARGUMENT,
+                    "a study has a plan, or a folder with results");
+    KOKSMA__FAIL_IF(options->trials < 0, KOKSMA_ARGUMENT, "trials = %lld: it is 0, for those of the plan, or more",
+                    options->trials);
     koksma_status status =
         koksma__array_check("options->plans", options->plans, options->n_plans, sizeof *options->plans);
     for (size_t i = 0; i < options->n_plans && !status; i++) {
@@ -253,15 +234,10 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
 {
     KOKSMA__REQUIRE(options, out);
     *out = NULL;
-    koksma_status status = check_options(options);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check_options(options));
     koksma_study *study = calloc(1, sizeof *study);
-    if (!study) {
-        return koksma__fail_memory(sizeof *study);
-    }
-    status = koksma__mpi_check();
+    KOKSMA__REQUIRE_MEMORY(study, sizeof *study);
+    koksma_status status = koksma__mpi_check();
     status = status             ? status
              : options->n_plans ? open_with_plans(study, options)
                                 : open_folder(study, options->folder);

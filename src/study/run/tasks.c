@@ -30,9 +30,8 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
     }
     tasks->at = at;
     tasks->wanted += task->trials;
-    if (tasks->wanted > MOST_JOBS) {
-        return koksma__fail(KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs", tasks->study->plan.name, MOST_JOBS);
-    }
+    KOKSMA__FAIL_IF(tasks->wanted > MOST_JOBS, KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs",
+                    tasks->study->plan.name, MOST_JOBS);
     koksma__task *t = &tasks->at[tasks->n];
     *t = *task;
     t->place = tasks->n++;
@@ -107,9 +106,7 @@ static koksma_status order(koksma__tasks *tasks)
         qsort(tasks->at, tasks->n, sizeof *tasks->at, compare_tasks);
     }
     tasks->rounds = calloc(tasks->n + 1, sizeof *tasks->rounds);
-    if (!tasks->rounds) {
-        return koksma__fail_memory((tasks->n + 1) * sizeof *tasks->rounds);
-    }
+    KOKSMA__REQUIRE_MEMORY(tasks->rounds, (tasks->n + 1) * sizeof *tasks->rounds);
     long long trial = 0;
     for (size_t left = tasks->n; left > 0;) {
         const long long end = tasks->at[left - 1].trials;

@@ -59,9 +59,8 @@ static koksma_status fail(koksma__database *database)
         return koksma__fail(KOKSMA_MEMORY, "%s: out of memory", path);
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
-        if (system == 0 || system == EACCES || system == EROFS || system == EPERM || system == ENOENT) {
-            return koksma__fail(KOKSMA_IO, "%s: can't be written; its folder must be writable, too", path);
-        }
+        KOKSMA__FAIL_IF(system == 0 || system == EACCES || system == EROFS || system == EPERM || system == ENOENT,
+                        KOKSMA_IO, "%s: can't be written; its folder must be writable, too", path);
         break;
     case SQLITE_FULL:
         return koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(ENOSPC));
@@ -118,9 +117,8 @@ static koksma_status look_at(const char *path, bool *exists, long long *size)
     struct stat info;
     *exists = !stat(path, &info);
     *size = *exists ? (long long)info.st_size : 0;
-    if (!*exists && errno != ENOENT) {
-        return koksma__fail(errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path, strerror(errno));
-    }
+    KOKSMA__FAIL_IF(!*exists && errno != ENOENT, errno == ENOTDIR ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", path,
+                    strerror(errno));
     return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: it is no plain file", path)
                                              : KOKSMA_OK;
 }
@@ -165,12 +163,10 @@ koksma_status koksma__database_look(const char *path, koksma__database_header *h
     }
     const int code = file->pMethods->xRead(file, bytes, HEADER, 0);
     close_file(file);
-    if (code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be read: %s", path, strerror(EIO));
-    }
-    if (code != SQLITE_OK || memcmp(bytes, "SQLite format 3", 16) != 0) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: file is not a database; move it away to begin anew", path);
-    }
+    KOKSMA__FAIL_IF(code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ, KOKSMA_IO, "%s: can't be read: %s", path,
+                    strerror(EIO));
+    KOKSMA__FAIL_IF(code != SQLITE_OK || memcmp(bytes, "SQLite format 3", 16) != 0, KOKSMA_MALFORMED,
+                    "%s: file is not a database; move it away to begin anew", path);
     header->version = word_at(bytes + 60);
     header->application_id = word_at(bytes + 68);
     return KOKSMA_OK;

@@ -35,9 +35,7 @@ double koksma__store_seconds(koksma__store *store)
 
 koksma_status koksma__store_begin(koksma__store *store)
 {
-    if (store->failed) {
-        return koksma__fail(KOKSMA_IO, "%s: writing failed before", koksma__database_path(store->database));
-    }
+    KOKSMA__FAIL_IF(store->failed, KOKSMA_IO, "%s: writing failed before", koksma__database_path(store->database));
     if (store->in_transaction) {
         return KOKSMA_OK;
     }

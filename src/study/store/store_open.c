@@ -116,13 +116,10 @@ static koksma_status put_in_place(const char *path, const koksma__database *old,
 {
     koksma__atomic_file file;
     koksma__store *store;
-    koksma_status status = koksma__atomic_open(NULL, path, &file);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
     char temporary[KOKSMA__TEMPORARY_PATH];
     koksma__atomic_temporary(&file, temporary);
-    status = build(temporary, old, schema, &store);
+    koksma_status status = build(temporary, old, schema, &store);
     const koksma_status closed = koksma__store_close(store);
     status = status ? status : closed;
     status = status ? status : mark_as_logged(temporary, path);
@@ -242,9 +239,8 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     koksma__database_header header;
     bool exists;
     int schema = KOKSMA__SCHEMA;
-    if (access(path, W_OK) && errno != ENOENT) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be written: %s", path, strerror(errno));
-    }
+    KOKSMA__FAIL_IF(access(path, W_OK) && errno != ENOENT, KOKSMA_IO, "%s: can't be written: %s", path,
+                    strerror(errno));
     koksma_status status = end_journal(path);
     status = status ? status : look(path, &exists, &schema, &database);
     koksma__database_close(status ? NULL : database);

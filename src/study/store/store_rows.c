@@ -60,10 +60,7 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
     koksma__row row = {.id = from->id};
     bool found;
     int column = 1;
-    koksma_status status = find_row(store, &row, &found);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(find_row(store, &row, &found));
     if (found) {
         add_checksum(store, -1, &row);
     } else {

@@ -108,10 +108,9 @@ koksma_status koksma__schema_of(koksma__database *database, const koksma__databa
     const char *path = koksma__database_path(database);
     const bool ours = koksma__schema_is_ours(header);
     int n = 0;
-    if (ours && header->version != KOKSMA__SCHEMA) {
-        return koksma__fail(KOKSMA_MALFORMED, "%s: its schema is %u and this program's is %d; choose another folder",
-                            path, (unsigned)header->version, KOKSMA__SCHEMA);
-    }
+    KOKSMA__FAIL_IF(ours && header->version != KOKSMA__SCHEMA, KOKSMA_MALFORMED,
+                    "%s: its schema is %u and this program's is %d; choose another folder", path,
+                    (unsigned)header->version, KOKSMA__SCHEMA);
     *schema = KOKSMA__SCHEMA;
     koksma_status status = ours || !header->application_id
                                ? compare(database, ours ? koksma__schema_sql : koksma__schema_past_sql, &n)

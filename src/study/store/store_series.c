@@ -63,14 +63,11 @@ static koksma_status add_series(koksma__store *store, const koksma__series *key,
 {
     koksma__statement *s = store->queries[KOKSMA__ADD_SERIES];
     int column = 1;
-    koksma_status status = next_series(store, key, id);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(next_series(store, key, id));
     bind_series(s, &column, key);
     koksma__bind_whole(s, &column, *id);
     koksma__seal_add(&store->seal, 1, koksma__checksum_of_series(key, *id));
-    status = koksma__store_write(store, KOKSMA__ADD_SERIES);
+    const koksma_status status = koksma__store_write(store, KOKSMA__ADD_SERIES);
     koksma__store_forget(store);
     return status;
 }
@@ -116,9 +113,7 @@ koksma_status koksma__store_know_series(koksma__store *store)
     }
     store->n_known = (size_t)last + 1;
     store->known = calloc(store->n_known, sizeof *store->known);
-    if (!store->known) {
-        return koksma__fail_memory(store->n_known * sizeof *store->known);
-    }
+    KOKSMA__REQUIRE_MEMORY(store->known, store->n_known * sizeof *store->known);
     while (koksma__next_row(store->database, s, &status)) {
         const long long id = koksma__column_whole(s, KOKSMA__SERIES_COLUMNS);
         if (id >= 0 && (size_t)id < store->n_known) {
