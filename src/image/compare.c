@@ -23,11 +23,8 @@ double koksma__luminance(const koksma_image *image, size_t pixel)
 
 static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
 {
-    koksma_status status = koksma__image_usable(a);
-    status = status ? status : koksma__image_usable(b);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__image_usable(a));
+    KOKSMA__TRY(koksma__image_usable(b));
     KOKSMA__FAIL_IF(a->width != b->width || a->height != b->height, KOKSMA_ARGUMENT,
                     "an image of %d x %d pixels can't be compared with one of %d x %d", a->width, a->height, b->width,
                     b->height);

@@ -40,12 +40,9 @@ static koksma_status own_matrix(const field *node, double out[12])
         }
         return status;
     }
-    koksma_status status = koksma__json_get_numbers(node, "translation", false, -WIDEST, WIDEST, 3, t);
-    status = status ? status : koksma__json_get_numbers(node, "rotation", false, -WIDEST, WIDEST, 4, q);
-    status = status ? status : koksma__json_get_numbers(node, "scale", false, -WIDEST, WIDEST, 3, s);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_numbers(node, "translation", false, -WIDEST, WIDEST, 3, t));
+    KOKSMA__TRY(koksma__json_get_numbers(node, "rotation", false, -WIDEST, WIDEST, 4, q));
+    KOKSMA__TRY(koksma__json_get_numbers(node, "scale", false, -WIDEST, WIDEST, 3, s));
     const double x = q[0], y = q[1], z = q[2], w = q[3];
     const double turn[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
                             2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),

@@ -61,13 +61,10 @@ static koksma_status take_texture(koksma__gltf *g, const field *f, const char *k
     if (!koksma__json_is_object_at(f, key)) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__json_member(f, key, &info);
-    status = status ? status : koksma__json_get_whole(&info, "index", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_member(f, key, &info));
+    KOKSMA__TRY(koksma__json_get_whole(&info, "index", true, 0, KOKSMA__GLTF_ITEMS, &number));
     const field texture = koksma__gltf_item(g, KOKSMA__GLTF_TEXTURES, (size_t)number);
-    status = koksma__json_get_whole(&texture, "source", false, 0, KOKSMA__GLTF_ITEMS, &image);
+    const koksma_status status = koksma__json_get_whole(&texture, "source", false, 0, KOKSMA__GLTF_ITEMS, &image);
     return status || !koksma__json_has(&texture, "source") ? status : take_image(g, (size_t)image, out);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/elementary.h"
 #include "core/random.h"
+#include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/cells.h"
 #include "patterns/shared/columns.h"
@@ -43,13 +44,8 @@ static void place(const void *context, size_t first, size_t count, bool stream, 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     bell b;
-    koksma_status status = koksma__cells("gaussian-jittered", out, args->params[0], &b.along_x, &b.along_rest);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__cells("gaussian-jittered", out, args->params[0], &b.along_x, &b.along_rest));
+    KOKSMA__TRY(koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs));
     b.scale = sqrt(2) * args->params[1];
     b.erf_a = koksma__erf(0.5 / b.scale);
     return koksma__fill_rows(args->run, out, place, &b);

@@ -40,13 +40,8 @@ static void place(uint64_t seed, size_t columns, size_t rows, uint32_t *permutat
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     size_t columns, rows;
-    koksma_status status = koksma__divisors("multi-jittered", out->n, args->params[0], &columns, &rows);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * out->n, out->xs);
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__divisors("multi-jittered", out->n, args->params[0], &columns, &rows));
+    KOKSMA__TRY(koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, 2 * out->n, out->xs));
     uint32_t few[FEW];
     const size_t most = columns > rows ? columns : rows;
     uint32_t *permutation = most <= FEW ? few : malloc(most * sizeof *permutation);

@@ -81,13 +81,8 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     const int strength = (int)args->params[0];
     const size_t n = out->n;
     size_t s = 0;
-    koksma_status status = find_levels(n, out->dim, strength, &s);
-    if (!status) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, n * (size_t)out->dim, out->xs);
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(find_levels(n, out->dim, strength, &s));
+    KOKSMA__TRY(koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, n * (size_t)out->dim, out->xs));
     uint32_t few[FEW + 2 * 16 + 16];
     uint32_t *strata = n <= FEW ? few : malloc((n + 2 * s) * sizeof *strata);
     KOKSMA__REQUIRE_MEMORY(strata, (n + 2 * s) * sizeof *strata);

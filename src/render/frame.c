@@ -125,15 +125,13 @@ static koksma_status find_geometry(const koksma_scene *scene, koksma__geometry *
 static koksma_status make_frame(koksma__frame *f, const koksma_run *run)
 {
     const koksma_render_options *options = f->options;
-    koksma_status status = make_materials(f);
-    status = status ? status : koksma__lights_init(f->scene, &f->lights);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(make_materials(f));
+    KOKSMA__TRY(koksma__lights_init(f->scene, &f->lights));
     f->camera = make_camera(&f->scene->camera, options->width, options->height);
     f->uses = koksma__frame_uses(f->scene, options);
-    status = options->scope == KOKSMA_SCOPE_IMAGE ? koksma__image_samples(options, &f->uses, run, &f->sampler)
-                                                  : koksma__pixel_samples(options, &f->uses, &f->sampler);
+    koksma_status status = options->scope == KOKSMA_SCOPE_IMAGE
+                               ? koksma__image_samples(options, &f->uses, run, &f->sampler)
+                               : koksma__pixel_samples(options, &f->uses, &f->sampler);
     status = status ? status : find_geometry(f->scene, &f->geometry);
     if (!status && (options->splat || strcmp(options->filter->name, "box") != 0)) {
         status = koksma__filter_open(options->filter, &f->filter);

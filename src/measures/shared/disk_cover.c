@@ -132,10 +132,7 @@ static koksma_status settle(const cover *c, cell *at, desk *d, size_t count, kok
             if (n_pairs > most) {
                 return KOKSMA_OK;
             }
-            const koksma_status status = trying ? try_pairs(c, at, d, first, last, best) : KOKSMA_OK;
-            if (status) {
-                return status;
-            }
+            KOKSMA__TRY(trying ? try_pairs(c, at, d, first, last, best) : KOKSMA_OK);
         }
     }
     d->n_pairs += n_pairs;

@@ -83,19 +83,15 @@ koksma_status koksma_spectrum_add(koksma_spectrum *spectrum, const koksma_points
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__FAIL_IF(points->dim != 2, KOKSMA_DIM, "spectrum: it has no %d-dimensional form, only dim = 2",
                     points->dim);
-    koksma_status status = koksma__spectrum_check(spectrum);
-    status = status ? status : koksma__points_check(points);
-    if (!status && method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "spectrum: %d is no method", (int)method);
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__spectrum_check(spectrum));
+    KOKSMA__TRY(koksma__points_check(points));
+    KOKSMA__FAIL_IF(method != KOKSMA_SPECTRUM_EXACT && method != KOKSMA_SPECTRUM_FAST, KOKSMA_ARGUMENT,
+                    "spectrum: %d is no method", (int)method);
     const size_t rows = (size_t)spectrum->half + 1, count = rows * side_of(spectrum->half);
     double *power = calloc(count + 2 * rows, sizeof *power), *means = power + count;
     KOKSMA__REQUIRE_MEMORY(power, (count + 2 * rows) * sizeof *power);
-    status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(points, spectrum->half, run,
-                                                                                          power);
+    const koksma_status status = (method == KOKSMA_SPECTRUM_EXACT ? koksma__power_exact : koksma__power_fast)(
+        points, spectrum->half, run, power);
     if (!status) {
         spectrum->sets++;
         const double sets = (double)spectrum->sets;

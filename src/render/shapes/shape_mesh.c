@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/status.h"
 #include "meshes/mesh_read.h"
 #include "render/placements.h"
 #include "render/shapes/shapes.h"
@@ -29,13 +30,10 @@ static koksma_status parse_scale(const field *f, double scale[3])
 static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, koksma__placement *p)
 {
     double translate[3] = {0}, rotate_deg[3] = {0}, scale[3] = {1, 1, 1};
-    koksma_status status = koksma__json_get_numbers(f, "translate", false, -FAR, FAR, 3, translate);
-    status = status ? status : koksma__json_get_numbers(f, "rotate_deg", false, -360, 360, 3, rotate_deg);
-    status = status ? status : parse_scale(f, scale);
-    status = status ? status : koksma__json_get_numbers(f, "motion", false, -FAR, FAR, 3, p->motion);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_numbers(f, "translate", false, -FAR, FAR, 3, translate));
+    KOKSMA__TRY(koksma__json_get_numbers(f, "rotate_deg", false, -360, 360, 3, rotate_deg));
+    KOKSMA__TRY(parse_scale(f, scale));
+    KOKSMA__TRY(koksma__json_get_numbers(f, "motion", false, -FAR, FAR, 3, p->motion));
     koksma__placement_matrix(translate, rotate_deg, scale, p->matrix);
     koksma__placement_box(mesh, p);
     for (int k = 0; k < 3; k++) {
@@ -92,11 +90,8 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
     const char *file = "", *name = "";
     char path[KOKSMA__MAX_PATH];
     koksma__mesh *mesh = NULL;
-    koksma_status status = koksma__json_get_text(f, "file", true, &file);
-    status = status ? status : koksma__json_get_text(f, "name", false, &name);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_text(f, "file", true, &file));
+    KOKSMA__TRY(koksma__json_get_text(f, "name", false, &name));
     if (strlen(name) >= sizeof mesh->name) {
         return koksma__json_fail(f, "a name has at most %zu letters", sizeof mesh->name - 1);
     }
@@ -106,7 +101,7 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
     if (!koksma__path_beside(scene_name, file, path)) {
         return koksma__json_fail(f, "the path is too long");
     }
-    status = koksma__scene_add_mesh(scene, &mesh);
+    koksma_status status = koksma__scene_add_mesh(scene, &mesh);
     if (status) {
         return status;
     }

@@ -38,10 +38,7 @@ koksma_status koksma__replicates_init(koksma__replicates *s, size_t pixels, size
 koksma_status koksma__replicates_add(koksma__replicates *s, const koksma_image *image)
 {
     const size_t pixels = (size_t)image->width * (size_t)image->height;
-    const koksma_status status = s->sum ? KOKSMA_OK : koksma__replicates_init(s, pixels, (size_t)image->channels);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(s->sum ? KOKSMA_OK : koksma__replicates_init(s, pixels, (size_t)image->channels));
     s->n++;
     for (size_t i = 0; i < pixels * s->channels; i++) {
         s->sum[i] += (double)image->pixels[i];

@@ -346,14 +346,9 @@ static koksma_status do_discrepancy(const koksma__task *t, uint64_t seed, const 
 {
     koksma_spec pattern;
     koksma_points points;
-    koksma_status status = koksma_pattern_spec(t->pattern, &pattern);
-    if (!status) {
-        status = koksma_points_init(&points, (size_t)t->n, t->discrepancy->dim);
-    }
-    if (status) {
-        return status;
-    }
-    status = koksma_generate(&pattern, seed, run, &points);
+    KOKSMA__TRY(koksma_pattern_spec(t->pattern, &pattern));
+    KOKSMA__TRY(koksma_points_init(&points, (size_t)t->n, t->discrepancy->dim));
+    koksma_status status = koksma_generate(&pattern, seed, run, &points);
     status = status ? status : measure(t, &points, run, results);
     koksma_points_fini(&points);
     return status;
