@@ -248,9 +248,7 @@ static koksma_status fail_unknown_field(const koksma__json_node *member, const c
 
 koksma_status koksma__json_only(const koksma__json_node *node, const char *const *keys)
 {
-    if (!json_is_object((const json_t *)node->value)) {
-        return koksma__json_fail(node, "it takes an object, {…}");
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_object((const json_t *)node->value), node, "it takes an object, {…}");
     const char *key;
     json_t *value;
     json_object_foreach((json_t *)(uintptr_t)node->value, key, value)
@@ -309,12 +307,8 @@ static koksma__json_node below(const koksma__json_node *parent, const json_t *va
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
 {
     const json_t *value = find(node->value, key);
-    if (!json_is_object((const json_t *)node->value)) {
-        return koksma__json_fail(node, "it takes an object, {…}");
-    }
-    if (!value) {
-        return koksma__json_fail(node, "field '%s' is missing", key);
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_object((const json_t *)node->value), node, "it takes an object, {…}");
+    KOKSMA__JSON_FAIL_IF(!value, node, "field '%s' is missing", key);
     const koksma__json_node parent = *node;
     char other[KOKSMA__JSON_PATH];
     if (!json_object_get(parent.value, key) && other_spelling(key, other, sizeof other)) {
@@ -328,9 +322,7 @@ koksma_status koksma__json_member(const koksma__json_node *node, const char *key
 
 koksma_status koksma__json_length(const koksma__json_node *node, size_t max, size_t *length)
 {
-    if (!json_is_array((const json_t *)node->value)) {
-        return koksma__json_fail(node, "it takes a list, […]");
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_array((const json_t *)node->value), node, "it takes a list, […]");
     *length = json_array_size(node->value);
     return *length <= max ? KOKSMA_OK : koksma__json_fail(node, "%zu items, and at most %zu are taken", *length, max);
 }
@@ -345,35 +337,25 @@ koksma__json_node koksma__json_item(const koksma__json_node *node, size_t i)
 koksma_status koksma__json_number(const koksma__json_node *node, double min, double max, double *out)
 {
     const json_t *value = node->value;
-    if (!json_is_number(value)) {
-        return koksma__json_fail(node, "it takes a number");
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_number(value), node, "it takes a number");
     *out = json_number_value(value);
-    if (!(*out >= min && *out <= max)) {
-        return koksma__json_fail(node, "%.9g is not in %.9g to %.9g", *out, min, max);
-    }
+    KOKSMA__JSON_FAIL_IF(!(*out >= min && *out <= max), node, "%.9g is not in %.9g to %.9g", *out, min, max);
     return KOKSMA_OK;
 }
 
 koksma_status koksma__json_whole(const koksma__json_node *node, long long min, long long max, long long *out)
 {
     const json_t *value = node->value;
-    if (!json_is_integer(value)) {
-        return koksma__json_fail(node, "it takes a whole number");
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_integer(value), node, "it takes a whole number");
     *out = json_integer_value(value);
-    if (*out < min || *out > max) {
-        return koksma__json_fail(node, "%lld is not in %lld to %lld", *out, min, max);
-    }
+    KOKSMA__JSON_FAIL_IF(*out < min || *out > max, node, "%lld is not in %lld to %lld", *out, min, max);
     return KOKSMA_OK;
 }
 
 koksma_status koksma__json_flag(const koksma__json_node *node, bool *out)
 {
     const json_t *value = node->value;
-    if (!json_is_boolean(value)) {
-        return koksma__json_fail(node, "it takes true or false");
-    }
+    KOKSMA__JSON_FAIL_IF(!json_is_boolean(value), node, "it takes true or false");
     *out = json_is_true(value);
     return KOKSMA_OK;
 }

@@ -8,6 +8,8 @@
 
 #include <koksma/koksma.h>
 
+#include "core/status.h"
+
 typedef struct koksma__json koksma__json;
 
 enum { KOKSMA__JSON_PATH = 128, KOKSMA__JSON_STEPS = 16 };
@@ -36,6 +38,9 @@ koksma__json_node koksma__json_root(const koksma__json *document);
 
 /* "KIND 'NAME': line N: PATH: reason", status MALFORMED. */
 koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...) KOKSMA_PRINTF(2, 3);
+
+/* Ends the function with it. */
+#define KOKSMA__JSON_FAIL_IF(condition, ...) KOKSMA__TRY((condition) ? koksma__json_fail(__VA_ARGS__) : KOKSMA_OK)
 
 /* The same of an error below with the current text: MALFORMED, but want of memory and failures of the system stay
    what they are. */

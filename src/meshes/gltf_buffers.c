@@ -44,9 +44,8 @@ koksma_status koksma__gltf_decode(koksma__gltf *g, const field *f, const char *u
     static const char base64[] = ";base64";
     const char *text = strchr(uri, ',');
     const size_t mark = strlen(base64);
-    if (!text || (size_t)(text - uri) < mark || strncmp(text - mark, base64, mark) != 0) {
-        return koksma__json_fail(f, "uri: data that is not base64 is not read");
-    }
+    KOKSMA__JSON_FAIL_IF(!text || (size_t)(text - uri) < mark || strncmp(text - mark, base64, mark) != 0, f,
+                         "uri: data that is not base64 is not read");
     const size_t length = strlen(++text);
     unsigned char *bytes = malloc(length / 4 * 3 + 4);
     uint32_t bits = 0;
@@ -100,9 +99,8 @@ koksma_status koksma__gltf_load_buffers(koksma__gltf *g)
         } else if (!i) {
             *b = g->binary;
         }
-        if (!status && b->bytes && b->size < (size_t)length) {
-            return koksma__json_fail(&f, "byteLength is %lld, and there are %zu bytes", length, b->size);
-        }
+        KOKSMA__JSON_FAIL_IF(!status && b->bytes && b->size < (size_t)length, &f,
+                             "byteLength is %lld, and there are %zu bytes", length, b->size);
     }
     return status;
 }
@@ -144,19 +142,14 @@ koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *objec
     *out = (koksma__gltf_elements){0};
     KOKSMA__TRY(koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number));
     const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)*number);
-    koksma_status status = koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n);
-    status = status ? status : koksma__json_get_whole(&f, "componentType", true, 5120, 5126, &component);
-    status = status ? status : koksma__json_get_text(&f, "type", true, &type);
-    status = status ? status : koksma__json_get_flag(&f, "normalized", false, &out->normalised);
-    status = status ? status : koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset);
-    if (!status && !koksma__json_has(&f, "bufferView")) {
-        return koksma__json_fail(&f, "no bufferView: its elements are all 0");
-    }
-    status = status ? status : koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view);
-    status = status ? status : koksma__gltf_view(g, (size_t)view, &bytes, &stride);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_whole(&f, "count", true, 1, (long long)KOKSMA__MAX_VERTICES, &n));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "componentType", true, 5120, 5126, &component));
+    KOKSMA__TRY(koksma__json_get_text(&f, "type", true, &type));
+    KOKSMA__TRY(koksma__json_get_flag(&f, "normalized", false, &out->normalised));
+    KOKSMA__TRY(koksma__json_get_whole(&f, "byteOffset", false, 0, 1 << 30, &offset));
+    KOKSMA__JSON_FAIL_IF(!koksma__json_has(&f, "bufferView"), &f, "no bufferView: its elements are all 0");
+    KOKSMA__TRY(koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view));
+    KOKSMA__TRY(koksma__gltf_view(g, (size_t)view, &bytes, &stride));
     for (int i = 0; i < 4; i++) {
         out->width = strcmp(type, types[i]) ? out->width : i + 1;
     }

@@ -34,12 +34,10 @@ static koksma_status each(const koksma__gltf *g, const field *object, const char
 static koksma_status names(const field *object, const char *key, const char *thing, size_t n)
 {
     long long number = 0;
-    const koksma_status status = koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number);
-    if (!status && koksma__json_has(object, key) && (size_t)number >= n) {
-        return koksma__json_fail(object, "%s: there is no %s %lld; the file has %zu, from 0 on", key, thing, number,
-                                 n);
-    }
-    return status;
+    KOKSMA__TRY(koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number));
+    KOKSMA__JSON_FAIL_IF(koksma__json_has(object, key) && (size_t)number >= n, object,
+                         "%s: there is no %s %lld; the file has %zu, from 0 on", key, thing, number, n);
+    return KOKSMA_OK;
 }
 
 static koksma_status bytes(const field *object, const char *key, bool needed, long long *out)
@@ -68,10 +66,9 @@ static koksma_status check_view(const koksma__gltf *g, const field *f)
         buffer = koksma__gltf_item(g, KOKSMA__GLTF_BUFFERS, (size_t)number);
         status = bytes(&buffer, "byteLength", true, &room);
     }
-    if (!status && (offset + length > room || stride > 252)) {
-        return koksma__json_fail(f, "%lld bytes from %lld on lie beyond a buffer of %lld, or a stride above 252",
-                                 length, offset, room);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && (offset + length > room || stride > 252), f,
+                         "%lld bytes from %lld on lie beyond a buffer of %lld, or a stride above 252", length, offset,
+                         room);
     return status;
 }
 
@@ -105,12 +102,8 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f)
     status = status ? status : koksma__json_get_whole(f, "componentType", true, 5120, 5126, &component);
     status = status ? status : koksma__json_get_text(f, "type", true, &type);
     const long long size = status ? 1 : element_size(type, component);
-    if (!status && !size) {
-        return koksma__json_fail(f, "no elements of type '%.32s' and component type %lld", type, component);
-    }
-    if (!status && koksma__json_has(f, "sparse")) {
-        return koksma__json_fail(f, "sparse accessors are not read");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && !size, f, "no elements of type '%.32s' and component type %lld", type, component);
+    KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "sparse"), f, "sparse accessors are not read");
     if (status || !koksma__json_has(f, "bufferView")) {
         return status;
     }
@@ -122,9 +115,8 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f)
     status = bytes(&view, "byteLength", true, &room);
     status = status ? status : bytes(&view, "byteStride", false, &stride);
     stride = stride > size ? stride : size;
-    if (!status && offset + (count - 1) * stride + size > room) {
-        return koksma__json_fail(f, "%lld elements of %lld bytes lie beyond a view of %lld bytes", count, size, room);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && offset + (count - 1) * stride + size > room, f,
+                         "%lld elements of %lld bytes lie beyond a view of %lld bytes", count, size, room);
     return status;
 }
 
@@ -139,9 +131,7 @@ static koksma_status check_primitive(const koksma__gltf *g, const field *f)
     for (size_t i = 0; !status && i < sizeof attributes / sizeof *attributes; i++) {
         status = names(&list, attributes[i], "accessor", g->n[KOKSMA__GLTF_ACCESSORS]);
     }
-    if (!status && koksma__json_has(f, "targets")) {
-        return koksma__json_fail(f, "morph targets are not read");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && koksma__json_has(f, "targets"), f, "morph targets are not read");
     return status;
 }
 
@@ -208,10 +198,8 @@ static koksma_status check_tree(const koksma__gltf *g, unsigned char *has_parent
                 const field child = koksma__json_item(&list, c);
                 long long number = 0;
                 status = koksma__json_whole(&child, 0, (long long)g->n[KOKSMA__GLTF_NODES] - 1, &number);
-                if (!status && has_parent[number]) {
-                    return koksma__json_fail(&child, pass ? "node %lld has a parent" : "node %lld has two parents",
-                                             number);
-                }
+                KOKSMA__JSON_FAIL_IF(!status && has_parent[number], &child,
+                                     pass ? "node %lld has a parent" : "node %lld has two parents", number);
                 has_parent[status ? 0 : number] |= !pass;
             }
         }
@@ -256,9 +244,7 @@ koksma_status koksma__gltf_check(koksma__gltf *g)
     const char *version = "";
     koksma_status status = koksma__json_member(root, "asset", &asset);
     status = status ? status : koksma__json_get_text(&asset, "version", true, &version);
-    if (!status && version[0] != '2') {
-        return koksma__json_fail(&asset, "glTF %.16s: only glTF 2 is read", version);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && version[0] != '2', &asset, "glTF %.16s: only glTF 2 is read", version);
     for (int i = 0; !status && i < KOKSMA__GLTF_LISTS; i++) {
         status = koksma__gltf_list(root, all[i].key, &g->lists[i], &g->n[i]);
     }

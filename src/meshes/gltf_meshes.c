@@ -35,12 +35,11 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
         return status;
     }
     const bool normalised = out->normalised && (out->component == 5121 || out->component == 5123);
-    if ((out->width != width && !(wide && out->width == width + 1)) ||
-        (out->component != 5126 && (floats || !normalised))) {
-        return koksma__json_fail(list, "%s: accessor %lld has %d components of type %d; due are %d of type 5126%s",
-                                 key, number, out->width, out->component, width,
-                                 floats ? "" : ", or normalized ones of 5121 or 5123");
-    }
+    KOKSMA__JSON_FAIL_IF((out->width != width && !(wide && out->width == width + 1)) ||
+                             (out->component != 5126 && (floats || !normalised)),
+                         list, "%s: accessor %lld has %d components of type %d; due are %d of type 5126%s", key,
+                         number, out->width, out->component, width,
+                         floats ? "" : ", or normalized ones of 5121 or 5123");
     if (p && out->n != p->positions.n) {
         status = koksma__json_get_whole(list, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions);
         return status ? status

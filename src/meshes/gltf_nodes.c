@@ -62,12 +62,8 @@ static koksma_status walk(graph *s, size_t i, const double parent[12], int depth
     size_t n = 0;
     long long number = 0;
     double own[12];
-    if (depth == MAX_DEPTH) {
-        return koksma__json_fail(&node, "nodes are nested too deeply");
-    }
-    if (s->shown[i]) {
-        return koksma__json_fail(&node, "the scene names this node twice");
-    }
+    KOKSMA__JSON_FAIL_IF(depth == MAX_DEPTH, &node, "nodes are nested too deeply");
+    KOKSMA__JSON_FAIL_IF(s->shown[i], &node, "the scene names this node twice");
     s->shown[i] = true;
     koksma_status status = own_matrix(&node, own);
     if (status) {
@@ -101,15 +97,10 @@ static koksma_status walk_scene(graph *s)
     field list;
     long long scene = 0, number = 0;
     size_t n = 0;
-    koksma_status status = koksma__json_get_whole(&g->root, "scene", false, 0, KOKSMA__GLTF_ITEMS, &scene);
-    if (!status && !g->n[KOKSMA__GLTF_SCENES]) {
-        return koksma__json_fail(&g->root, "no scenes: nothing of the file is shown");
-    }
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_whole(&g->root, "scene", false, 0, KOKSMA__GLTF_ITEMS, &scene));
+    KOKSMA__JSON_FAIL_IF(!g->n[KOKSMA__GLTF_SCENES], &g->root, "no scenes: nothing of the file is shown");
     const field shown = koksma__gltf_item(g, KOKSMA__GLTF_SCENES, (size_t)scene);
-    status = koksma__gltf_list(&shown, "nodes", &list, &n);
+    koksma_status status = koksma__gltf_list(&shown, "nodes", &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         const field item = koksma__json_item(&list, i);
         status = koksma__json_whole(&item, 0, KOKSMA__GLTF_ITEMS, &number);
@@ -131,9 +122,8 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
         return KOKSMA_OK;
     }
     koksma_status status = koksma__json_get_whole(&found, "light", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    if (!status && (size_t)number >= s->n_lights) {
-        return koksma__json_fail(&found, "light is %lld of %zu", number, s->n_lights);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && (size_t)number >= s->n_lights, &found, "light is %lld of %zu", number,
+                         s->n_lights);
     if (status || !s->shown[i]) {
         return status;
     }
@@ -146,9 +136,8 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     status = status ? status : koksma__json_get_number(&from, "intensity", false, 0, WIDEST, &intensity);
     status = status ? status : koksma__json_get_numbers(&from, "color", false, 0, WIDEST, 3, colour);
     light->far_away = !strcmp(type, "directional");
-    if (!status && !light->far_away && strcmp(type, "point") != 0 && strcmp(type, "spot") != 0) {
-        return koksma__json_fail(&from, "no lights of type '%.32s' are read", type);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && !light->far_away && strcmp(type, "point") != 0 && strcmp(type, "spot") != 0,
+                         &from, "no lights of type '%.32s' are read", type);
     for (int k = 0; k < 3; k++) {
         light->colour[k] = intensity * colour[k];
     }

@@ -31,9 +31,7 @@ const char *koksma__package_hint(const char *path)
 koksma_status koksma__parse_image(const char *name, const field *f, const char *path, koksma_image **out)
 {
     char full[KOKSMA__MAX_PATH];
-    if (!koksma__path_beside(name, path, full)) {
-        return koksma__json_fail(f, "the path is too long");
-    }
+    KOKSMA__JSON_FAIL_IF(!koksma__path_beside(name, path, full), f, "the path is too long");
     *out = calloc(1, sizeof **out);
     KOKSMA__REQUIRE_MEMORY(*out, sizeof **out);
     koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, *out);
@@ -51,11 +49,9 @@ koksma_status koksma__parse_point(const field *object, const char *key, double o
 
 koksma_status koksma__parse_direction(const field *object, const char *key, double out[3])
 {
-    koksma_status status = koksma__parse_point(object, key, out);
-    if (!status && !koksma__normalise(out)) {
-        return koksma__json_fail(object, "'%s' is a direction of length 0", key);
-    }
-    return status;
+    KOKSMA__TRY(koksma__parse_point(object, key, out));
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(out), object, "'%s' is a direction of length 0", key);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__parse_colour_value(const field *node, double max, double out[3])
@@ -88,9 +84,7 @@ koksma_status koksma__parse_axes(const field *object, const double normal[3], do
         up[2] = -1;
     }
     koksma__cross(up, normal, axis_u);
-    if (!koksma__normalise(axis_u)) {
-        return koksma__json_fail(object, "'up' is along the normal");
-    }
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(axis_u), object, "'up' is along the normal");
     koksma__cross(normal, axis_u, axis_v);
     return KOKSMA_OK;
 }

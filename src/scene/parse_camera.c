@@ -17,9 +17,7 @@ static koksma_status parse_lens(const field *f, koksma__camera *camera)
         status = koksma__json_get_number(f, "focus_distance", true, TINY, FAR, &camera->focus_distance);
     }
     camera->lens_map = koksma__lens_map(map);
-    if (!status && !camera->lens_map) {
-        return koksma__json_fail(f, "no lens_map '%s'; it takes concentric or polar", map);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && !camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
     return status;
 }
 
@@ -30,9 +28,7 @@ static koksma_status parse_shutter(const field *f, koksma__camera *camera)
     if (koksma__json_has(f, "shutter")) {
         status = koksma__json_get_numbers(f, "shutter", true, 0, 1, 2, camera->shutter);
     }
-    if (!status && camera->shutter[0] > camera->shutter[1]) {
-        return koksma__json_fail(f, "the shutter closes before it opens");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && camera->shutter[0] > camera->shutter[1], f, "the shutter closes before it opens");
     return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", camera->motion) : status;
 }
 
@@ -57,13 +53,9 @@ koksma_status koksma__parse_camera(const field *root, koksma__camera *camera)
     }
     camera->fov_rad = fov_deg * TURN / 360;
     koksma__subtract(target, camera->eye, camera->forward);
-    if (!koksma__normalise(camera->forward)) {
-        return koksma__json_fail(&f, "'eye' and 'target' are one point");
-    }
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are one point");
     koksma__cross(camera->forward, up, camera->right);
-    if (!koksma__normalise(camera->right)) {
-        return koksma__json_fail(&f, "'up' is along the line of sight");
-    }
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->right), &f, "'up' is along the line of sight");
     koksma__cross(camera->forward, camera->right, camera->down);
     return KOKSMA_OK;
 }

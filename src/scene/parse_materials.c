@@ -22,9 +22,7 @@ static koksma_status parse_albedo(const field *f, koksma__material *m)
     }
     koksma_status status = koksma__json_member(f, "albedos", &pair);
     status = status ? status : koksma__json_length(&pair, 2, &n);
-    if (!status && n != 2) {
-        return koksma__json_fail(&pair, "it takes 2 albedos");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && n != 2, &pair, "it takes 2 albedos");
     for (size_t i = 0; !status && i < 2; i++) {
         item = koksma__json_item(&pair, i);
         status = koksma__parse_colour_value(&item, 1, m->albedo[i]);
@@ -84,24 +82,16 @@ koksma_status koksma__parse_material(const char *scene_name, const field *f, kok
     const char *name = "", *problem;
     size_t kind = 0;
     koksma__material *m = &scene->materials[scene->n_materials];
-    koksma_status status = koksma__json_get_text(f, "name", true, &name);
-    if (!status && (!*name || strlen(name) >= sizeof m->name)) {
-        return koksma__json_fail(f, "a name has 1 to %zu letters", sizeof m->name - 1);
-    }
-    if (!status && koksma__find_material(scene, name) >= 0) {
-        return koksma__json_fail(f, "a second material '%s'", name);
-    }
-    status = status ? status : koksma__parse_kind(f, koksma__material_kinds, &kind);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_text(f, "name", true, &name));
+    KOKSMA__JSON_FAIL_IF((!*name || strlen(name) >= sizeof m->name), f, "a name has 1 to %zu letters",
+                         sizeof m->name - 1);
+    KOKSMA__JSON_FAIL_IF(koksma__find_material(scene, name) >= 0, f, "a second material '%s'", name);
+    KOKSMA__TRY(koksma__parse_kind(f, koksma__material_kinds, &kind));
     strcpy(m->name, name);
     m->bsdf = koksma__bsdfs[kind];
     scene->n_materials++;
-    status = koksma__parse_fields(f, &m->bsdf->kind, koksma__material_keys(m->bsdf), m);
-    status = status ? status : parse_diffuse(scene_name, f, m);
-    if (!status && m->bsdf->check && (problem = m->bsdf->check(m))) {
-        return koksma__json_fail(f, "%s", problem);
-    }
-    return status;
+    KOKSMA__TRY(koksma__parse_fields(f, &m->bsdf->kind, koksma__material_keys(m->bsdf), m));
+    KOKSMA__TRY(parse_diffuse(scene_name, f, m));
+    KOKSMA__JSON_FAIL_IF(m->bsdf->check && (problem = m->bsdf->check(m)), f, "%s", problem);
+    return KOKSMA_OK;
 }

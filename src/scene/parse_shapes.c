@@ -25,9 +25,8 @@ static koksma_status refuse_image(const field *f)
 static koksma_status parse_material(const field *f, const koksma_scene *scene, koksma__shape *shape)
 {
     const char *name = "";
-    if (shape->type->may_emit && koksma__json_has(f, "emission") == koksma__json_has(f, "material")) {
-        return koksma__json_fail(f, "it takes one of 'material' and 'emission'");
-    }
+    KOKSMA__JSON_FAIL_IF(shape->type->may_emit && koksma__json_has(f, "emission") == koksma__json_has(f, "material"),
+                         f, "it takes one of 'material' and 'emission'");
     if (shape->type->may_emit && koksma__json_has(f, "emission")) {
         return KOKSMA_OK;
     }
@@ -37,9 +36,8 @@ static koksma_status parse_material(const field *f, const koksma_scene *scene, k
         return status ? status : koksma__json_fail(f, "no material '%s'", name);
     }
     const koksma__material *m = &scene->materials[shape->material];
-    if (m->checker && !shape->type->takes_checker) {
-        return koksma__json_fail(f, "a %s takes no checker", shape->type->kind.name);
-    }
+    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no checker",
+                         shape->type->kind.name);
     return m->image && !shape->type->takes_image ? refuse_image(f) : KOKSMA_OK;
 }
 

@@ -202,17 +202,12 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     const char *path = NULL;
     double angle_deg = 0, scale = 1;
     for (size_t i = 0; i + 1 < scene->n_lights; i++) {
-        if (scene->lights[i].kind == light->kind) {
-            return koksma__json_fail(f, "a second environment");
-        }
+        KOKSMA__JSON_FAIL_IF(scene->lights[i].kind == light->kind, f, "a second environment");
     }
     const bool image = koksma__json_has(f, "image");
-    if (image && koksma__json_has(f, "radiance")) {
-        return koksma__json_fail(f, "it takes one of 'radiance' and 'image'");
-    }
-    if (!image && (koksma__json_has(f, "scale") || koksma__json_has(f, "angle_deg"))) {
-        return koksma__json_fail(f, "'scale' and 'angle_deg' need 'image'");
-    }
+    KOKSMA__JSON_FAIL_IF(image && koksma__json_has(f, "radiance"), f, "it takes one of 'radiance' and 'image'");
+    KOKSMA__JSON_FAIL_IF(!image && (koksma__json_has(f, "scale") || koksma__json_has(f, "angle_deg")), f,
+                         "'scale' and 'angle_deg' need 'image'");
     koksma_status status = koksma__json_get_text(f, "image", false, &path);
     if (!status && !path) {
         return koksma__parse_colour(f, "radiance", true, BRIGHT, light->radiance);

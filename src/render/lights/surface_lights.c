@@ -20,12 +20,9 @@ static double luminance(const double rgb[3])
 static koksma_status parse_power(const field *f, const double *towards, double area, koksma__light *light)
 {
     const bool by_radiance = koksma__json_has(f, "radiance");
-    if (by_radiance == koksma__json_has(f, "strength")) {
-        return koksma__json_fail(f, "it takes one of 'radiance' and 'strength'");
-    }
-    if (!by_radiance && !towards) {
-        return koksma__json_fail(f, "'strength' needs 'facing'");
-    }
+    KOKSMA__JSON_FAIL_IF(by_radiance == koksma__json_has(f, "strength"), f,
+                         "it takes one of 'radiance' and 'strength'");
+    KOKSMA__JSON_FAIL_IF(!by_radiance && !towards, f, "'strength' needs 'facing'");
     const koksma_status status =
         koksma__parse_colour(f, by_radiance ? "radiance" : "strength", true, BRIGHT, light->radiance);
     const double square = by_radiance ? 0 : koksma__dot(towards, towards);
@@ -41,17 +38,13 @@ static koksma_status parse_power(const field *f, const double *towards, double a
 static koksma_status parse_aim(const field *f, bool has_target, double towards[3], koksma__light *light)
 {
     double target[3];
-    if (has_target == koksma__json_has(f, "normal")) {
-        return koksma__json_fail(f, "it takes one of 'facing' and 'normal'");
-    }
+    KOKSMA__JSON_FAIL_IF(has_target == koksma__json_has(f, "normal"), f, "it takes one of 'facing' and 'normal'");
     koksma_status status =
         has_target ? koksma__parse_point(f, "facing", target) : koksma__parse_direction(f, "normal", light->normal);
     if (!status && has_target) {
         koksma__subtract(target, light->centre, towards);
         memcpy(light->normal, towards, sizeof light->normal);
-        if (!koksma__normalise(light->normal)) {
-            return koksma__json_fail(f, "it faces its own centre");
-        }
+        KOKSMA__JSON_FAIL_IF(!koksma__normalise(light->normal), f, "it faces its own centre");
     }
     return status ? status : koksma__parse_axes(f, light->normal, light->axis_u, light->axis_v);
 }

@@ -26,9 +26,7 @@ static koksma_status parse(const char *name, const field *f, koksma_scene *scene
     koksma_status status = koksma__json_get_numbers(f, "half", true, 0, FAR, 3, half);
     (void)name;
     status = status ? status : koksma__json_get_number(f, "angle_deg", false, -360, 360, &angle_deg);
-    if (!status && !(half[0] > TINY && half[1] > TINY && half[2] > TINY)) {
-        return koksma__json_fail(f, "zero volume");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && !(half[0] > TINY && half[1] > TINY && half[2] > TINY), f, "zero volume");
     const double c = cos(angle_deg * TURN / 360), s = sin(angle_deg * TURN / 360);
     double axes[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int side = 0; !status && side < 6; side++) {

@@ -37,9 +37,7 @@ static koksma_status parse_placement(const field *f, const koksma__mesh *mesh, k
     koksma__placement_matrix(translate, rotate_deg, scale, p->matrix);
     koksma__placement_box(mesh, p);
     for (int k = 0; k < 3; k++) {
-        if (!(p->low[k] >= -FAR && p->high[k] <= FAR)) {
-            return koksma__json_fail(f, "it reaches beyond 1e6");
-        }
+        KOKSMA__JSON_FAIL_IF(!(p->low[k] >= -FAR && p->high[k] <= FAR), f, "it reaches beyond 1e6");
     }
     return KOKSMA_OK;
 }
@@ -48,9 +46,8 @@ static koksma_status parse_emission(const field *f, koksma_scene *scene, koksma_
 {
     double radiance[3];
     KOKSMA__TRY(koksma__parse_colour(f, "emission", true, BRIGHT, radiance));
-    if (p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth) {
-        return koksma__json_fail(f, "a light is neither smooth nor does it move");
-    }
+    KOKSMA__JSON_FAIL_IF(p->motion[0] != 0 || p->motion[1] != 0 || p->motion[2] != 0 || p->smooth, f,
+                         "a light is neither smooth nor does it move");
     const koksma_status added = koksma__scene_add_glow(scene, p, radiance);
     return added ? koksma__json_fail_in(f, added) : KOKSMA_OK;
 }
@@ -92,15 +89,10 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
     koksma__mesh *mesh = NULL;
     KOKSMA__TRY(koksma__json_get_text(f, "file", true, &file));
     KOKSMA__TRY(koksma__json_get_text(f, "name", false, &name));
-    if (strlen(name) >= sizeof mesh->name) {
-        return koksma__json_fail(f, "a name has at most %zu letters", sizeof mesh->name - 1);
-    }
-    if (find_mesh(scene, name) >= 0) {
-        return koksma__json_fail(f, "a second mesh '%s'", name);
-    }
-    if (!koksma__path_beside(scene_name, file, path)) {
-        return koksma__json_fail(f, "the path is too long");
-    }
+    KOKSMA__JSON_FAIL_IF(strlen(name) >= sizeof mesh->name, f, "a name has at most %zu letters",
+                         sizeof mesh->name - 1);
+    KOKSMA__JSON_FAIL_IF(find_mesh(scene, name) >= 0, f, "a second mesh '%s'", name);
+    KOKSMA__JSON_FAIL_IF(!koksma__path_beside(scene_name, file, path), f, "the path is too long");
     koksma_status status = koksma__scene_add_mesh(scene, &mesh);
     if (status) {
         return status;

@@ -57,9 +57,7 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
     const koksma_points point = {1, 2, xs};
     for (size_t w = 0; w < b->warps.n; w++) {
         const koksma_warp *warp = koksma_warp_find(b->warps.at[w]);
-        if (!warp) {
-            return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", b->warps.at[w]);
-        }
+        KOKSMA__JSON_FAIL_IF(!warp, node, "no warp '%s'; 'koksma list warps' names them", b->warps.at[w]);
         for (size_t m = 0; m < b->measures.n; m++) {
             koksma_spec spec;
             koksma_value value;
@@ -107,9 +105,7 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     status = status ? status : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
-    if (!status && strlen(r->name) > MAX_NAME) {
-        return koksma__json_fail(node, "its name has more than %d letters", MAX_NAME);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "its name has more than %d letters", MAX_NAME);
     if (!status && strchr(r->name, ':')) { /* which ends it in the key of rows: made_by.h */
         return koksma__json_fail(node, "its name has a ':'");
     }
@@ -189,9 +185,8 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
                     : koksma__plan_list(root, "questions", false, sizeof *p->questions, koksma__plan_question, trials,
                                         (void **)&p->questions, &p->n_questions);
     status = status ? status : koksma__plan_check_questions(root, p);
-    if (!status && p->n_discrepancies + p->n_images == 0) {
-        return koksma__json_fail(root, "the plan has neither 'discrepancies' nor 'images': nothing to do");
-    }
+    KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
+                         "the plan has neither 'discrepancies' nor 'images': nothing to do");
     status = status ? status : koksma__plan_check_tables(root, p);
     return status ? status : koksma__plan_own(p);
 }

@@ -23,9 +23,7 @@ static koksma_status get_wholes(const koksma__json_node *node, const char *key, 
     size_t length;
     koksma_status status = koksma__json_member(node, key, &list);
     status = status ? status : koksma__json_length(&list, n, &length);
-    if (!status && length != n) {
-        return koksma__json_fail(&list, "it takes %zu numbers", n);
-    }
+    KOKSMA__JSON_FAIL_IF(!status && length != n, &list, "it takes %zu numbers", n);
     for (size_t i = 0; !status && i < n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
         status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
@@ -51,24 +49,16 @@ static koksma_status check_words(const koksma__json_node *node, const koksma__fi
     if (status) {
         return koksma__json_fail_in(node, status);
     }
-    if (f->warp && !koksma_warp_find(f->warp)) {
-        return koksma__json_fail(node, "no warp '%s'; 'koksma list warps' names them", f->warp);
-    }
-    if (!f->scene && (f->adaptive || *f->variant || f->detail[2])) {
-        return koksma__json_fail(node, "options, adaptive and detail go with a scene");
-    }
-    if (strstr(f->variant, "adaptive=")) {
-        return koksma__json_fail(node, "a figure's method is its own field 'adaptive', not one of its options");
-    }
-    if (f->strata[0] >= 0 && !f->adaptive) {
-        return koksma__json_fail(node, "strata go with an adaptive method");
-    }
-    if (f->spaces.n && f->strata[0] < 0) {
-        return koksma__json_fail(node, "spaces go with strata");
-    }
-    if (f->exposure != 1 && (!f->scene || f->strata[0] >= 0)) {
-        return koksma__json_fail(node, "exposure goes with the picture of a scene");
-    }
+    KOKSMA__JSON_FAIL_IF(f->warp && !koksma_warp_find(f->warp), node, "no warp '%s'; 'koksma list warps' names them",
+                         f->warp);
+    KOKSMA__JSON_FAIL_IF(!f->scene && (f->adaptive || *f->variant || f->detail[2]), node,
+                         "options, adaptive and detail go with a scene");
+    KOKSMA__JSON_FAIL_IF(strstr(f->variant, "adaptive="), node,
+                         "a figure's method is its own field 'adaptive', not one of its options");
+    KOKSMA__JSON_FAIL_IF(f->strata[0] >= 0 && !f->adaptive, node, "strata go with an adaptive method");
+    KOKSMA__JSON_FAIL_IF(f->spaces.n && f->strata[0] < 0, node, "spaces go with strata");
+    KOKSMA__JSON_FAIL_IF(f->exposure != 1 && (!f->scene || f->strata[0] >= 0), node,
+                         "exposure goes with the picture of a scene");
     return KOKSMA_OK;
 }
 

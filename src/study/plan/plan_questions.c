@@ -57,13 +57,12 @@ static koksma_status parse_kind(const koksma__json_node *node, koksma__question 
 static koksma_status check_fields(const koksma__json_node *node, const koksma__question *q)
 {
     const bool points = q->kind->fields & KOKSMA__NEEDS_POINTS, images = q->kind->fields & KOKSMA__NEEDS_IMAGES;
-    if ((images && !q->images) || (points && !q->discrepancies) || (!q->images && !q->discrepancies)) {
-        return koksma__json_fail(node, "a question of kind %s needs %s", q->kind->name,
-                                 points && images ? "discrepancies and images"
-                                 : images         ? "images"
-                                 : points         ? "discrepancies"
-                                                  : "discrepancies or images");
-    }
+    KOKSMA__JSON_FAIL_IF((images && !q->images) || (points && !q->discrepancies) || (!q->images && !q->discrepancies),
+                         node, "a question of kind %s needs %s", q->kind->name,
+                         points && images ? "discrepancies and images"
+                         : images         ? "images"
+                         : points         ? "discrepancies"
+                                          : "discrepancies or images");
     if (!(q->kind->fields & KOKSMA__TAKES_GROUPS) && koksma__json_has(node, "groups")) {
         koksma__json_node groups;
         koksma__json_member(node, "groups", &groups);
@@ -108,9 +107,8 @@ static koksma_status check_groups(const koksma__json_node *question, const koksm
     for (size_t g = 0; !status && g < q->n_groups; g++) {
         const koksma__json_node group = koksma__json_item(&list, g);
         for (size_t before = 0; before < g; before++) {
-            if (!strcmp(q->groups[before].title, q->groups[g].title)) {
-                return koksma__json_fail(&group, "title '%s': another group has it", q->groups[g].title);
-            }
+            KOKSMA__JSON_FAIL_IF(!strcmp(q->groups[before].title, q->groups[g].title), &group,
+                                 "title '%s': another group has it", q->groups[g].title);
         }
         status = koksma__json_member(&group, "scenes", &scenes);
         for (size_t s = 0; !status && s < q->groups[g].scenes.n; s++) {
@@ -139,10 +137,8 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
         koksma__json_node questions;
         koksma__json_member(root, "questions", &questions);
         const koksma__json_node node = koksma__json_item(&questions, i);
-        if (!discrepancies || !images) {
-            return koksma__json_fail(&node, "no block of the plan has the id '%s'",
-                                     discrepancies ? q->images : q->discrepancies);
-        }
+        KOKSMA__JSON_FAIL_IF(!discrepancies || !images, &node, "no block of the plan has the id '%s'",
+                             discrepancies ? q->images : q->discrepancies);
         KOKSMA__TRY(check_groups(&node, p, q));
     }
     return KOKSMA_OK;

@@ -55,11 +55,10 @@ koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, 
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
 {
     static const char allowed[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_";
-    const koksma_status status = koksma__plan_text(node, "id", needed, out);
-    if (!status && *out && (!**out || (*out)[strspn(*out, allowed)])) {
-        return koksma__json_fail(node, "id '%.40s': it takes letters, digits, '.', '-' and '_'", *out);
-    }
-    return status;
+    KOKSMA__TRY(koksma__plan_text(node, "id", needed, out));
+    KOKSMA__JSON_FAIL_IF(*out && (!**out || (*out)[strspn(*out, allowed)]), node,
+                         "id '%.40s': it takes letters, digits, '.', '-' and '_'", *out);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,

@@ -24,13 +24,11 @@ static koksma_status parse_printed(const koksma__json_node *node, koksma__printe
         koksma_status status = koksma__json_text(node, &text);
         char *end = NULL;
         out->value = status ? (double)NAN : koksma__strtod(text, &end);
-        if (!status &&
-            (end == text || *end || strspn(text, "0123456789.") != strlen(text) || !isfinite(out->value))) {
-            return koksma__json_fail(node, "'%s': it takes a number as printed, such as 0.0370", text);
-        }
-        if (!status && strlen(text) >= sizeof out->text) {
-            return koksma__json_fail(node, "a printed number has at most %zu characters", sizeof out->text - 1);
-        }
+        KOKSMA__JSON_FAIL_IF(
+            !status && (end == text || *end || strspn(text, "0123456789.") != strlen(text) || !isfinite(out->value)),
+            node, "'%s': it takes a number as printed, such as 0.0370", text);
+        KOKSMA__JSON_FAIL_IF(!status && strlen(text) >= sizeof out->text, node,
+                             "a printed number has at most %zu characters", sizeof out->text - 1);
         if (status) {
             return status;
         }
@@ -92,9 +90,7 @@ static koksma_status parse_note(const koksma__json_node *node, const koksma__pla
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
     status = status ? status : koksma__json_get_text(node, "statistic", true, &statistic);
     for (n->statistic = 0; !status && strcmp(statistics[n->statistic], statistic) != 0;) {
-        if (++n->statistic == 3) {
-            return koksma__json_fail(node, "statistic '%s': it takes mean, sd or max", statistic);
-        }
+        KOKSMA__JSON_FAIL_IF(++n->statistic == 3, node, "statistic '%s': it takes mean, sd or max", statistic);
     }
     return status;
 }
@@ -120,26 +116,16 @@ static koksma_status parse_sizes(const koksma__json_node *node, koksma__table *t
 static koksma_status check_shape(const koksma__json_node *node, const koksma__table *t)
 {
     const bool over_n = koksma__table_is_over_n(t);
-    if (!t->scene == !t->measure) {
-        return koksma__json_fail(node, "a table has either a scene or a measure");
-    }
-    if (t->scene && over_n) {
-        return koksma__json_fail(node, "a table of a scene has one number of samples");
-    }
-    if (t->measure && t->fitted) {
-        return koksma__json_fail(node, "'fitted' goes with a scene: a measure has nothing to fit");
-    }
+    KOKSMA__JSON_FAIL_IF(!t->scene == !t->measure, node, "a table has either a scene or a measure");
+    KOKSMA__JSON_FAIL_IF(t->scene && over_n, node, "a table of a scene has one number of samples");
+    KOKSMA__JSON_FAIL_IF(t->measure && t->fitted, node, "'fitted' goes with a scene: a measure has nothing to fit");
     for (size_t i = 0; i + 1 < t->n.n; i++) {
-        if (t->n.at[i] >= t->n.at[i + 1]) {
-            return koksma__json_fail(node, "a table's numbers of points rise: %lld comes before %lld", t->n.at[i],
-                                     t->n.at[i + 1]);
-        }
+        KOKSMA__JSON_FAIL_IF(t->n.at[i] >= t->n.at[i + 1], node,
+                             "a table's numbers of points rise: %lld comes before %lld", t->n.at[i], t->n.at[i + 1]);
     }
     for (size_t r = 0; r < t->n_rows; r++) {
-        if (t->rows[r].n_published > (over_n ? t->n.n : 3)) {
-            return koksma__json_fail(node, "the row of %s has more printed numbers than the table has columns",
-                                     t->rows[r].pattern);
-        }
+        KOKSMA__JSON_FAIL_IF(t->rows[r].n_published > (over_n ? t->n.n : 3), node,
+                             "the row of %s has more printed numbers than the table has columns", t->rows[r].pattern);
     }
     return KOKSMA_OK;
 }
