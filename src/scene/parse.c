@@ -10,6 +10,146 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/vector.h"
+#include "render/lights/lights.h"
+#include "render/shapes/shapes.h"
+
+/* ---- The camera ----------------------------------------------------------------------------------------- */
+
+/* The camera: a pinhole, or a thin lens (Potmesil & Chakravarty 1981; Cook, Porter & Carpenter 1984), and the time
+   that its shutter is open. */
+
+static koksma_status parse_lens(const field *f, koksma__camera *camera)
+{
+    const char *map = "concentric";
+    koksma_status status = koksma__json_get_number(f, "lens_radius", false, 0, FAR, &camera->lens_radius);
+    status = status ? status : koksma__json_get_text(f, "lens_map", false, &map);
+    if (status) {
+        return status;
+    }
+    camera->focus_distance = 1;
+    if (camera->lens_radius > 0 || koksma__json_has(f, "focus_distance")) {
+        status = koksma__json_get_number(f, "focus_distance", true, TINY, FAR, &camera->focus_distance);
+    }
+    camera->lens_map = koksma__lens_map(map);
+    KOKSMA__JSON_FAIL_IF(!status && !camera->lens_map, f, "no lens_map '%s'; it takes concentric or polar", map);
+    return status;
+}
+
+static koksma_status parse_shutter(const field *f, koksma__camera *camera)
+{
+    koksma_status status = KOKSMA_OK;
+    camera->shutter[1] = 1;
+    if (koksma__json_has(f, "shutter")) {
+        status = koksma__json_get_numbers(f, "shutter", true, 0, 1, 2, camera->shutter);
+    }
+    KOKSMA__JSON_FAIL_IF(!status && camera->shutter[0] > camera->shutter[1], f, "the shutter closes before it opens");
+    return !status && koksma__json_has(f, "motion") ? koksma__parse_point(f, "motion", camera->motion) : status;
+}
+
+static koksma_status parse_camera(const field *root, koksma__camera *camera)
+{
+    field f;
+    double target[3], up[3] = {0, 1, 0}, fov_deg = 0;
+    koksma_status status = koksma__json_member(root, "camera", &f);
+    status = status ? status
+                    : koksma__json_only(&f, KEYS("eye", "target", "up", "fov_deg", "lens_radius", "focus_distance",
+                                                 "lens_map", "shutter", "motion"));
+    status = status ? status : koksma__parse_point(&f, "eye", camera->eye);
+    status = status ? status : koksma__parse_point(&f, "target", target);
+    status = status ? status : koksma__json_get_number(&f, "fov_deg", true, 0.01, 179, &fov_deg);
+    if (!status && koksma__json_has(&f, "up")) {
+        status = koksma__parse_direction(&f, "up", up);
+    }
+    status = status ? status : parse_lens(&f, camera);
+    status = status ? status : parse_shutter(&f, camera);
+    if (status) {
+        return status;
+    }
+    camera->fov_rad = fov_deg * TURN / 360;
+    koksma__subtract(target, camera->eye, camera->forward);
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->forward), &f, "'eye' and 'target' are one point");
+    koksma__cross(camera->forward, up, camera->right);
+    KOKSMA__JSON_FAIL_IF(!koksma__normalise(camera->right), &f, "'up' is along the line of sight");
+    koksma__cross(camera->forward, camera->right, camera->down);
+    return KOKSMA_OK;
+}
+
+/* ---- Shapes --------------------------------------------------------------------------------------------- */
+
+/*
+ * Shapes of a scene file: the kinds, their fields and what they refuse come from the table of render/shapes. Here is
+ * the field that all have: "material", or for some kinds "emission" in its place.
+ */
+
+static koksma_status refuse_image(const field *f)
+{
+    char known[256] = "";
+    for (size_t i = 0; koksma__shape_types[i]; i++) {
+        const size_t used = strlen(known);
+        if (koksma__shape_types[i]->takes_image) {
+            snprintf(known + used, sizeof known - used, " %s", koksma__shape_types[i]->kind.name);
+        }
+    }
+    return koksma__json_fail(f, "it takes no material with an image; these do:%s", known);
+}
+
+/* The number of the material; -1 for emission. */
+static koksma_status parse_material(const field *f, const koksma_scene *scene, koksma__shape *shape)
+{
+    const char *name = "";
+    KOKSMA__JSON_FAIL_IF(shape->type->may_emit && koksma__json_has(f, "emission") == koksma__json_has(f, "material"),
+                         f, "it takes one of 'material' and 'emission'");
+    if (shape->type->may_emit && koksma__json_has(f, "emission")) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__json_get_text(f, "material", true, &name);
+    shape->material = status ? -1 : koksma__find_material(scene, name);
+    if (status || shape->material < 0) {
+        return status ? status : koksma__json_fail(f, "no material '%s'", name);
+    }
+    const koksma__material *m = &scene->materials[shape->material];
+    KOKSMA__JSON_FAIL_IF(m->checker && !shape->type->takes_checker, f, "a %s takes no checker",
+                         shape->type->kind.name);
+    return m->image && !shape->type->takes_image ? refuse_image(f) : KOKSMA_OK;
+}
+
+static koksma_status parse_shape(const char *scene_name, const field *f, koksma_scene *scene)
+{
+    size_t kind = 0;
+    koksma_status status = koksma__parse_kind(f, koksma__shape_kinds, &kind);
+    koksma__shape shape = {.type = koksma__shape_types[kind], .material = -1, .light = -1}, *added;
+    status = status ? status : koksma__parse_fields(f, &shape.type->kind, KEYS("kind", "material"), &shape);
+    status = status ? status : parse_material(f, scene, &shape);
+    if (!status && shape.type->parse) {
+        status = shape.type->parse(scene_name, f, scene, &shape);
+    }
+    if (!status && shape.type->hit && (status = koksma__scene_add_shape(scene, &shape, &added))) {
+        status = koksma__json_fail_in(f, status);
+    }
+    return status;
+}
+
+/* ---- Lights --------------------------------------------------------------------------------------------- */
+
+/* Lights of a scene file: the kinds, their fields and what they refuse come from the table of render/lights. */
+
+static koksma_status parse_light(const char *name, const field *f, koksma_scene *scene)
+{
+    size_t kind = 0;
+    koksma__light *light = NULL;
+    koksma_status status = koksma__parse_kind(f, koksma__light_kinds, &kind);
+    if (!status && (status = koksma__scene_add_light(scene, &light))) {
+        status = koksma__json_fail_in(f, status);
+    }
+    if (status) {
+        return status;
+    }
+    light->kind = koksma__light_types[kind];
+    status = koksma__parse_fields(f, &light->kind->kind, KEYS("kind"), light);
+    return !status && light->kind->parse ? light->kind->parse(name, f, scene, light) : status;
+}
+
 static koksma_status parse_image(const field *root, koksma_scene *scene)
 {
     field image;
@@ -56,7 +196,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     status = status ? status : open_list(root, "shapes", KOKSMA__MAX_SHAPES, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
-        status = koksma__parse_shape(name, &item, scene);
+        status = parse_shape(name, &item, scene);
     }
     if (status || !koksma__json_has(root, "lights")) {
         return status;
@@ -64,7 +204,7 @@ static koksma_status parse_lists(const char *name, const field *root, koksma_sce
     status = open_list(root, "lights", KOKSMA__MAX_LIGHTS, 0, NULL, &list, &n);
     for (size_t i = 0; !status && i < n; i++) {
         item = koksma__json_item(&list, i);
-        status = koksma__parse_light(name, &item, scene);
+        status = parse_light(name, &item, scene);
     }
     return status;
 }
@@ -79,7 +219,7 @@ static koksma_status parse_root(const char *name, const field *root, koksma_scen
     scene->clamp = INFINITY;
     status = status ? status : koksma__json_get_text(root, "note", false, &note);
     status = status ? status : parse_image(root, scene);
-    status = status ? status : koksma__parse_camera(root, &scene->camera);
+    status = status ? status : parse_camera(root, &scene->camera);
     status = status ? status : koksma__parse_colour(root, "background", false, BRIGHT, scene->background);
     status = status ? status : koksma__parse_colour(root, "ambient", false, BRIGHT, scene->ambient);
     status = status ? status : koksma__json_get_number(root, "clamp", false, TINY, BRIGHT, &scene->clamp);

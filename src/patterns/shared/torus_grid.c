@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Points of the torus in square cells, each a linked list, so that points go in and out one at a time in O(1). A
+ * Points of the torus in square cells, each a linked list, so that points go in one at a time in O(1). A
  * search for the nearest looks at rings of cells outwards until no ring can hold a nearer one: O(1) for even
  * points. Points that are sorted at once are in measures/shared/torus_cells.c or patterns/shared/torus_rows.c.
  */
@@ -52,15 +52,6 @@ void koksma__torus_grid_add(koksma__torus_grid *g, uint32_t point)
     uint32_t *list = list_of(g, point);
     g->next[point] = *list;
     *list = point;
-}
-
-void koksma__torus_grid_remove(koksma__torus_grid *g, uint32_t point)
-{
-    uint32_t *link = list_of(g, point);
-    while (*link != point) {
-        link = &g->next[*link];
-    }
-    *link = g->next[point];
 }
 
 /* The nearest in one cell, which may be given by any whole numbers. */
@@ -135,39 +126,4 @@ bool koksma__torus_grid_near(const koksma__torus_grid *g, double x, double y, do
         }
     }
     return false;
-}
-
-void koksma__torus_grid_each(const koksma__torus_grid *g, double x, double y, double radius,
-                             void (*f)(void *context, uint32_t point, double dx, double dy), void *context)
-{
-    const long reach = (long)ceil(radius * g->cells);
-    const span columns = span_about(g, x, reach), rows = span_about(g, y, reach);
-    for (long v = 0; v < rows.count; v++) {
-        const uint32_t *row = g->head + around(g, &rows, v) * (long)g->cells;
-        for (long u = 0; u < columns.count; u++) {
-            for (uint32_t i = row[around(g, &columns, u)]; i != KOKSMA__NO_POINT; i = g->next[i]) {
-                const double a = koksma__torus_difference(x, g->xs[2 * (size_t)i]),
-                             b = koksma__torus_difference(y, g->xs[2 * (size_t)i + 1]);
-                if (a * a + b * b <= radius * radius) {
-                    f(context, i, a, b);
-                }
-            }
-        }
-    }
-}
-
-koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order)
-{
-    koksma__torus_grid g;
-    KOKSMA__TRY(koksma__torus_grid_init(&g, n, xs));
-    for (size_t i = n; i-- > 0;) { /* each cell's list begins with its first point */
-        koksma__torus_grid_add(&g, (uint32_t)i);
-    }
-    for (size_t cell = 0; cell < (size_t)g.cells * g.cells; cell++) {
-        for (uint32_t i = g.head[cell]; i != KOKSMA__NO_POINT; i = g.next[i]) {
-            *order++ = i;
-        }
-    }
-    koksma__torus_grid_fini(&g);
-    return KOKSMA_OK;
 }

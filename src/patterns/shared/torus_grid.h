@@ -22,7 +22,6 @@ void koksma__torus_grid_fini(koksma__torus_grid *grid);
 
 void koksma__torus_grid_clear(koksma__torus_grid *grid);
 void koksma__torus_grid_add(koksma__torus_grid *grid, uint32_t point);
-void koksma__torus_grid_remove(koksma__torus_grid *grid, uint32_t point);
 
 /* The square of the distance from (x, y) to the nearest point in the grid; stops with any value at most `enough` when
    that is certain. 1 with no point. */
@@ -30,13 +29,5 @@ double koksma__torus_grid_nearest(const koksma__torus_grid *grid, double x, doub
 
 /* Whether a point in the grid is closer than d to (x, y): on the torus, or in the square alone. */
 bool koksma__torus_grid_near(const koksma__torus_grid *grid, double x, double y, double d, bool torus);
-
-/* f(context, point, dx, dy) for the points within `radius` of (x, y), dx and dy being the shortest way from there.
-   Points are visited once; radius is at most 1/2. */
-void koksma__torus_grid_each(const koksma__torus_grid *grid, double x, double y, double radius,
-                             void (*f)(void *context, uint32_t point, double dx, double dy), void *context);
-
-/* order[0] .. order[n-1] = the points cell by cell, in each as they come: neighbours are near in memory then. */
-koksma_status koksma__torus_grid_order(size_t n, const double *xs, uint32_t *order);
 
 #endif

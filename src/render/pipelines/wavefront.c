@@ -27,13 +27,53 @@
  * What is random comes from uses (samples/uses.def): lobe, lobe choice, lights and roulette of vertex b have keys of
  * their own, so that the patterns under study, not the tracer, decide how vertices are stratified.
  */
+#include "render/pipelines/wavefront.h"
+
+#include <math.h>
 #include <string.h>
+
+#include <koksma/image.h>
 
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
-#include "render/pipelines/wavefront.h"
-#include "render/texture.h"
 #include "render/vector3.h"
+
+/* ---- Textures ------------------------------------------------------------------------------------------- */
+
+/*
+ * Colours of an image at texture coordinates: bilinear between the four nearest pixels, whose centres are at half
+ * numbers; repeated or, beyond the edge, the edge's own.
+ */
+
+/* x - 0.5 as a pixel, the one after it (both round the edge, or held at it), and the weight of the second. */
+static float split(float x, int n, bool repeated, size_t pair[2])
+{
+    const float turns = repeated ? x - floorf(x)
+                        : x > 0  ? fminf(x, 1)
+                                 : 0,
+                place = turns * (float)n - 0.5f, down = floorf(place);
+    const int first = (int)down;
+    pair[0] = (size_t)(repeated ? (first + n) % n : first < 0 ? 0 : first < n ? first : n - 1);
+    pair[1] = (size_t)(repeated ? (first + 1 + n) % n : first + 1 < n ? first + 1 : n - 1);
+    return place - down;
+}
+
+/* An image over the plane, repeated or ending at its edges: (0, 0) is the lower left corner of its lower left pixel,
+   (1, 1) the upper right corner; bilinear between the middles of pixels. rgb: within [0, 1]. */
+static void texture(const koksma_image *image, float u, float v, bool repeated, float rgb[3])
+{
+    size_t xs[2], ys[2];
+    const size_t channels = (size_t)image->channels, width = (size_t)image->width;
+    const float x = split(u, image->width, repeated, xs), y = split(1 - v, image->height, repeated, ys);
+    const float weights[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+    for (size_t k = 0; k < 3; k++) {
+        rgb[k] = 0;
+        for (size_t i = 0; i < 4; i++) {
+            const float value = image->pixels[(ys[i / 2] * width + xs[i % 2]) * channels + k % channels];
+            rgb[k] += value > 0 ? weights[i] * (value < 1 ? value : 1) : 0; /* a NaN is dark */
+        }
+    }
+}
 
 enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queues, which branching makes long */
 
@@ -173,8 +213,8 @@ static void set_surface(const koksma__frame *frame, const koksma__path *path, co
     if (material->image) {
         const size_t shape = (size_t)h->primitive[i];
         const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
-        koksma__texture(material->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
-                        half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
+        texture(material->image, half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
+                half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i], !half, s->albedo);
     }
 }
 

@@ -312,9 +312,7 @@ koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
     size_t *active = malloc(c->n * sizeof *active), n_active;
     KOKSMA__REQUIRE_MEMORY(active, c->n * sizeof *active);
     if (!c->reference.pixels) {
-        const double start_s = koksma__now_s();
         status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->control->run);
-        c->reference_s = koksma__now_s() - start_s;
         set_share(c, 1);
     }
     while (!status && !koksma__rank_reached(&c->table, goal)) {

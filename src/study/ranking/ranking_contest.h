@@ -45,7 +45,6 @@ typedef struct koksma__contest {
     koksma__contestant *contestants;
     koksma__rank_table table; /* entrant i: contestant i */
     koksma__rank_reference reference;
-    double reference_s;          /* seconds that the reference took */
     unsigned long long share_ns; /* of threads, for a pattern's first round; 0: no limit */
     pthread_mutex_t lock;        /* guards reasons */
 } koksma__contest;
