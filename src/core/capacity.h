@@ -4,6 +4,7 @@
 #define KOKSMA_CORE_CAPACITY_H
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/status.h"
 
@@ -22,6 +23,24 @@ static inline void *koksma__room_for_one(void *items, size_t n, size_t *capacity
     }
     *capacity = more;
     return grown;
+}
+
+/* A new item, all zero, at the end of the array that *array points to, which only this function has lengthened: its
+   capacity is the power of two from *n on. NULL when memory runs out, which is the error's text then. */
+static inline void *koksma__add_one(void *array, size_t *n, size_t item_size)
+{
+    char *items;
+    memcpy(&items, array, sizeof items);
+    if (!(*n & (*n - 1))) {
+        const size_t bytes = (*n ? 2 * *n : 1) * item_size;
+        items = realloc(items, bytes);
+        if (!items) {
+            koksma__fail_memory(bytes);
+            return NULL;
+        }
+        memcpy(array, &items, sizeof items);
+    }
+    return memset(items + (*n)++ * item_size, 0, item_size);
 }
 
 #endif

@@ -24,13 +24,10 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
 {
     KOKSMA__FAIL_IF(scene->n_shapes == KOKSMA__MAX_SHAPES, KOKSMA_MALFORMED, "more than %d shapes",
                     KOKSMA__MAX_SHAPES);
-    koksma__shape *shapes =
-        koksma__room_for_one(scene->shapes, scene->n_shapes, &scene->shape_capacity, 16, sizeof *shapes);
-    if (!shapes) {
+    *out = koksma__add_one(&scene->shapes, &scene->n_shapes, sizeof **out);
+    if (!*out) {
         return KOKSMA_MEMORY;
     }
-    scene->shapes = shapes;
-    *out = &scene->shapes[scene->n_shapes++];
     **out = *from;
     return KOKSMA_OK;
 }

@@ -90,7 +90,7 @@ struct koksma_scene {
     koksma__light *lights;
     koksma__mesh *meshes;
     koksma__placement *placements; /* of meshes */
-    size_t n_materials, n_shapes, n_lights, n_meshes, n_placements, shape_capacity;
+    size_t n_materials, n_shapes, n_lights, n_meshes, n_placements;
     bool grey;             /* no colour in it: images have one channel */
     bool moves;            /* something depends on time */
     bool is_model;         /* a bare mesh file: nobody wrote its materials for this program */

@@ -8,36 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "render/lights/lights.h"
 
 enum { MAX_PLACEMENTS = 1 << 16 };
 
-/* One more item of size bytes at the end of a list that grows; NULL when memory runs out. */
-static void *grow(void *list, size_t n, size_t size)
-{
-    const bool full = !(n & (n - 1)); /* at powers of two, and at 0 */
-    return full ? realloc(list, (n ? 2 * n : 1) * size) : list;
-}
-
 koksma_status koksma__scene_add_mesh(koksma_scene *scene, koksma__mesh **out)
 {
-    koksma__mesh *meshes = grow(scene->meshes, scene->n_meshes, sizeof *meshes);
-    KOKSMA__REQUIRE_MEMORY(meshes, 2 * scene->n_meshes * sizeof *meshes);
-    scene->meshes = meshes;
-    *out = &meshes[scene->n_meshes++];
-    memset(*out, 0, sizeof **out);
-    return KOKSMA_OK;
+    *out = koksma__add_one(&scene->meshes, &scene->n_meshes, sizeof **out);
+    return *out ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
 koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement **out)
 {
     KOKSMA__FAIL_IF(scene->n_placements == MAX_PLACEMENTS, KOKSMA_MALFORMED, "more than %d meshes and instances",
                     MAX_PLACEMENTS);
-    koksma__placement *placements = grow(scene->placements, scene->n_placements, sizeof *placements);
-    KOKSMA__REQUIRE_MEMORY(placements, 2 * scene->n_placements * sizeof *placements);
-    scene->placements = placements;
-    *out = &placements[scene->n_placements++];
-    memset(*out, 0, sizeof **out);
+    *out = koksma__add_one(&scene->placements, &scene->n_placements, sizeof **out);
+    if (!*out) {
+        return KOKSMA_MEMORY;
+    }
     (*out)->light = (*out)->material = -1;
     return KOKSMA_OK;
 }

@@ -56,7 +56,7 @@ struct koksma__unit_sums {
     uint64_t primes[KOKSMA__MAX_PRIMES];
     int n_primes;
     block *blocks;
-    size_t n_blocks, room;
+    size_t n_blocks;
     koksma__fourier fourier;
     double *re, *im;           /* the largest block of several lines */
     double *line_re, *line_im; /* the longest padded line */
@@ -79,12 +79,10 @@ static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 
 static koksma_status add_block(koksma__unit_sums *s, uint64_t m)
 {
-    block *blocks = koksma__room_for_one(s->blocks, s->n_blocks, &s->room, 32, sizeof *blocks);
-    if (!blocks) {
+    block *b = koksma__add_one(&s->blocks, &s->n_blocks, sizeof *b);
+    if (!b) {
         return KOKSMA_MEMORY;
     }
-    s->blocks = blocks;
-    block *b = &blocks[s->n_blocks++];
     *b = (block){.m = m, .count = count_units(s, m)};
     if (b->count > MATRIX) {
         b->n_axes = koksma__unit_axes(m, b->axes, &b->cut);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/read_file.h"
 
 static const char prefix[] = "file:";
@@ -42,11 +43,10 @@ static uint64_t look_up(koksma__point_files *known, const char *path)
         }
     }
     const uint64_t hash = hash_of_file(path);
-    koksma__point_file *more = known ? realloc(known->at, (known->n + 1) * sizeof *more) : NULL;
+    koksma__point_file *more = known ? koksma__add_one(&known->at, &known->n, sizeof *more) : NULL;
     if (more) {
-        known->at = more;
-        more[known->n] = (koksma__point_file){strdup(path), hash};
-        known->n += more[known->n].path != NULL;
+        *more = (koksma__point_file){strdup(path), hash};
+        known->n -= !more->path;
     }
     return hash;
 }

@@ -30,13 +30,11 @@ static void texts_of(koksma__series *key, const char **texts[8])
 static koksma_status add_series(void *context, const koksma__series *key, long long id)
 {
     koksma__audit_list *list = context;
-    koksma__audit_series *at = koksma__room_for_one(list->at, list->n, &list->room, 64, sizeof *at);
+    koksma__audit_series *at = koksma__add_one(&list->at, &list->n, sizeof *at);
     const char **texts[8];
     if (!at) {
         return KOKSMA_MEMORY;
     }
-    list->at = at;
-    at += list->n++;
     *at = (koksma__audit_series){.key = *key, .id = id};
     bool copied = true;
     texts_of(&at->key, texts);
@@ -169,12 +167,13 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
 
 static koksma_status set_text(koksma__texts *texts, const char *text)
 {
-    char **at = realloc(texts->at, (texts->n + 1) * sizeof *at);
-    KOKSMA__REQUIRE_MEMORY(at, (texts->n + 1) * sizeof *at);
-    texts->at = at;
-    at[texts->n] = strdup(text);
-    texts->n += at[texts->n] != NULL;
-    return at[texts->n ? texts->n - 1 : 0] ? KOKSMA_OK : koksma__fail_memory(strlen(text));
+    char **at = koksma__add_one(&texts->at, &texts->n, sizeof *at);
+    if (!at) {
+        return KOKSMA_MEMORY;
+    }
+    *at = strdup(text);
+    texts->n -= !*at;
+    return *at ? KOKSMA_OK : koksma__fail_memory(strlen(text));
 }
 
 static koksma_status set_whole(koksma__wholes *wholes, long long value)
@@ -189,16 +188,8 @@ static koksma_status set_whole(koksma__wholes *wholes, long long value)
 /* A new block, zero, and its group. */
 static void *add_block(void **blocks, size_t *n, size_t size, koksma__audit_group **groups)
 {
-    char *more = realloc(*blocks, (*n + 1) * size);
-    *blocks = more ? more : *blocks;
-    koksma__audit_group *group = realloc(*groups, (*n + 1) * sizeof *group);
-    *groups = group ? group : *groups;
-    if (!more || !group) {
-        koksma__fail_memory((*n + 1) * size);
-        return NULL;
-    }
-    group[*n] = (koksma__audit_group){{NULL}};
-    return memset(more + (*n)++ * size, 0, size);
+    size_t n_groups = *n;
+    return koksma__add_one(groups, &n_groups, sizeof **groups) ? koksma__add_one(blocks, n, size) : NULL;
 }
 
 static bool has_points_of(const koksma__series *a, const koksma__series *b)

@@ -27,7 +27,7 @@ typedef struct koksma__audit_group {
 } koksma__audit_group;
 
 typedef struct koksma__audit_list {
-    size_t n, room;
+    size_t n;
     koksma__audit_series *at;                    /* by their ids */
     koksma__audit_group *discrepancies, *images; /* of the plan's blocks */
     koksma__point_files files;

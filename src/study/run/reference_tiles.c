@@ -17,13 +17,11 @@ static const double SAMPLES_A_TILE = 1 << 19;
 
 static koksma_status add_tile(koksma__reference_tiles *tiles, size_t reference, int first_row, int rows)
 {
-    koksma__reference_tile *at = koksma__room_for_one(tiles->at, tiles->n, &tiles->room, 64, sizeof *at);
-    if (!at) {
-        return KOKSMA_MEMORY;
+    koksma__reference_tile *at = koksma__add_one(&tiles->at, &tiles->n, sizeof *at);
+    if (at) {
+        *at = (koksma__reference_tile){reference, first_row, rows};
     }
-    tiles->at = at;
-    tiles->at[tiles->n++] = (koksma__reference_tile){reference, first_row, rows};
-    return KOKSMA_OK;
+    return at ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
 static koksma_status add_tiles(koksma__reference_tiles *tiles, size_t reference)

@@ -17,7 +17,7 @@ typedef struct koksma__reference_tile {
 
 typedef struct koksma__reference_tiles {
     koksma_study *study;
-    size_t n, room;
+    size_t n;
     koksma__reference_tile *at;
     koksma__replicates *sums; /* of every reference of the study */
     long long *rows_left;

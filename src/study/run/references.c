@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/capacity.h"
 #include "core/sha256.h"
 #include "core/status.h"
 #include "image/registry.h"
@@ -42,11 +43,11 @@ koksma_status koksma__reference_index(koksma_study *study, const koksma__image_b
             return KOKSMA_OK;
         }
     }
-    koksma__reference_image *more = realloc(study->references, (study->n_references + 1) * sizeof *study->references);
-    KOKSMA__REQUIRE_MEMORY(more, (study->n_references + 1) * sizeof *more);
-    study->references = more;
-    more[study->n_references++] = wanted;
-    return KOKSMA_OK;
+    koksma__reference_image *added = koksma__add_one(&study->references, &study->n_references, sizeof *added);
+    if (added) {
+        *added = wanted;
+    }
+    return added ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
 koksma__series koksma__reference_key(const koksma__reference_image *reference, char name[KOKSMA__REFERENCE_NAME])

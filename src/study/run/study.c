@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/capacity.h"
 #include "core/read_file.h"
 #include "core/status.h"
 #include "scene/scene.h"
@@ -50,18 +51,19 @@ koksma_status koksma__study_open_scene(koksma_study *study, const char *name)
     if (koksma__study_scene_of(study, name)) {
         return KOKSMA_OK;
     }
-    koksma__study_scene *scenes = realloc(study->scenes, (study->n_scenes + 1) * sizeof *scenes);
-    KOKSMA__REQUIRE_MEMORY(scenes, (study->n_scenes + 1) * sizeof *scenes);
-    study->scenes = scenes;
-    koksma__study_scene *s = &scenes[study->n_scenes];
-    *s = (koksma__study_scene){.name = name};
-    KOKSMA__TRY(koksma__scene_open(name, KOKSMA__BY_FILE, &s->scene));
+    koksma_scene *scene;
+    KOKSMA__TRY(koksma__scene_open(name, KOKSMA__BY_FILE, &scene));
+    koksma__study_scene *s = koksma__add_one(&study->scenes, &study->n_scenes, sizeof *s);
+    if (!s) {
+        koksma_scene_close(scene);
+        return KOKSMA_MEMORY;
+    }
+    *s = (koksma__study_scene){.name = name, .scene = scene};
     koksma_render_options options;
     koksma_render_options_init(&options, s->scene);
     s->width = options.width;
     s->height = options.height;
     snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(s->scene));
-    study->n_scenes++;
     return KOKSMA_OK;
 }
 

@@ -24,17 +24,15 @@ static const long long MOST_JOBS = 1 << 30;
 
 static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
 {
-    koksma__task *at = koksma__room_for_one(tasks->at, tasks->n, &tasks->room, 64, sizeof *at);
-    if (!at) {
-        return KOKSMA_MEMORY;
-    }
-    tasks->at = at;
     tasks->wanted += task->trials;
     KOKSMA__FAIL_IF(tasks->wanted > MOST_JOBS, KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs",
                     tasks->study->plan.name, MOST_JOBS);
-    koksma__task *t = &tasks->at[tasks->n];
+    koksma__task *t = koksma__add_one(&tasks->at, &tasks->n, sizeof *t);
+    if (!t) {
+        return KOKSMA_MEMORY;
+    }
     *t = *task;
-    t->place = tasks->n++;
+    t->place = tasks->n - 1;
     t->series = calloc(t->n_series, sizeof *t->series);
     t->references = calloc(t->n_series, sizeof *t->references);
     t->done = calloc(((size_t)t->trials + 7) / 8, 1);

@@ -36,7 +36,7 @@ typedef struct koksma__rounds {
 
 typedef struct koksma__tasks {
     koksma_study *study;
-    size_t n, room, n_jobs;
+    size_t n, n_jobs;
     long long wanted; /* jobs of the tasks so far */
     koksma__task *at; /* those with the most trials first */
     size_t n_rounds;
