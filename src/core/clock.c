@@ -3,7 +3,6 @@
 #include "core/clock.h"
 
 #include <stdatomic.h>
-#include <stddef.h>
 #include <time.h>
 
 typedef double (*clock_function)(void);

@@ -3,7 +3,6 @@
    commas, tabs, comments and a CSV header; `# n N` and `# dim D` are promises that are checked. So are `n N` and
    `dim D` among plain `key number` lines that end at a line `points`, as sets with known values are kept. */
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,8 +7,6 @@
 #include "core/c_locale.h"
 
 #include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { TEXT_SIZE = 1024 };

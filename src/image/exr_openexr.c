@@ -9,7 +9,6 @@
  */
 #include <math.h>
 #include <openexr.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Points into the cells of a grid, both coordinates of several points at once. A quotient by a power of two is a
    product by its reciprocal, to the bit; the reference divides. */
-#include <math.h>
 
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"

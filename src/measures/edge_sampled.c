@@ -9,7 +9,6 @@
  * E(square) is the square of l2-edge (skip=0). Limits: a sampled value; equal seeds give equal bits.
  * In 3 dimensions random planes through the cube instead, isotropic only.
  */
-#include <math.h>
 #include <stdlib.h>
 
 #include "core/parallel.h"

@@ -8,7 +8,6 @@
 #include "meshes/gltf_meshes.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/status.h"
 #include "meshes/gltf_buffers.h"

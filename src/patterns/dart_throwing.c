@@ -11,7 +11,6 @@
  * For a small f most darts fit; then they are thrown one by one and looked up in a grid of n cells, because the
  * cover's cells, which are smaller than d, would be many for each point.
  */
-#include <math.h>
 #include <string.h>
 
 #include "core/parallel.h"

@@ -21,7 +21,6 @@
  * (docs/findings/lattices.md). Time: O(dim n log n): 2^20 points in 10 dimensions take half a second, a prime number
  * of them hardly more. Memory beside the points: 28 n bytes for powers of two, up to 95 n for others.
  */
-#include <stdlib.h>
 
 #include "core/parallel.h"
 #include "core/status.h"

@@ -3,7 +3,6 @@
  * A render from its options to its picture: what is the same for all pixels is made once, the image is cut into tasks
  * of whole rows, whose number depends on the sizes only, and in a task pixels go in groups through the pipeline.
  */
-#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>

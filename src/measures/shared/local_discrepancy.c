@@ -5,7 +5,6 @@
  * 1992, section 2.1). The grid counts each point in the cell from which on it is inside, and sums along both axes:
  * O(n + side^2).
  */
-#include <math.h>
 #include <stdlib.h>
 
 #include "core/points_io.h"

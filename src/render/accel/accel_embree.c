@@ -14,8 +14,6 @@
 #include <embree4/rtcore.h>
 #endif
 #include <fenv.h>
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

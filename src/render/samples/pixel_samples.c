@@ -7,7 +7,6 @@
  * one.
  */
 #include <stdlib.h>
-#include <string.h>
 
 #include "api/generate.h"
 #include "core/random.h"

@@ -3,7 +3,6 @@
  * mesh and instance: which file, where it stands, what it is made of. A mesh is read once; its instances are
  * placements of the same triangles. Embree intersects them (accel/accel_embree.c).
  */
-#include <stdio.h>
 #include <string.h>
 
 #include "core/status.h"

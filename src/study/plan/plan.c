@@ -2,7 +2,6 @@
 /* Plans are JSON (studies/README.md has the fields). Everything in a plan is checked here, before any work. */
 #include "study/plan/plan.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,7 +6,6 @@
  */
 #include "study/run/mpi_serve.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

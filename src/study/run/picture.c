@@ -5,7 +5,6 @@
 #include "study/run/picture.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "core/c_locale.h"

@@ -4,7 +4,6 @@
    and finishes a reference with its last one. So its bits do not depend on who renders which tile. */
 #include "study/run/reference_tiles.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
