@@ -14,7 +14,7 @@
 #include "core/status.h"
 #include "study/run/mpi_messages.h"
 #include "study/run/mpi_rank.h"
-#include "study/run/workers.h"
+#include "study/run/run_state.h"
 
 /* Ranks have a batch in hand while they ask for the next, so that the answer may take as long as this. */
 static const double REST_S = 1e-3;

@@ -14,7 +14,7 @@
 #include "study/run/mpi_serve.h"
 #include "study/run/mpi_work.h"
 #include "study/run/run.h"
-#include "study/run/workers.h"
+#include "study/run/run_state.h"
 
 /* ---- What was run, on what ----------------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The one queue of assignments of a run: what is left to do in a phase (the discrepancies or the images of a plan),
- * and what has come in. Threads of this process take from it (workers.h), and rank 0 of an MPI run hands batches of
+ * and what has come in. Threads of this process take from it, and rank 0 of an MPI run hands batches of
  * it to the other ranks (mpi_serve.h). All functions may be called by several threads.
  */
 #ifndef KOKSMA_STUDY_RUN_RUN_STATE_H
@@ -93,5 +93,12 @@ void koksma__run_state_put_tile(koksma__run_state *state, size_t i, const koksma
 
 /* The number of a tile that a rank has sent back; tiles.n: no such. */
 size_t koksma__run_state_tile(const koksma__run_state *state, const koksma__reference_tile *tile);
+
+/* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
+   caller's keep_going between assignments. With redo, does again what nobody has brought back for long. */
+void koksma__work(koksma__run_state *state, bool redo);
+
+/* Does a phase on the threads of its run control. */
+koksma_status koksma__work_threads(koksma__phase *phase);
 
 #endif
