@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Opens and closes studies: parses the plan, makes DIR, opens its store, loads each scene once, and writes down which
    plan it was. Of the ranks of an MPI run only rank 0 has a folder. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "core/atomic_file.h"
 #include "core/read_file.h"
 #include "core/status.h"
 #include "scene/scene.h"
@@ -109,11 +108,9 @@ static koksma_status make_folder(koksma_study *study, const char *folder)
     if (strlen(folder) > 1000) {
         return koksma__fail(KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
     }
-    if (mkdir(folder, 0777) && errno != EEXIST) {
-        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", folder, strerror(errno));
-    }
-    study->folder = strdup(folder);
-    return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
+    const koksma_status status = koksma__atomic_folder(folder);
+    study->folder = status ? NULL : strdup(folder);
+    return status || study->folder ? status : koksma__fail_memory(strlen(folder));
 }
 
 /* The store keeps the texts of its plans and what the run said about trials, so that the folder is enough to make the
