@@ -191,6 +191,7 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
 
 /* KOKSMA_FAULT_LOG: a line for each call that changes a file or folder, by inode; tests/hostile/disk.py reads it. */
 static int log_descriptor = -1;
+static pthread_mutex_t names_lock = PTHREAD_MUTEX_INITIALIZER; /* a name is in the list before others can use it */
 
 static unsigned long long inode(int descriptor)
 {
@@ -370,11 +371,13 @@ int __wrap_openat(int folder, const char *path, int flags, ...)
         return -1;
     }
     va_start(list, flags);
+    pthread_mutex_lock(&names_lock);
     const int descriptor = __real_openat(folder, path, flags, mode_in(flags, list));
-    va_end(list);
     if (descriptor >= 0 && flags & O_CREAT) {
         fault_note("create %llu %llu %s\n", inode(folder), inode(descriptor), path);
     }
+    pthread_mutex_unlock(&names_lock);
+    va_end(list);
     return descriptor;
 }
 
@@ -422,14 +425,24 @@ int __wrap_renameat(int from_folder, const char *from, int folder, const char *t
         errno = EACCES;
         return -1;
     }
-    fault_note("rename %llu %s %s\n", inode(folder), from, to);
-    return __real_renameat(from_folder, from, folder, to);
+    pthread_mutex_lock(&names_lock);
+    const int code = __real_renameat(from_folder, from, folder, to);
+    if (!code) {
+        fault_note("rename %llu %s %s\n", inode(folder), from, to);
+    }
+    pthread_mutex_unlock(&names_lock);
+    return code;
 }
 
 int __wrap_unlinkat(int folder, const char *path, int flags)
 {
-    fault_note("unlink %llu %s\n", inode(folder), path);
-    return __real_unlinkat(folder, path, flags);
+    pthread_mutex_lock(&names_lock);
+    const int code = __real_unlinkat(folder, path, flags);
+    if (!code) {
+        fault_note("unlink %llu %s\n", inode(folder), path);
+    }
+    pthread_mutex_unlock(&names_lock);
+    return code;
 }
 
 int __wrap_close(int descriptor)
@@ -472,10 +485,12 @@ int __wrap_mkdir(const char *path, mode_t bits)
         errno = ENOSPC;
         return -1;
     }
+    pthread_mutex_lock(&names_lock);
     const int code = __real_mkdir(path, bits);
     if (!code && log_descriptor >= 0) {
         fault_note("mkdir %llu %llu %s\n", inode_above(path), inode_at(path), name_in(path));
     }
+    pthread_mutex_unlock(&names_lock);
     return code;
 }
 
