@@ -136,6 +136,11 @@ static void aim(exr_decode_pipeline_t *decoder, koksma_image *image, int x, int 
 static exr_result_t decode(exr_const_context_t file, const exr_chunk_info_t *chunk, exr_decode_pipeline_t *decoder,
                            bool first, koksma_image *image, int x, int y)
 {
+    /* The decoder takes memory for a whole chunk with all its channels, ours or not. */
+    const double pixels = (double)image->width * image->height, most = fmax(16 * pixels, 0x1p28);
+    if ((double)chunk->unpacked_size > most || (double)chunk->packed_size > most) {
+        return EXR_ERR_CORRUPT_CHUNK;
+    }
     exr_result_t r =
         first ? exr_decoding_initialize(file, 0, chunk, decoder) : exr_decoding_update(file, 0, chunk, decoder);
     if (!r) {
