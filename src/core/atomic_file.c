@@ -2,7 +2,8 @@
 /*
  * A file is written under a temporary name in the folder of its own, synced, and renamed when it is whole (POSIX rename
  * is atomic), so that readers and later runs see the old file or the new one; then the folder is synced. After a loss
- * of power the file is the old or the new one, whole; it is the new one if the program had ended with success.
+ * of power the file is the old or the new one, whole; it is the new one if the program had ended with success. A folder is
+ * lost with all that is in it where its own entry was not synced, so that making one syncs the folder above.
  *
  * The temporary name has 64 random bits, and O_EXCL makes a new file: what others planted in the folder, or another
  * process with an equal number (the rule in containers) chose, is never opened. All steps go by the folder's
@@ -324,6 +325,36 @@ void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA_
 static bool sync_folder(int folder)
 {
     return !fsync(folder) || errno == EINVAL || errno == EBADF || errno == ENOTSUP;
+}
+
+/* Of the folder that holds `path`. False: errno. */
+static bool sync_above(const char *path)
+{
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') {
+        length--;
+    }
+    while (length > 0 && path[length - 1] != '/') {
+        length--;
+    }
+    char *above = length ? strndup(path, length) : strdup(".");
+    const int folder = above ? open_folder(AT_FDCWD, above, 0) : -1;
+    const bool synced = folder >= 0 && sync_folder(folder);
+    const int reason = errno;
+    if (folder >= 0) {
+        close(folder);
+    }
+    free(above);
+    errno = reason;
+    return synced;
+}
+
+koksma_status koksma__atomic_folder(const char *path)
+{
+    if (mkdir(path, 0777) && errno != EEXIST) {
+        return koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
+    }
+    return sync_above(path) ? KOKSMA_OK : koksma__fail(KOKSMA_IO, "%s: can't be synced: %s", path, strerror(errno));
 }
 
 koksma_status koksma__atomic_close(koksma__atomic_file *file, bool keep)

@@ -31,4 +31,7 @@ KOKSMA__LAB koksma_status koksma__atomic_close(koksma__atomic_file *file, bool k
 /* Both, and the bytes between them. */
 KOKSMA__LAB koksma_status koksma__atomic_put(const char *folder, const char *path, const void *bytes, size_t size);
 
+/* Makes a folder, unless it is there, that will be there after a loss of power. Error: IO. */
+KOKSMA__LAB koksma_status koksma__atomic_folder(const char *path);
+
 #endif

@@ -191,6 +191,26 @@ static bool tiles_fit(exr_const_context_t file, const exr_attr_box2i_t *window)
            (double)width * height <= fmax(image, 2048.0 * 2048.0);
 }
 
+/* Whether a chunk, a tile or some lines, has at most 256 MiB, or 16 bytes for each pixel of the image: the libraries take
+   memory for all its channels, ours or not. */
+static bool chunks_fit(exr_const_context_t file, bool tiled, const exr_attr_box2i_t *window,
+                       const exr_attr_chlist_t *list)
+{
+    int32_t chunk_x = 1, chunk_y = 1;
+    const double width = (double)window->max.x - window->min.x + 1,
+                 height = (double)window->max.y - window->min.y + 1;
+    double bytes = 0;
+    for (int i = 0; i < list->num_channels; i++) {
+        bytes += list->entries[i].pixel_type == EXR_PIXEL_HALF ? 2 : 4;
+    }
+    if (tiled ? exr_get_tile_sizes(file, 0, 0, 0, &chunk_x, &chunk_y)
+              : exr_get_scanlines_per_chunk(file, 0, &chunk_y)) {
+        return false;
+    }
+    const double pixels = (tiled ? fmin(chunk_x, width) : width) * fmin(chunk_y, height);
+    return bytes * pixels <= fmax(16 * width * height, 0x1p28);
+}
+
 static koksma_status read_part(exr_const_context_t file, const source *s, koksma_image *out)
 {
     exr_storage_t storage;
@@ -212,8 +232,8 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         KOKSMA__FAIL_IF(list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1, KOKSMA_MALFORMED,
                         "as an EXR: subsampled channels are not read");
     }
-    KOKSMA__FAIL_IF(storage == EXR_STORAGE_TILED && !tiles_fit(file, &window), KOKSMA_MALFORMED,
-                    "as an EXR: its tiles are larger than the image");
+    KOKSMA__FAIL_IF(!chunks_fit(file, storage == EXR_STORAGE_TILED, &window, list), KOKSMA_MALFORMED,
+                    "as an EXR: its chunks have more than 256 MiB");
     if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
         return read_rgba(s, list, channels, out);
     }

@@ -6,6 +6,7 @@
 
 #include <koksma/image.h>
 
+#include "core/read_file.h"
 #include "modules/module.h"
 
 /* Bytes that grow. */
@@ -51,8 +52,12 @@ koksma_status koksma__image_check_shape(int width, int height, int channels);
 /* NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
-/* An image file in memory, known by its content. Errors name no file. */
-koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out);
+/* The most pixels of an image that a scene or model names: 8192 x 8192. */
+enum { KOKSMA__TEXTURE_PIXELS = 1 << 26 };
+
+/* An image file in memory, known by its content; kind IMAGE or TEXTURE. Errors name no file. */
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
+                                       koksma_image *out);
 
 /* Whether all its pixels are numbers below 1e30: a sun that is brighter than its file's numbers can say, or what was
    never computed, must not go dark without a word. MALFORMED names the first that is none, after `name`. */

@@ -74,13 +74,16 @@ void koksma_image_fini(koksma_image *image)
     }
 }
 
+/* The most pixels of the image that this thread reads. */
+static _Thread_local size_t most_pixels = KOKSMA_MAX_PIXELS;
+
 koksma_status koksma__image_claim(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
                                   koksma_image *out)
 {
     KOKSMA__FAIL_IF(width < 1 || height < 1 || width > KOKSMA_MAX_IMAGE_SIDE || height > KOKSMA_MAX_IMAGE_SIDE ||
-                        (size_t)(width * height) > KOKSMA_MAX_PIXELS,
+                        (size_t)(width * height) > most_pixels,
                     KOKSMA_MALFORMED, "it claims %lld x %lld pixels: a side is 1 to %d, and all are at most %zu",
-                    width, height, KOKSMA_MAX_IMAGE_SIDE, KOKSMA_MAX_PIXELS);
+                    width, height, KOKSMA_MAX_IMAGE_SIDE, most_pixels);
     KOKSMA__FAIL_IF((double)width * (double)height > (double)bytes * pixels_a_byte, KOKSMA_MALFORMED,
                     "cut short: it claims %lld x %lld pixels and has %zu bytes", width, height, bytes);
     return koksma_image_init(out, (int)width, (int)height, channels);
@@ -143,11 +146,13 @@ static koksma_status check_start(const unsigned char *bytes, size_t size)
     return find_format(bytes, size, &format);
 }
 
-koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma_image *out)
+koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
+                                       koksma_image *out)
 {
     const koksma__image_format *format;
     *out = (koksma_image){0};
     koksma_status status = find_format(bytes, size, &format);
+    most_pixels = kind == KOKSMA__FILE_TEXTURE ? KOKSMA__TEXTURE_PIXELS : KOKSMA_MAX_PIXELS;
     status = status ? status : format->read(bytes, size, out);
     if (status) {
         koksma_image_fini(out);
@@ -162,7 +167,7 @@ koksma_status koksma__image_read(const char *path, koksma__file_kind kind, koksm
     size_t size;
     *out = (koksma_image){0};
     KOKSMA__TRY(koksma__read_file(path, kind, by, check_start, &bytes, &size));
-    const koksma_status status = koksma__image_read_bytes(bytes, size, out);
+    const koksma_status status = koksma__image_read_bytes(bytes, size, kind, out);
     free(bytes);
     return status ? koksma__fail_in(status, path) : KOKSMA_OK;
 }

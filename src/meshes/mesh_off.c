@@ -87,7 +87,9 @@ static koksma_status finish(off *o, koksma__mesh_file *out)
     koksma__file_material *grey;
     koksma_status status = koksma__mesh_init(o->positions.n / 3, 0, false, false, &mesh);
     if (!status) {
-        memcpy(mesh.vertices, o->positions.items, o->positions.n * sizeof *mesh.vertices);
+        if (o->positions.n) { /* else there are no items to copy from */
+            memcpy(mesh.vertices, o->positions.items, o->positions.n * sizeof *mesh.vertices);
+        }
         koksma__fan_finish(&o->indices, &mesh);
         status = koksma__file_take_mesh(out, &mesh, 0);
     }

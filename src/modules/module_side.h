@@ -6,13 +6,14 @@
 
 #include "modules/module.h"
 
-extern const koksma__host *koksma__own_host;
+/* Every thread that loads the module writes it: the same value, while others read. */
+extern const koksma__host *_Atomic koksma__own_host;
 
 #define koksma__fail koksma__own_host->fail
 #define koksma__fail_memory koksma__own_host->fail_memory
 
 #define KOKSMA__MODULE(functions)                                                                                    \
-    const koksma__host *koksma__own_host;                                                                            \
+    const koksma__host *_Atomic koksma__own_host;                                                                    \
     static const void *start_module(const koksma__host *host)                                                        \
     {                                                                                                                \
         koksma__own_host = host;                                                                                     \

@@ -99,7 +99,9 @@ koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *f
     }
     koksma__splat *splat = &film->splats[task];
     const size_t n = (size_t)(rows + 2 * film->reach) * (size_t)frame->options->width * film->numbers;
-    *splat = (koksma__splat){first_row - film->reach, rows + 2 * film->reach, false, calloc(n, sizeof(double))};
+    splat->first_row = first_row - film->reach; /* not `done`, which other tasks look at */
+    splat->rows = rows + 2 * film->reach;
+    splat->sums = calloc(n, sizeof(double));
     return splat->sums ? KOKSMA_OK : koksma__fail_memory(n * sizeof(double));
 }
 

@@ -42,7 +42,7 @@ static koksma_status read_texture(const builder *build, const koksma__file_textu
     char full[KOKSMA__MAX_PATH];
     *image = (koksma_image){0};
     if (from->bytes) {
-        koksma_status status = koksma__image_read_bytes(from->bytes, from->size, image);
+        koksma_status status = koksma__image_read_bytes(from->bytes, from->size, KOKSMA__FILE_TEXTURE, image);
         status = status ? koksma__fail_in(status, from->name) : koksma__image_check(image, from->name);
         return status;
     }

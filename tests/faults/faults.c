@@ -18,6 +18,8 @@
 
 #include <jansson.h>
 
+#include "core/clock.h"
+
 static const char *const names[N_FAULTS] = {
     "none", "memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory",
 };
@@ -165,6 +167,8 @@ int __real_renameat(int from_folder, const char *from, int folder, const char *t
 int __real_unlinkat(int folder, const char *path, int flags);
 int __real_close(int descriptor);
 int __real_mkdir(const char *path, mode_t bits);
+int __real_link(const char *from, const char *to);
+int __real_remove(const char *path);
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 FILE *__wrap_fopen(const char *path, const char *how);
 FILE *__wrap_fdopen(int descriptor, const char *how);
@@ -179,12 +183,15 @@ int __wrap_renameat(int from_folder, const char *from, int folder, const char *t
 int __wrap_unlinkat(int folder, const char *path, int flags);
 int __wrap_close(int descriptor);
 int __wrap_mkdir(const char *path, mode_t bits);
+int __wrap_link(const char *from, const char *to);
+int __wrap_remove(const char *path);
 int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument);
 
 /* ---- The order of what reaches the disk ------------------------------------------------------------------ */
 
-/* KOKSMA_FAULT_LOG: a line for each call that changes a file or folder, by inode; tests/hostile/file_power.py. */
+/* KOKSMA_FAULT_LOG: a line for each call that changes a file or folder, by inode; tests/hostile/disk.py reads it. */
 static int log_descriptor = -1;
+static pthread_mutex_t names_lock = PTHREAD_MUTEX_INITIALIZER; /* a name is in the list before others can use it */
 
 static unsigned long long inode(int descriptor)
 {
@@ -192,24 +199,52 @@ static unsigned long long inode(int descriptor)
     return fstat(descriptor, &info) ? 0 : (unsigned long long)info.st_ino;
 }
 
-static void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static void note(const char *format, ...)
+bool fault_logs(void)
 {
-    va_list list;
-    va_start(list, format);
-    if (log_descriptor >= 0) {
-        vdprintf(log_descriptor, format, list);
-    }
-    va_end(list);
+    return log_descriptor >= 0;
 }
 
-static void note_write(int descriptor, const unsigned char *bytes, size_t size)
+/* A line is one write, as other threads write theirs, and the process may end at any time. */
+void fault_note(const char *format, ...)
 {
-    note("write %llu ", inode(descriptor));
-    for (size_t i = 0; log_descriptor >= 0 && i < size; i++) {
-        dprintf(log_descriptor, "%02x", bytes[i]);
+    char line[1024];
+    va_list list;
+    va_start(list, format);
+    const int length = vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    if (log_descriptor >= 0 && __real_write(log_descriptor, line, (size_t)length) != length) {
+        abort();
     }
-    note("\n");
+}
+
+void fault_note_write(unsigned long long file, long long offset, const void *bytes, size_t size)
+{
+    enum { PIECE = 4096, HEAD = 64 };
+    static const char digits[] = "0123456789abcdef";
+    const unsigned char *from = bytes;
+    char line[HEAD + 2 * PIECE + 1];
+    for (size_t done = 0; log_descriptor >= 0 && done < size;) {
+        const size_t n = size - done < PIECE ? size - done : PIECE;
+        int length = snprintf(line, HEAD, "write %llu %lld ", file, offset + (long long)done);
+        for (size_t i = 0; i < n; i++, done++) {
+            line[length++] = digits[from[done] >> 4];
+            line[length++] = digits[from[done] & 15];
+        }
+        line[length++] = '\n';
+        if (__real_write(log_descriptor, line, (size_t)length) != length) {
+            abort();
+        }
+    }
+}
+
+/* `size` bytes that were written up to where the descriptor stands now. */
+static void note_write(int descriptor, const void *bytes, size_t size)
+{
+    struct stat info;
+    if (log_descriptor >= 0 && !fstat(descriptor, &info) && S_ISREG(info.st_mode)) {
+        const off_t end = lseek(descriptor, 0, SEEK_CUR);
+        fault_note_write((unsigned long long)info.st_ino, (long long)end - (long long)size, bytes, size);
+    }
 }
 
 static ssize_t read_below(void *cookie, char *bytes, size_t size)
@@ -234,7 +269,9 @@ static ssize_t write_below(void *cookie, const char *bytes, size_t size)
         errno = ENOSPC;
         return 0; /* what glibc asks for */
     }
-    return (ssize_t)fwrite(bytes, 1, size, cookie);
+    const size_t n = fwrite(bytes, 1, size, cookie);
+    note_write(fileno(cookie), bytes, n);
+    return (ssize_t)n;
 }
 
 static int seek_below(void *cookie, off64_t *offset, int from)
@@ -334,11 +371,13 @@ int __wrap_openat(int folder, const char *path, int flags, ...)
         return -1;
     }
     va_start(list, flags);
+    pthread_mutex_lock(&names_lock);
     const int descriptor = __real_openat(folder, path, flags, mode_in(flags, list));
-    va_end(list);
     if (descriptor >= 0 && flags & O_CREAT) {
-        note("create %llu %llu %s\n", inode(folder), inode(descriptor), path);
+        fault_note("create %llu %llu %s\n", inode(folder), inode(descriptor), path);
     }
+    pthread_mutex_unlock(&names_lock);
+    va_end(list);
     return descriptor;
 }
 
@@ -376,7 +415,7 @@ int __wrap_fsync(int descriptor)
         errno = EIO;
         return -1;
     }
-    note("sync %llu\n", inode(descriptor));
+    fault_note("sync %llu\n", inode(descriptor));
     return __real_fsync(descriptor);
 }
 
@@ -386,14 +425,24 @@ int __wrap_renameat(int from_folder, const char *from, int folder, const char *t
         errno = EACCES;
         return -1;
     }
-    note("rename %llu %s %s\n", inode(folder), from, to);
-    return __real_renameat(from_folder, from, folder, to);
+    pthread_mutex_lock(&names_lock);
+    const int code = __real_renameat(from_folder, from, folder, to);
+    if (!code) {
+        fault_note("rename %llu %s %s\n", inode(folder), from, to);
+    }
+    pthread_mutex_unlock(&names_lock);
+    return code;
 }
 
 int __wrap_unlinkat(int folder, const char *path, int flags)
 {
-    note("unlink %llu %s\n", inode(folder), path);
-    return __real_unlinkat(folder, path, flags);
+    pthread_mutex_lock(&names_lock);
+    const int code = __real_unlinkat(folder, path, flags);
+    if (!code) {
+        fault_note("unlink %llu %s\n", inode(folder), path);
+    }
+    pthread_mutex_unlock(&names_lock);
+    return code;
 }
 
 int __wrap_close(int descriptor)
@@ -406,13 +455,61 @@ int __wrap_close(int descriptor)
     return code;
 }
 
+static unsigned long long inode_at(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) ? 0 : (unsigned long long)info.st_ino;
+}
+
+/* Of the folder that an entry is in. */
+static unsigned long long inode_above(const char *path)
+{
+    char *copy = __real_strdup(path), *slash = strrchr(copy, '/');
+    if (slash) {
+        *slash = '\0';
+    }
+    const unsigned long long number = inode_at(!slash ? "." : *copy ? copy : "/");
+    free(copy);
+    return number;
+}
+
+static const char *name_in(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 int __wrap_mkdir(const char *path, mode_t bits)
 {
     if (fault_here(FAULT_OPEN, NULL)) {
         errno = ENOSPC;
         return -1;
     }
-    return __real_mkdir(path, bits);
+    pthread_mutex_lock(&names_lock);
+    const int code = __real_mkdir(path, bits);
+    if (!code && log_descriptor >= 0) {
+        fault_note("mkdir %llu %llu %s\n", inode_above(path), inode_at(path), name_in(path));
+    }
+    pthread_mutex_unlock(&names_lock);
+    return code;
+}
+
+int __wrap_link(const char *from, const char *to)
+{
+    const int code = __real_link(from, to);
+    if (!code && log_descriptor >= 0) {
+        fault_note("link %llu %llu %s\n", inode_above(to), inode_at(to), name_in(to));
+    }
+    return code;
+}
+
+int __wrap_remove(const char *path)
+{
+    const int code = __real_remove(path);
+    if (!code && log_descriptor >= 0) {
+        fault_note("unlink %llu %s\n", inode_above(path), name_in(path));
+    }
+    return code;
 }
 
 int __wrap_memfd_create(const char *name, unsigned flags)
@@ -448,6 +545,13 @@ static void tell_counts(void)
     }
 }
 
+/* A tenth of a second later at each look, so that the store commits often in a short run. */
+static double fast_clock(void)
+{
+    static atomic_long looks;
+    return 0.1 * (double)atomic_fetch_add(&looks, 1);
+}
+
 __attribute__((constructor)) static void begin(void)
 {
     const char *kind = getenv("KOKSMA_FAULT"), *at = getenv("KOKSMA_FAULT_AT"), *how = getenv("KOKSMA_FAULT_MODE");
@@ -456,6 +560,9 @@ __attribute__((constructor)) static void begin(void)
     }
     if (getenv("KOKSMA_FAULT_LOG")) {
         log_descriptor = __real_open(getenv("KOKSMA_FAULT_LOG"), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    }
+    if (log_descriptor >= 0) {
+        koksma__set_clock(fast_clock);
     }
     json_set_alloc_funcs(json_memory, free);
     fault_install_sqlite();

@@ -59,7 +59,7 @@ static void images_come_back(void **state)
                     fail_msg("a file of %s asked of %s", format->name, koksma__image_format_at(g)->name);
                 }
             }
-            assert_ok(koksma__image_read_bytes(bytes.data, bytes.size, &back));
+            assert_ok(koksma__image_read_bytes(bytes.data, bytes.size, KOKSMA__FILE_IMAGE, &back));
             if (back.width != image.width || back.height != image.height || back.channels != channels) {
                 fail_msg("%s: %d x %d x %d came back as %d x %d x %d", format->name, image.width, image.height,
                          channels, back.width, back.height, back.channels);
@@ -140,7 +140,7 @@ static fenced fence(size_t size)
 static void assert_error_or_image(const koksma__image_format *format, const unsigned char *bytes, size_t size)
 {
     koksma_image image = {0};
-    const koksma_status status = koksma__image_read_bytes(bytes, size, &image);
+    const koksma_status status = koksma__image_read_bytes(bytes, size, KOKSMA__FILE_IMAGE, &image);
     if (status) {
         assert_true(status == KOKSMA_MALFORMED || status == KOKSMA_UNSUPPORTED);
         assert_true(*koksma_error_text() && !strchr(koksma_error_text(), '\n'));

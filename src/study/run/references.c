@@ -7,13 +7,13 @@
  */
 #include "study/run/references.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/atomic_file.h"
 #include "core/capacity.h"
 #include "core/sha256.h"
 #include "core/status.h"
@@ -152,15 +152,13 @@ koksma_status koksma__replicates_finish(koksma__replicates *s, koksma_study *stu
 {
     char path[KOKSMA__PATH], name[KOKSMA__REFERENCE_NAME];
     koksma__reference_row row;
-    koksma_status status = KOKSMA_OK;
+    koksma_status status;
     if (study->sink) {
         status = koksma__replicates_done(s, reference, &row);
         return status ? status : study->sink->put_reference(study->sink->context, reference, &row);
     }
     snprintf(path, sizeof path, "%s/references", study->folder);
-    if (mkdir(path, 0777) && errno != EEXIST) {
-        status = koksma__fail(KOKSMA_IO, "%s: can't be made: %s", path, strerror(errno));
-    }
+    status = koksma__atomic_folder(path);
     status = status ? status : koksma__replicates_done(s, reference, &row);
     const koksma__series key = koksma__reference_key(reference, name);
     status = status ? status : koksma__store_put_reference(study->store, &key, &row);

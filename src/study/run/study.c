@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Opens and closes studies: parses the plan, makes DIR, opens its store, loads each scene once, and writes down which
    plan it was. Of the ranks of an MPI run only rank 0 has a folder. */
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
+#include "core/atomic_file.h"
 #include "core/capacity.h"
 #include "core/read_file.h"
 #include "core/status.h"
@@ -102,8 +101,7 @@ koksma_status koksma__study_open_to_write(koksma_study *study)
 static koksma_status make_folder(koksma_study *study, const char *folder)
 {
     KOKSMA__FAIL_IF(strlen(folder) > 1000, KOKSMA_ARGUMENT, "the folder's name is longer than 1000 characters");
-    KOKSMA__FAIL_IF(mkdir(folder, 0777) && errno != EEXIST, KOKSMA_IO, "%s: can't be made: %s", folder,
-                    strerror(errno));
+    KOKSMA__TRY(koksma__atomic_folder(folder));
     study->folder = strdup(folder);
     return study->folder ? KOKSMA_OK : koksma__fail_memory(strlen(folder));
 }

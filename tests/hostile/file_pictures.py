@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""file_pictures.py PROGRAM FAULTS: what a picture that a scene names may cost.
+
+docs/files.md states it: the bytes of the file, 12 a pixel of at most 2^26 pixels, and what the reader takes beside.
+Pictures of that size that pack into a few hundred KiB, of one pixel more, files whose first bytes are right up to the
+limit, and EXR tiles of many channels must keep to it.
+"""
+import json
+import os
+import struct
+import sys
+import tempfile
+import zlib
+
+import files
+from file_inputs import scene
+
+MOST = 1 << 26  # pixels: src/image/formats.h
+LIMIT = 1 << 30  # bytes of a texture's file: src/core/file_kinds.def
+
+
+def packed(size, byte=0):
+    packer = zlib.compressobj(1)
+    piece = bytes([byte]) * (1 << 20)
+    return b"".join(packer.compress(piece[:min(len(piece), size - at)]) for at in range(0, size, len(piece))) + packer.flush()
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(width, height, data=None):
+    """Of 16 bits and three colours."""
+    head = struct.pack(">IIBBBBB", width, height, 16, 2, 0, 0, 0)
+    data = packed(height * (1 + 6 * width)) if data is None else data
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", data) + chunk(b"IEND", b"")
+
+
+def attribute(name, kind, value):
+    return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
+
+
+def exr(width, height, tile, channels, compression=3):
+    """Tiled, floats; zeros in ZIP (3), which its predictor makes bytes of 128. In DWAB (9) no pixels: only its head is right."""
+    names = sorted(["R", "G", "B"] + [f"x{i:05}" for i in range(channels - 3)])
+    entries = b"".join(name.encode() + b"\0" + struct.pack("<IBxxxII", 2, 0, 1, 1) for name in names) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    head = (b"\x76\x2f\x31\x01\x02\x02\0\0" + attribute("channels", "chlist", entries) + attribute("compression", "compression", bytes([compression]))
+            + attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window)
+            + attribute("lineOrder", "lineOrder", b"\0") + attribute("pixelAspectRatio", "float", struct.pack("<f", 1))
+            + attribute("screenWindowCenter", "v2f", bytes(8)) + attribute("screenWindowWidth", "float", struct.pack("<f", 1))
+            + attribute("tiles", "tiledesc", struct.pack("<IIB", tile, tile, 0)) + b"\0")
+    tiles = [(x, y) for y in range((height + tile - 1) // tile) for x in range((width + tile - 1) // tile)]
+    data = packed(4 * channels * min(tile, width) * min(tile, height), 128)
+    offsets, body = b"", b""
+    for x, y in tiles:
+        offsets += struct.pack("<Q", len(head) + 8 * len(tiles) + len(body))
+        body += struct.pack("<5i", x, y, 0, 0, len(data)) + data
+    return head + offsets + body
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    checks = files.Checks()
+    with tempfile.TemporaryDirectory() as folder:
+        def check(what, name, data, length, most_mib, *words):
+            """Of `length` bytes; read, or refused with the words, for at most so many MiB."""
+            with open(os.path.join(folder, name), "wb") as stream:
+                stream.write(data)
+                stream.truncate(max(length, len(data)))
+            with open(os.path.join(folder, "s.json"), "w", encoding="ascii") as stream:
+                json.dump(scene(albedo={"image": name}), stream)
+            done = files.run(program, "scene", "check", "s.json", cwd=folder)
+            if words:
+                checks.check(done and done.code == 3 and all(word in done.err.decode() for word in words),
+                             f"{what}: exit code {done and done.code}, {done and done.err}")
+            else:
+                checks.check(done and done.code == 0, f"{what}: exit code {done and done.code}, {done and done.err}")
+            checks.check(done and done.mib < most_mib + files.OTHER, f"{what}: {done and done.mib:.0f} MiB for {most_mib}")
+            print(f"{what}: {done.mib:.0f} MiB, exit code {done.code}")
+            os.remove(os.path.join(folder, name))
+
+        side = 8192
+        check("PNG of 2^26 pixels", "a.png", png(side, side), 0, MOST * 18 >> 20)
+        check("PNG of more", "b.png", png(side + 1, side, bytes(1 << 16)), 0, 0, "b.png", f"at most {MOST}")
+        check("PNG and zeros", "c.png", png(4, 4), LIMIT, LIMIT >> 20)
+        check("PNG's head and zeros", "d.png", png(4, 4)[:33], LIMIT, LIMIT >> 20, "d.png")
+        check("PFM of more", "e.pfm", b"Pf\n%d %d\n-1\n" % (side + 1, side), LIMIT, LIMIT >> 20, "e.pfm", f"at most {MOST}")
+        check("EXR's mark and zeros", "f.exr", b"\x76\x2f\x31\x01\x02\0\0\0", LIMIT, LIMIT >> 20, "f.exr")
+        check("EXR of 2^26 pixels", "g.exr", exr(side, side, 1024, 3), 0, MOST * 12 >> 20)
+        check("EXR of more", "h.exr", exr(2 * side, side, side, 3)[:4096], 1 << 20, 0, "h.exr")
+        check("EXR with tiles of 40 channels", "i.exr", exr(256, 256, 256, 40), 0, 16)
+        check("EXR with tiles of 400 channels", "j.exr", exr(1024, 1024, 1024, 400), 0, 0, "j.exr", "256 MiB")
+        check("DWAB with tiles of 400 channels", "k.exr", exr(1024, 1024, 1024, 400, 9), 0, 0, "k.exr", "256 MiB")
+    checks.end()
+
+
+if __name__ == "__main__":
+    main()
