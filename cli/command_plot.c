@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma plot`: draws a curve of curves.def, or the points, of each source into one picture. */
+#include <stdio.h>
+#include <string.h>
+
 #include "charts.h"
 #include "source.h"
 #include "warps.h"
@@ -15,11 +18,35 @@ static uint64_t trials_of_all(const cli_curves *c)
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
 
+/* --size W[xH] and --theme. */
+static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
+{
+    const char *size = cli_text(arguments, "size", NULL), *theme = cli_text(arguments, "theme", "light");
+    int width = 0, height = 0, used = 0;
+    const int n = size ? sscanf(size, "%5d%nx%5d%n", &width, &used, &height, &used) : 0;
+    if (size && (n < 1 || size[used] || width < 16 || width > 8192 || (n > 1 && (height < 16 || height > 8192)))) {
+        cli_usage_error(arguments, "--size %s: it takes W, or WxH, of 16 to 8192", size);
+        return false;
+    }
+    c->width = width;
+    c->height = height;
+    c->dark = !strcmp(theme, "dark");
+    if (!c->dark && strcmp(theme, "light") != 0) {
+        cli_usage_error(arguments, "--theme %s: it takes light or dark", theme);
+        return false;
+    }
+    return true;
+}
+
 static int run(const cli_arguments *arguments)
 {
     cli_curves c;
     char names[256];
-    const char *name = cli_text(arguments, "curve", cli_curve_points.name);
+    const bool compare = cli_flag(arguments, "compare");
+    const char *name = cli_text(arguments, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
+    if (compare && strcmp(name, cli_curve_compare.name) != 0) {
+        return cli_usage_error(arguments, "--compare has charts of its own: it takes no --curve %s", name);
+    }
     if (arguments->n_operands < 1 || arguments->n_operands > CLI_MAX_PANELS || !cli_text(arguments, "output", NULL)) {
         return cli_usage_error(arguments,
                                "it takes points (up to %d sets) and a picture, as in points.txt -o points.svg",
@@ -30,8 +57,7 @@ static int run(const cli_arguments *arguments)
         cli_curve_names(CLI_DRAWN, NULL, ", ", " or ", names, sizeof names);
         return cli_usage_error(arguments, "--curve %s: it takes %s", name, names);
     }
-    if (!cli_curves_begin(arguments, curve, CLI_DRAWN, "--curve ", &c) ||
-        !cli_whole(arguments, "size", 0, 16, 8192, &c.size) ||
+    if (!cli_curves_begin(arguments, curve, CLI_DRAWN, "--curve ", &c) || !choose_looks(arguments, &c) ||
         (!curve->plot.of_filters && !cli_sources_check(arguments, 0, trials_of_all(&c), 0))) {
         return CLI_USAGE;
     }
@@ -47,7 +73,10 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
     {'c', "curve", "{chart}", "what is drawn (default: points)"},
-    {0, "size", "S", "side or width of a picture in points or pixels (default: 320, charts 480)"},
+    {0, "compare", NULL, "the same as --curve compare"},
+    {0, "size", "W[xH]", "width of the picture in points or pixels, and height (default: 320 a set, charts 480)"},
+    {0, "title", "TEXT", "heading of the picture (default: what is drawn)"},
+    {0, "theme", "light|dark", "dark on light, or light on dark (default: light)"},
     {0, "columns", "C", "points: draw C columns of cells"},
     {0, "rows", "R", "points: draw R rows of cells"},
     {0, "grid", "M[xN]", "points: draw M x M cells, or M columns and N rows"},
@@ -67,13 +96,23 @@ static const cli_option options[] = {
 const cli_command cli_command_plot = {
     .name = "plot",
     .summary = "draw points, where they are worst, spectra and convergence",
-    .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
-    .details = "{chart-meanings}"
-               "Points and power spectra of several sources are drawn side by side, curves in one chart.",
+    .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND|--compare] [--trials T]",
+    .details =
+        "{chart-meanings}"
+        "Points and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "
+        "dimensions and more are drawn as projections on all pairs of the first 8 axes. A pattern has the colour "
+        "of its family in all pictures.",
     .examples = "koksma plot pattern:n-rooks@16 -o points.svg --witness star\n"
-                "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
+                "koksma plot --compare pattern:random@256 pattern:jittered@256 -o figure.svg\n"
+                "koksma plot pattern:sobol@64@4 -o projections.svg --title 'Sobol points'\n"
                 "koksma plot pattern:jittered@64 --warp polar-disk --grid 8 -o disk.png\n"
-                "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 -o c.svg\n",
+                "koksma plot --curve power pattern:jittered@256 --trials 10 -o power.svg\n"
+                "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
+                "koksma plot --curve pairs pattern:poisson-disk-maximal@256 -o pairs.svg\n"
+                "koksma plot --curve anisotropy pattern:regular@256 -o a.svg --theme dark\n"
+                "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 \\\n"
+                "  -o c.svg --size 400\n"
+                "koksma plot --curve filter-response box tent mitchell -o response.svg\n",
     .options = options,
     .run = run,
 };

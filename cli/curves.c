@@ -104,8 +104,9 @@ int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context)
 {
-    int code = CLI_YES;
-    for (uint64_t t = 0; t < c->trials && !code; t++) {
+    cli_source opened;
+    int code = cli_source_open(c->arguments, source, &opened);
+    for (uint64_t t = 0; t < (opened.is_pattern ? c->trials : 1) && !code; t++) { /* a file is one set */
         koksma_points points;
         code = cli_source_points(c->arguments, source, c->seed + t, &c->work.run, &points);
         if (!code) {

@@ -23,8 +23,9 @@ typedef struct cli_curves {
     double r_max;
     koksma_spectrum_method method;
     cli_work work;
-    const char *output;      /* a file; NULL: none */
-    uint64_t size;           /* of a picture; 0: the default */
+    const char *output;   /* a file; NULL: none */
+    double width, height; /* of a picture; 0: the default */
+    bool dark;
     const char *witness;     /* plot: a measure; NULL: none */
     const koksma_warp *warp; /* plot: NULL: none */
     koksma_plot_format format;
@@ -51,6 +52,7 @@ struct cli_curve {
     struct {
         const char *options; /* of `plot`: likewise; NULL: it isn't drawn */
         int (*draw)(cli_curves *c);
+        const char *title;             /* of a chart, unless --title says another */
         const char *x_label, *y_label; /* of a chart: its axes, its columns, and whether x is divided by sqrt(n) */
         int y, error;                  /* error 0: there are no error bars */
         bool x_per_root;

@@ -41,7 +41,7 @@ MAY_USE = {
     "modules": "core",
     "image": "core kernels stats modules",
     "meshes": "core json image",
-    "plot": "core patterns measures api modules",
+    "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",
     "study/plan": "core json patterns measures warps scene render api",

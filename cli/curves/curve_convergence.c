@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "../bounds.h"
-#include "../charts.h"
 #include "../slope.h"
 #include "../source.h"
+#include "curve_convergence.h"
 
 enum { MAX_SIZES = CLI_MAX_SIZES, PER_SOURCE = 3 };
 
@@ -38,16 +38,16 @@ static bool choose_sizes(const cli_curves *c, size_t n, size_t *sizes, size_t *c
 }
 
 /* A source's means over trials by size. */
-typedef struct convergence {
+typedef struct means {
     size_t sizes[MAX_SIZES], count;
     koksma_tally tallies[MAX_SIZES];
     cli_joint joint;
     size_t n_cut; /* values that are bounds, as the search was cut short */
-} convergence;
+} means;
 
 /* Values over sets of n points: a pattern's own sets of n, the first n of a file. */
 static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_source *source, const koksma_points *file,
-                       convergence *v)
+                       means *v)
 {
     koksma_status status = KOKSMA_OK;
     for (uint64_t t = 0; t < (file ? 1 : c->trials) && !status; t++) {
@@ -100,10 +100,10 @@ static void push_slopes(cli_chart_store *s, const koksma_line *line, double theo
 }
 
 /* What the legend says of a source: its slope, with the trials' standard error or one set's residuals. */
-static void label_slope(char *label, const convergence *v, const koksma_line *line)
+static void label_slope(char *label, const means *v, const koksma_line *line)
 {
     const size_t used = strlen(label);
-    const char *error = v->joint.count > 1 ? "+-" : "by residuals +-";
+    const char *error = v->joint.count > 1 ? "±" : "by residuals ±";
     const char *bounds = v->n_cut > 0 ? ", of lower bounds" : "";
     if (line) {
         snprintf(label + used, CLI_CHART_LABEL - used, ": slope %.3f %s %.3f%s", line->slope, error,
@@ -120,7 +120,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
     koksma_points file = {0};
     double *numbers = cli_next_numbers(s);
     char *label = s->labels[s->n];
-    convergence *v = calloc(1, sizeof *v);
+    means *v = calloc(1, sizeof *v);
     int code = v ? cli_source_open(c->arguments, text, &source) : cli_no_memory();
     if (!code && !source.is_pattern) {
         code = cli_source_points(c->arguments, text, 0, &c->work.run, &file);
@@ -142,7 +142,10 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
     }
     koksma_line line;
     const bool fitted = cli_slope(v->count, numbers, numbers + s->per, &v->joint, &line);
-    snprintf(label, CLI_CHART_LABEL, "%.80s", cli_label(text));
+    char *n = strstr(cli_title(text, label), ", n = "), *d = n ? strstr(n, ", d = ") : NULL;
+    if (n) { /* the axis has it */
+        memmove(n, d ? d : "", d ? strlen(d) + 1 : 1);
+    }
     label_slope(label, v, fitted ? &line : NULL);
     cli_tell_cuts(c->arguments, text, v->n_cut);
     const size_t count = v->count;
@@ -158,31 +161,43 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
     return CLI_YES;
 }
 
-static int draw(cli_curves *c)
+int cli_convergence_open(cli_curves *c, cli_convergence *v)
 {
     const cli_arguments *arguments = c->arguments;
+    const int n = arguments->n_operands;
+    size_t colours[CLI_MAX_PANELS];
     koksma_spec measure;
-    char y_label[KOKSMA_MAX_SPEC + 64];
-    cli_chart_store s;
-    koksma_status status = koksma_measure_spec(cli_text(arguments, "measure", "l2-star"), &measure);
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    int code = cli_open_store(&s, PER_SOURCE * (size_t)arguments->n_operands, MAX_SIZES) ? CLI_YES : cli_no_memory();
-    for (int i = 0; i < arguments->n_operands && !code; i++) {
-        code = add_convergence(c, &measure, arguments->operands[i], (size_t)i, &s);
+    char text[KOKSMA_MAX_SPEC];
+    *v = (cli_convergence){0};
+    const koksma_status status = koksma_measure_spec(cli_text(arguments, "measure", "l2-star"), &measure);
+    int code = status                                                         ? cli_fail(arguments, status)
+               : cli_open_store(&v->store, PER_SOURCE * (size_t)n, MAX_SIZES) ? CLI_YES
+                                                                              : cli_no_memory();
+    cli_colours(c, colours);
+    for (int i = 0; i < n && !code; i++) {
+        code = add_convergence(c, &measure, arguments->operands[i], colours[i], &v->store);
     }
     if (!code) {
-        koksma_spec_text(&measure, y_label);
-        if (c->trials > 1) {
-            const size_t used = strlen(y_label);
-            snprintf(y_label + used, sizeof y_label - used, ", mean of %llu sets", (unsigned long long)c->trials);
-        }
-        koksma_chart chart = {
-            .x_label = "n", .y_label = y_label, .log_x = true, .log_y = true, .curves = s.curves, .n_curves = s.n};
-        code = cli_write_chart(c, &chart);
+        koksma_spec_text(&measure, text);
+        snprintf(v->title, sizeof v->title, "Convergence of %.120s", text);
+        snprintf(v->y_label, sizeof v->y_label, c->trials > 1 ? "%.120s, mean of %llu sets" : "%.120s", text,
+                 (unsigned long long)c->trials);
+        v->chart = (koksma_chart){.x_label = "n",
+                                  .y_label = v->y_label,
+                                  .log_x = true,
+                                  .log_y = true,
+                                  .curves = v->store.curves,
+                                  .n_curves = v->store.n};
     }
-    cli_close_store(&s);
+    return code;
+}
+
+static int draw(cli_curves *c)
+{
+    cli_convergence v;
+    int code = cli_convergence_open(c, &v);
+    code = code ? code : cli_write_chart(c, v.title, &v.chart);
+    cli_close_store(&v.store);
     return code;
 }
 

@@ -76,7 +76,7 @@ static int draw(cli_curves *c)
                           .y_label = response ? "response [dB], -80 at least" : "filter, of integral 1",
                           .curves = curves,
                           .n_curves = (size_t)n};
-    const int code = cli_write_chart(c, &chart);
+    const int code = cli_write_chart(c, response ? "Frequency responses of pixel filters" : "Pixel filters", &chart);
     free(numbers);
     return code;
 }

@@ -46,14 +46,14 @@ static bool choose_cells(const cli_curves *c, const koksma_points *points, koksm
 
 /* One panel's points, its cells and its witness; caption has room for KOKSMA_MAX_SPEC characters. */
 static int add_points(cli_curves *c, const char *source, koksma_points *points, koksma_panel *panel,
-                      koksma_value *value, char *caption)
+                      koksma_value *value, char *caption, char *title)
 {
     koksma_spec measure;
     int code = cli_source_points(c->arguments, source, c->seed, &c->work.run, points);
     if (code) {
         return code;
     }
-    *panel = (koksma_panel){.points = points};
+    *panel = (koksma_panel){.points = points, .title = cli_title(source, title)};
     if (!choose_cells(c, points, &panel->scatter)) {
         return CLI_USAGE;
     }
@@ -69,11 +69,9 @@ static int add_points(cli_curves *c, const char *source, koksma_points *points, 
             return cli_fail(c->arguments, status);
         }
         const bool is_bound = !value->exact && measure.measure->answer != KOKSMA_ANSWER_SAMPLED;
-        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s %s %.6f", c->witness, is_bound ? ">=" : "=", value->value);
+        snprintf(caption, KOKSMA_MAX_SPEC, "%.200s %s %.6f", c->witness, is_bound ? "≥" : "=", value->value);
         panel->scatter.witness = &value->witness;
         panel->caption = caption;
-    } else if (c->arguments->n_operands > 1) {
-        panel->caption = cli_label(source);
     }
     return CLI_YES;
 }
@@ -84,13 +82,13 @@ static int draw(cli_curves *c)
     koksma_points points[CLI_MAX_PANELS] = {{0}};
     koksma_panel panels[CLI_MAX_PANELS] = {{0}};
     koksma_value values[CLI_MAX_PANELS];
-    char captions[CLI_MAX_PANELS][KOKSMA_MAX_SPEC];
+    char captions[CLI_MAX_PANELS][KOKSMA_MAX_SPEC], titles[CLI_MAX_PANELS][CLI_CHART_LABEL];
     int code = CLI_YES;
     for (int i = 0; i < n && !code; i++) {
-        code = add_points(c, c->arguments->operands[i], &points[i], &panels[i], &values[i], captions[i]);
+        code = add_points(c, c->arguments->operands[i], &points[i], &panels[i], &values[i], captions[i], titles[i]);
     }
     if (!code) {
-        code = cli_draw_panels(c, panels, (size_t)n);
+        code = cli_draw_panels(c, NULL, panels, (size_t)n);
     }
     for (int i = 0; i < n; i++) {
         koksma_points_fini(&points[i]);

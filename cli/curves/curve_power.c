@@ -65,15 +65,16 @@ static int draw(cli_curves *c)
     const int n = c->arguments->n_operands;
     koksma_spectrum spectra[CLI_MAX_PANELS] = {{0}};
     koksma_panel panels[CLI_MAX_PANELS] = {{0}};
+    char titles[CLI_MAX_PANELS][CLI_CHART_LABEL];
     double white;
     int code = cli_real(c->arguments, "white", 2, 1e-9, 1e9, &white) ? CLI_YES : CLI_USAGE;
     for (int i = 0; i < n && !code; i++) {
         const char *source = c->arguments->operands[i];
         code = cli_curves_spectrum(c, source, 2, &spectra[i]);
-        panels[i] = (koksma_panel){.spectrum = &spectra[i], .white = white, .caption = cli_label(source)};
+        panels[i] = (koksma_panel){.spectrum = &spectra[i], .white = white, .title = cli_title(source, titles[i])};
     }
     if (!code) {
-        code = cli_draw_panels(c, panels, (size_t)n);
+        code = cli_draw_panels(c, n > 1 ? "Power spectra" : "Power spectrum", panels, (size_t)n);
     }
     for (int i = 0; i < n; i++) {
         koksma_spectrum_fini(&spectra[i]);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import byref, c_double, c_int, c_size_t, c_ubyte, c_void_p, POINTER
+from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_void_p, POINTER
 from typing import Any, Callable, Optional, Sequence, SupportsIndex, Union
 
 import numpy.typing as npt
@@ -52,9 +52,29 @@ class Picture:
         return self.svg
 
 
+def _figure(rows: "Sequence[Sequence[Union[s.Panel, s.Chart]]]", title: Optional[str], width: float, theme: str,
+            kept: Any) -> Picture:
+    """A figure of rows of cells; what they point to lives as long as the picture."""
+    if theme not in ("light", "dark"):
+        raise ArgumentError(f"theme '{theme}': it takes light or dark")
+    flat = [(cell, row) for row, cells in enumerate(rows) for cell in cells]
+    cells = (s.Cell * len(flat))()
+    for i, (cell, row) in enumerate(flat):
+        setattr(cells[i], "chart" if isinstance(cell, s.Chart) else "panel", ctypes.pointer(cell))
+        cells[i].row = row
+    figure = s.Figure(without_zero("title", title.encode()) if title is not None else None, cells, len(flat), width, 0, True,
+                      theme == "dark")
+
+    def draw(format: int, data: Any, n: Any, _kept: Any = (cells, kept)) -> int:
+        return lab().koksma_plot_figure(byref(figure), format, data, n)
+
+    return Picture(draw)
+
+
 def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsIndex = 0, rows: SupportsIndex = 0,
-         captions: Optional[Sequence[str]] = None, size: float = 0, local_discrepancy: bool = False) -> Picture:
-    """Draws the first two coordinates of sets of points, side by side.
+         captions: Optional[Sequence[str]] = None, size: float = 0, local_discrepancy: bool = False,
+         title: Optional[str] = None, titles: Optional[Sequence[str]] = None, theme: str = "light") -> Picture:
+    """Draws sets of points side by side: points of the plane, or the projections on all pairs of their first 8 axes.
 
     Parameters
     ----------
@@ -64,12 +84,15 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
         A measure: the region where its supremum is reached is drawn, with its value.
     columns, rows : int
         Guide lines.
-    captions : sequence of str, optional
-        A line below each.
+    titles, captions : sequence of str, optional
+        A line above each, such as the pattern, and one below.
     size : float
-        Side of a square in points, or pixels of a PNG; 0: 320.
+        Width of the picture in points, or pixels of a PNG; 0: 320 for each square. Sets that are too narrow wrap.
     local_discrepancy : bool
         Colours the background by the discrepancy of the box to each place.
+    title : str, optional
+        The heading of the picture.
+    theme : {"light", "dark"}
 
     Returns
     -------
@@ -78,18 +101,18 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
     Examples
     --------
     >>> import koksma
-    >>> picture = koksma.plot(koksma.generate("n-rooks", 16), witness="star", captions=["n-rooks"])
+    >>> picture = koksma.plot(koksma.generate("n-rooks", 16), witness="star", titles=["n-rooks"])
     >>> picture.save("points.svg")  # doctest: +SKIP
     """
     if not 1 <= len(sets) <= 64:
         raise ArgumentError(f"{len(sets)} sets: it takes 1 to 64")
-    if captions is not None and len(captions) != len(sets):
-        raise ArgumentError(f"{len(captions)} captions for {len(sets)} sets")
+    for name, lines in (("captions", captions), ("titles", titles)):
+        if lines is not None and len(lines) != len(sets):
+            raise ArgumentError(f"{len(lines)} {name} for {len(sets)} sets")
     arrays = [as_points(points) for points in sets]
-    panels, kept = (s.Panel * len(arrays))(), []
-    for i, array in enumerate(arrays):
+    panels, kept = [s.Panel() for _ in arrays], []
+    for i, (array, panel) in enumerate(zip(arrays, panels)):
         c_points = view(array)
-        panel = panels[i]
         panel.points = ctypes.pointer(c_points)
         panel.scatter.columns = whole("columns", columns, 0, 65536)
         panel.scatter.rows = whole("rows", rows, 0, 65536)
@@ -105,15 +128,20 @@ def plot(*sets: npt.ArrayLike, witness: Optional[str] = None, columns: SupportsI
             kept.append(value)
         if caption:
             panel.caption = without_zero("a caption", caption.encode())
+        if titles is not None:
+            panel.title = without_zero("a title", titles[i].encode())
         kept.append((c_points, array))
-
-    def draw(format: int, data: Any, n: Any, _kept: Any = kept) -> int:  # the panels' memory lives as long as the picture
-        return lab().koksma_plot_panels(panels, len(arrays), size, format, data, n)
-
-    return Picture(draw)
+    return _figure([panels], title, size, theme, kept)
 
 
-def plot_convergence(*results: Convergence, size: float = 0) -> Picture:
+def _colours(patterns: Sequence[str]) -> Sequence[int]:
+    """The numbers of the colours that patterns have in all pictures."""
+    numbers = (c_size_t * len(patterns))()
+    check(lab().koksma_plot_colours((c_char_p * len(patterns))(*(p.encode() for p in patterns)), len(patterns), numbers))
+    return numbers
+
+
+def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str] = None, theme: str = "light") -> Picture:
     """Draws measures against the number of points on logarithmic axes, with the standard errors of the means.
 
     Parameters
@@ -122,6 +150,9 @@ def plot_convergence(*results: Convergence, size: float = 0) -> Picture:
         Each a curve, named by its pattern; all of one measure, or the measure's name stands beside.
     size : float
         Width in points, or pixels of a PNG; 0: 480.
+    title : str, optional
+        The heading; else the measure.
+    theme : {"light", "dark"}
 
     Returns
     -------
@@ -131,15 +162,12 @@ def plot_convergence(*results: Convergence, size: float = 0) -> Picture:
         raise ArgumentError("it takes at least one Convergence")
     one = len({r.measure for r in results}) == 1
     curves, kept = (s.Curve * len(results))(), []
-    for i, r in enumerate(results):
+    for i, (r, colour) in enumerate(zip(results, _colours([r.pattern for r in results]))):
         xs, ys, errors = ((c_double * len(r.sizes))(*column) for column in (r.sizes, r.mean, r.standard_error))
         label = r.pattern if one else f"{r.pattern}, {r.measure}"
-        curves[i] = s.Curve(f"{label}: {r.slope:.2f}".encode(), len(r.sizes), xs, ys, errors if len(r.values) > 1 else None, True,
-                            False, i)
+        curves[i] = s.Curve(f"{label}: slope {r.slope:.2f}".encode(), len(r.sizes), xs, ys, errors if len(r.values) > 1 else None,
+                            True, False, colour)
         kept.append((xs, ys, errors))
-    chart = s.Chart(b"points", results[0].measure.encode() if one else b"value", True, True, curves, len(results), False, 0, size)
-
-    def draw(format: int, data: Any, n: Any, _kept: Any = kept) -> int:
-        return lab().koksma_plot_chart(byref(chart), format, data, n)
-
-    return Picture(draw)
+    measure = results[0].measure if one else "value"
+    chart = s.Chart(b"n", measure.encode(), True, True, curves, len(results))
+    return _figure([[chart]], f"Convergence of {measure}" if title is None and one else title, size, theme, (curves, kept))

@@ -118,7 +118,7 @@ class ScatterOptions(Structure):
 
 class Panel(Structure):
     _fields_ = [("points", POINTER(Points)), ("scatter", ScatterOptions), ("spectrum", POINTER(Spectrum)), ("white", c_double),
-                ("caption", c_char_p)]
+                ("caption", c_char_p), ("title", c_char_p), ("swatch", c_size_t)]
 
 
 class Curve(Structure):
@@ -128,7 +128,17 @@ class Curve(Structure):
 
 class Chart(Structure):
     _fields_ = [("x_label", c_char_p), ("y_label", c_char_p), ("log_x", c_bool), ("log_y", c_bool), ("curves", POINTER(Curve)),
-                ("n_curves", c_size_t), ("has_level", c_bool), ("level", c_double), ("size", c_double)]
+                ("n_curves", c_size_t), ("has_level", c_bool), ("level", c_double), ("size", c_double),
+                ("title", c_char_p)]
+
+
+class Cell(Structure):
+    _fields_ = [("panel", POINTER(Panel)), ("chart", POINTER(Chart)), ("row", c_size_t)]
+
+
+class Figure(Structure):
+    _fields_ = [("title", c_char_p), ("cells", POINTER(Cell)), ("n_cells", c_size_t), ("width", c_double), ("height", c_double),
+                ("wrap", c_bool), ("dark", c_bool)]
 
 
 class StudyOptions(Structure):
@@ -219,7 +229,8 @@ LAYOUTS = [
     ("image.h", "koksma_coherence", Coherence), ("image.h", "koksma_coherence_values", CoherenceValues),
     ("render.h", "koksma_use_group", UseGroup), ("render.h", "koksma_render_options", RenderOptions),
     ("series.h", "koksma_line", Line), ("plot.h", "koksma_scatter_options", ScatterOptions), ("plot.h", "koksma_panel", Panel),
-    ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("study.h", "koksma_study_options", StudyOptions),
+    ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("plot.h", "koksma_cell", Cell),
+    ("plot.h", "koksma_figure", Figure), ("study.h", "koksma_study_options", StudyOptions),
     ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
     ("study.h", "koksma_study_row", StudyRow),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),

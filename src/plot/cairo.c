@@ -1,115 +1,106 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The module koksma-cairo.so: the strokes of canvas.h by cairo, into memory. */
+/* The module koksma-cairo.so: the strokes of backend.h as PDF and PNG by cairo, into memory. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
 
 #include "modules/module_side.h"
-#include "plot/canvas.h"
+#include "plot/backend.h"
 
-struct koksma__canvas {
+typedef struct picture {
+    koksma__canvas base;
     koksma_plot_format format;
     cairo_surface_t *surface;
     cairo_t *cairo;
     unsigned char *bytes;
     size_t size, room;
     bool failed;
-};
+} picture;
 
 static cairo_status_t append(void *context, const unsigned char *data, unsigned int length)
 {
-    koksma__canvas *canvas = context;
-    if (canvas->size + length > canvas->room) {
-        const size_t room = 2 * (canvas->size + length);
-        unsigned char *bytes = realloc(canvas->bytes, room);
+    picture *p = context;
+    if (p->size + length > p->room) {
+        const size_t room = 2 * (p->size + length);
+        unsigned char *bytes = realloc(p->bytes, room);
         if (!bytes) {
-            canvas->failed = true;
+            p->failed = true;
             return CAIRO_STATUS_NO_MEMORY;
         }
-        canvas->bytes = bytes;
-        canvas->room = room;
+        p->bytes = bytes;
+        p->room = room;
     }
-    memcpy(canvas->bytes + canvas->size, data, length);
-    canvas->size += length;
+    memcpy(p->bytes + p->size, data, length);
+    p->size += length;
     return CAIRO_STATUS_SUCCESS;
 }
 
-static koksma_status open_canvas(koksma_plot_format format, double width, double height, koksma__canvas **out)
+static koksma_status open_canvas(koksma_plot_format format, double width, double height, const char *title,
+                                 koksma__canvas **out)
 {
-    koksma__canvas *canvas = *out = calloc(1, sizeof *canvas);
-    if (!canvas) {
-        return koksma__fail_memory(sizeof *canvas);
+    picture *p = calloc(1, sizeof *p);
+    if (!p) {
+        return koksma__fail_memory(sizeof *p);
     }
-    canvas->format = format;
-    if (format == KOKSMA_PLOT_SVG) {
-        canvas->surface = cairo_svg_surface_create_for_stream(append, canvas, width, height);
-    } else if (format == KOKSMA_PLOT_PDF) {
-        canvas->surface = cairo_pdf_surface_create_for_stream(append, canvas, width, height);
+    *out = &p->base;
+    p->format = format;
+    if (format == KOKSMA_PLOT_PDF) {
+        p->surface = cairo_pdf_surface_create_for_stream(append, p, width, height);
         /* The same bytes on every run. */
-        cairo_pdf_surface_set_metadata(canvas->surface, CAIRO_PDF_METADATA_CREATE_DATE, "1991-01-01T00:00:00Z");
+        cairo_pdf_surface_set_metadata(p->surface, CAIRO_PDF_METADATA_CREATE_DATE, "1991-01-01T00:00:00Z");
+        cairo_pdf_surface_set_metadata(p->surface, CAIRO_PDF_METADATA_TITLE, title);
     } else {
-        canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
+        p->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
     }
-    canvas->cairo = cairo_create(canvas->surface);
-    cairo_set_source_rgb(canvas->cairo, 1, 1, 1);
-    cairo_paint(canvas->cairo);
+    p->cairo = cairo_create(p->surface);
+    cairo_select_font_face(p->cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     return KOKSMA_OK;
 }
 
-static void stroke_or_fill(koksma__canvas *canvas, double thickness, koksma__colour colour)
+static void stroke_or_fill(const picture *p, koksma__style style)
 {
-    cairo_set_source_rgba(canvas->cairo, colour.r, colour.g, colour.b, colour.a);
-    if (thickness > 0) {
-        cairo_set_line_width(canvas->cairo, thickness);
-        cairo_stroke(canvas->cairo);
-    } else {
-        cairo_fill(canvas->cairo);
+    const double *dashes = p->base.dashes[style.dash];
+    int n = 0;
+    while (dashes[n] > 0) {
+        n++;
     }
+    cairo_set_source_rgba(p->cairo, style.colour.r, style.colour.g, style.colour.b, style.colour.a);
+    cairo_set_dash(p->cairo, dashes, n, 0);
+    cairo_set_line_width(p->cairo, style.thickness);
+    style.thickness > 0 ? cairo_stroke(p->cairo) : cairo_fill(p->cairo);
 }
 
-static void clip(koksma__canvas *canvas, double x, double y, double width, double height)
+static void path(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style)
 {
-    cairo_reset_clip(canvas->cairo);
-    cairo_rectangle(canvas->cairo, x, y, width, height);
-    cairo_clip(canvas->cairo);
+    const picture *p = (picture *)canvas;
+    for (size_t i = 0; i < n; i++) {
+        cairo_line_to(p->cairo, xys[2 * i], xys[2 * i + 1]);
+    }
+    stroke_or_fill(p, style);
 }
 
-static void line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, double thickness,
-                 koksma__colour colour)
+static void box(koksma__canvas *canvas, koksma__box b, koksma__style style)
 {
-    cairo_move_to(canvas->cairo, x0, y0);
-    cairo_line_to(canvas->cairo, x1, y1);
-    stroke_or_fill(canvas, thickness, colour);
+    const picture *p = (picture *)canvas;
+    cairo_rectangle(p->cairo, b.x, b.y, b.width, b.height);
+    stroke_or_fill(p, style);
 }
 
-static void box(koksma__canvas *canvas, double x, double y, double width, double height, double thickness,
-                koksma__colour colour)
+static void circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style)
 {
-    cairo_rectangle(canvas->cairo, x, y, width, height);
-    stroke_or_fill(canvas, thickness, colour);
+    const picture *p = (picture *)canvas;
+    cairo_new_sub_path(p->cairo);
+    cairo_arc(p->cairo, x, y, radius, 0, 2 * M_PI);
+    stroke_or_fill(p, style);
 }
 
-static void circle(koksma__canvas *canvas, double x, double y, double radius, double thickness, koksma__colour colour)
+static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, int rows, const unsigned char *rgb)
 {
-    cairo_new_sub_path(canvas->cairo);
-    cairo_arc(canvas->cairo, x, y, radius, 0, 2 * M_PI);
-    stroke_or_fill(canvas, thickness, colour);
-}
-
-static void dash(koksma__canvas *canvas, koksma__dash dash, double along)
-{
-    static const double dashes[][2] = {{0, 0}, {9, 3}, {2, 2}, {4, 3}};
-    cairo_set_dash(canvas->cairo, dashes[dash], dash == KOKSMA__DASH_WHOLE ? 0 : 2, along);
-}
-
-static bool pixels(koksma__canvas *canvas, double x, double y, double width, double height, int columns, int rows,
-                   const unsigned char *rgb)
-{
+    const picture *p = (picture *)canvas;
     cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, rows);
     unsigned char *data = cairo_image_surface_get_data(image);
     const size_t stride = (size_t)cairo_image_surface_get_stride(image);
@@ -121,81 +112,50 @@ static bool pixels(koksma__canvas *canvas, double x, double y, double width, dou
         }
     }
     cairo_surface_mark_dirty(image);
-    cairo_save(canvas->cairo);
-    cairo_translate(canvas->cairo, x, y);
-    cairo_scale(canvas->cairo, width / columns, height / rows);
-    cairo_set_source_surface(canvas->cairo, image, 0, 0);
+    cairo_save(p->cairo);
+    cairo_translate(p->cairo, b.x, b.y);
+    cairo_scale(p->cairo, b.width / columns, b.height / rows);
+    cairo_set_source_surface(p->cairo, image, 0, 0);
     /* Enlarged squares keep sharp edges; where there are more squares than pixels, they are averaged. */
-    const bool enlarged = canvas->format != KOKSMA_PLOT_PNG || width >= columns;
-    cairo_pattern_set_filter(cairo_get_source(canvas->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
-    cairo_rectangle(canvas->cairo, 0, 0, columns, rows);
-    cairo_fill(canvas->cairo);
-    cairo_restore(canvas->cairo);
+    const bool enlarged = p->format != KOKSMA_PLOT_PNG || b.width >= columns;
+    cairo_pattern_set_filter(cairo_get_source(p->cairo), enlarged ? CAIRO_FILTER_NEAREST : CAIRO_FILTER_GOOD);
+    cairo_rectangle(p->cairo, 0, 0, columns, rows);
+    cairo_fill(p->cairo);
+    cairo_restore(p->cairo);
     cairo_surface_destroy(image);
-    return data != NULL;
-}
-
-/* Of the character that begins here, in bytes; 0: no UTF-8. */
-static size_t utf8_length(const unsigned char *s)
-{
-    const size_t length = s[0] < 0x80 ? 1 : s[0] < 0xc2 ? 0 : s[0] < 0xe0 ? 2 : s[0] < 0xf0 ? 3 : s[0] < 0xf5 ? 4 : 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((s[i] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    const bool wrong = (s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || /* long, or half a pair */
-                       (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] > 0x8f);
-    return wrong ? 0 : length;
-}
-
-/* A text that Cairo takes: bytes that are no UTF-8, as a file's name may have, are '?'. */
-static char *as_utf8(const char *text)
-{
-    char *out = strdup(text);
-    for (size_t i = 0; out && out[i];) {
-        const size_t length = utf8_length((const unsigned char *)out + i);
-        out[i] = length ? out[i] : '?';
-        i += length ? length : 1;
-    }
-    return out;
+    return data ? KOKSMA_OK : koksma__fail_memory(4 * (size_t)columns * (size_t)rows);
 }
 
 static void put_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                      koksma__colour colour)
 {
+    const picture *p = (picture *)canvas;
     cairo_text_extents_t extents;
-    char *shown = as_utf8(text);
-    if (!shown) {
-        canvas->failed = true;
-        return;
-    }
-    cairo_select_font_face(canvas->cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(canvas->cairo, height);
-    cairo_text_extents(canvas->cairo, shown, &extents);
-    cairo_set_source_rgba(canvas->cairo, colour.r, colour.g, colour.b, colour.a);
-    cairo_move_to(canvas->cairo, x - anchor * extents.x_advance, y);
-    cairo_show_text(canvas->cairo, shown);
-    cairo_new_path(canvas->cairo);
-    free(shown);
+    cairo_set_font_size(p->cairo, height);
+    cairo_text_extents(p->cairo, text, &extents);
+    cairo_set_source_rgba(p->cairo, colour.r, colour.g, colour.b, colour.a);
+    cairo_move_to(p->cairo, x - anchor * extents.x_advance, y);
+    cairo_show_text(p->cairo, text);
+    cairo_new_path(p->cairo);
 }
 
 static koksma_status close_canvas(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
 {
-    if (canvas->format == KOKSMA_PLOT_PNG) {
-        cairo_surface_write_to_png_stream(canvas->surface, append, canvas);
+    picture *p = (picture *)canvas;
+    if (p->format == KOKSMA_PLOT_PNG) {
+        cairo_surface_write_to_png_stream(p->surface, append, p);
     }
-    cairo_surface_finish(canvas->surface);
-    const bool failed = canvas->failed || cairo_status(canvas->cairo) != CAIRO_STATUS_SUCCESS ||
-                        cairo_surface_status(canvas->surface) != CAIRO_STATUS_SUCCESS || canvas->size == 0;
-    cairo_destroy(canvas->cairo);
-    cairo_surface_destroy(canvas->surface);
-    *bytes = failed ? NULL : canvas->bytes;
-    *size = failed ? 0 : canvas->size;
+    cairo_surface_finish(p->surface);
+    const bool failed = p->failed || cairo_status(p->cairo) != CAIRO_STATUS_SUCCESS ||
+                        cairo_surface_status(p->surface) != CAIRO_STATUS_SUCCESS || p->size == 0;
+    cairo_destroy(p->cairo);
+    cairo_surface_destroy(p->surface);
+    *bytes = failed ? NULL : p->bytes;
+    *size = failed ? 0 : p->size;
     if (failed) {
-        free(canvas->bytes);
+        free(p->bytes);
     }
-    free(canvas);
+    free(p);
     return failed ? koksma__fail(KOKSMA_SYSTEM, "the picture could not be drawn") : KOKSMA_OK;
 }
 
@@ -206,6 +166,6 @@ static const char *library(void)
     return text;
 }
 
-static const koksma__canvas_functions functions = {open_canvas, clip,   line,     box,          circle,
-                                                   dash,        pixels, put_text, close_canvas, library};
+static const koksma__canvas_functions functions = {open_canvas, path,     box,          circle,
+                                                   pixels,      put_text, close_canvas, library};
 KOKSMA__MODULE(functions)

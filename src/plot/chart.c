@@ -1,28 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, and
-   at 2 and 5 times these where the axis spans less than two decades. */
+/*
+ * Curves on a pair of axes. Ticks are at 1, 2 or 5 times powers of ten; on a logarithmic axis at powers of ten, at 2 and
+ * 5 times these where it spans less than two decades, or at the few abscissas that marks have. From top to bottom:
+ * title, label of y, axes, ticks and label of x, and the legend, where it hides nothing.
+ */
+#include "plot/chart.h"
+
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/c_locale.h"
 #include "core/status.h"
-#include "plot/canvas.h"
 
-enum { LEFT = 58, RIGHT = 14, TOP = 28, BOTTOM = 40, LINE = 15, TEXT = 11, N_COLOURS = 6, MAX_TICKS = 64 };
-
-static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, grid = {0.88, 0.89, 0.92, 1},
-                            guide = {0.45, 0.45, 0.5, 1};
-/* After Wong 2011 (Nature Methods 8, 441): told apart with any colour vision. */
-static const koksma__colour colours[N_COLOURS] = {{0.00, 0.45, 0.70, 1}, {0.84, 0.37, 0.00, 1},
-                                                  {0.00, 0.62, 0.45, 1}, {0.80, 0.47, 0.65, 1},
-                                                  {0.34, 0.71, 0.91, 1}, {0.90, 0.62, 0.00, 1}};
+enum { MARGIN = 8, TITLE = 13, TEXT = 11, SWATCH = 28, MAX_TICKS = 64, MAX_SIZES = 12, TICK = 32 };
 
 typedef struct axis {
     double low, high; /* of the values, or of their logarithms to base 10 */
     bool log;
     double from, to; /* on the canvas */
 } axis;
+
+typedef struct axes {
+    koksma__canvas *canvas;
+    const koksma__theme *theme;
+    axis x, y;
+    koksma__box box;
+} axes;
 
 static double scaled(const axis *a, double value)
 {
@@ -43,15 +48,9 @@ static void widen(axis *a, double value)
     }
 }
 
-static koksma_status check_curves(const koksma_chart *c)
+static double error_of(const koksma_curve *k, size_t j)
 {
-    koksma_status status = koksma__array_check("chart->curves", c->curves, c->n_curves, sizeof *c->curves);
-    for (size_t i = 0; i < c->n_curves && !status; i++) {
-        const koksma_curve *k = &c->curves[i];
-        status = koksma__array_check("curves->xs", k->xs, k->n, sizeof *k->xs);
-        status = status ? status : koksma__array_check("curves->ys", k->ys, k->n, sizeof *k->ys);
-    }
-    return status;
+    return k->errors && isfinite(k->errors[j]) && k->errors[j] > 0 ? k->errors[j] : 0;
 }
 
 static void find_ranges(const koksma_chart *c, axis *x, axis *y)
@@ -60,10 +59,10 @@ static void find_ranges(const koksma_chart *c, axis *x, axis *y)
         const koksma_curve *k = &c->curves[i];
         for (size_t j = 0; j < k->n && !k->dashed; j++) {
             if (isfinite(scaled(x, k->xs[j])) && isfinite(scaled(y, k->ys[j]))) {
-                const double error = k->errors && isfinite(k->errors[j]) ? k->errors[j] : 0;
+                const double low = k->ys[j] - error_of(k, j);
                 widen(x, k->xs[j]);
-                widen(y, k->ys[j] + error);
-                widen(y, k->ys[j] - error > 0 || !y->log ? k->ys[j] - error : k->ys[j]);
+                widen(y, k->ys[j] + error_of(k, j));
+                widen(y, low > 0 || !y->log ? low : k->ys[j]);
             }
         }
     }
@@ -85,150 +84,298 @@ static bool settle(axis *a, double room)
     return true;
 }
 
-static int find_ticks(const axis *a, double ticks[MAX_TICKS])
+koksma_status koksma__chart_check(const koksma_chart *c)
+{
+    koksma_status status = koksma__array_check("chart->curves", c->curves, c->n_curves, sizeof *c->curves);
+    for (size_t i = 0; i < c->n_curves && !status; i++) {
+        const koksma_curve *k = &c->curves[i];
+        status = koksma__array_check("curves->xs", k->xs, k->n, sizeof *k->xs);
+        status = status ? status : koksma__array_check("curves->ys", k->ys, k->n, sizeof *k->ys);
+    }
+    axis x = {HUGE_VAL, -HUGE_VAL, c->log_x, 0, 1}, y = {HUGE_VAL, -HUGE_VAL, c->log_y, 0, 1};
+    if (!status) {
+        find_ranges(c, &x, &y);
+    }
+    return status || (settle(&x, 0) && settle(&y, 0))
+               ? status
+               : koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn",
+                              c->y_label ? c->y_label : "chart");
+}
+
+/* ---- Ticks -------------------------------------------------------------------------------------------- */
+
+static int linear_ticks(double low, double high, double most, double ticks[MAX_TICKS])
 {
     int n = 0;
-    if (a->log) {
-        const bool many = a->high - a->low > 2;
-        const double step = fmax(1, ceil((a->high - a->low) / 8));
-        for (double e = floor(a->low); e <= a->high; e += step) {
-            for (int m = 0; m < (many ? 1 : 3); m++) {
-                const double value = pow(10, e) * (m == 0 ? 1 : m == 1 ? 2 : 5);
-                if (log10(value) >= a->low && log10(value) <= a->high && n < MAX_TICKS) {
-                    ticks[n++] = value;
-                }
-            }
-        }
-        return n;
-    }
-    const double raw = (a->high - a->low) / 6, power = pow(10, floor(log10(raw))), lead = raw / power;
+    const double raw = (high - low) / fmax(most, 2), power = pow(10, floor(log10(raw))), lead = raw / power;
     const double step = power * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
-    for (double i = ceil(a->low / step); i * step <= a->high * (1 + 1e-12) && n < MAX_TICKS; i++) {
+    for (double i = ceil(low / step); i * step <= high + 1e-12 * step && n < MAX_TICKS; i++) {
         ticks[n++] = i * step;
     }
     return n;
 }
 
-static void draw_axes(koksma__canvas *canvas, const koksma_chart *c, const axis *x, const axis *y)
+/* most: labels that there is room for. */
+static int find_ticks(const axis *a, double most, double ticks[MAX_TICKS])
 {
-    double ticks[MAX_TICKS];
-    char text[32];
-    int n = find_ticks(x, ticks);
-    for (int i = 0; i < n; i++) {
-        const double at = place(x, ticks[i]);
-        koksma__canvas_line(canvas, at, y->from, at, y->to, 0.7, grid);
-        koksma__snprintf(text, sizeof text, "%g", ticks[i]);
-        koksma__canvas_text(canvas, at, y->from + 14, TEXT, 0.5, text, ink);
+    if (!a->log) {
+        return linear_ticks(a->low, a->high, most, ticks);
     }
-    n = find_ticks(y, ticks);
-    for (int i = 0; i < n; i++) {
-        const double at = place(y, ticks[i]);
-        koksma__canvas_line(canvas, x->from, at, x->to, at, 0.7, grid);
-        koksma__snprintf(text, sizeof text, "%g", ticks[i]);
-        koksma__canvas_text(canvas, x->from - 5, at + 4, TEXT, 1, text, ink);
+    int n = 0;
+    const int per_decade = a->high - a->low > 2 ? 1 : 3;
+    const double step = fmax(1, ceil((a->high - a->low) / most));
+    for (double e = floor(a->low); e <= a->high; e += step) {
+        for (int m = 0; m < per_decade; m++) {
+            const double value = pow(10, e) * (m == 0 ? 1 : m == 1 ? 2 : 5);
+            if (log10(value) >= a->low && log10(value) <= a->high && n < MAX_TICKS) {
+                ticks[n++] = value;
+            }
+        }
     }
-    koksma__canvas_box(canvas, x->from, y->to, x->to - x->from, y->from - y->to, 1, frame);
-    if (c->x_label) {
-        koksma__canvas_text(canvas, (x->from + x->to) / 2, y->from + 32, TEXT + 1, 0.5, c->x_label, ink);
-    }
-    if (c->y_label) {
-        koksma__canvas_text(canvas, x->from, y->to - 9, TEXT + 1, 0, c->y_label, ink);
-    }
+    return n > 1 ? n : linear_ticks(pow(10, a->low), pow(10, a->high), fmin(most, 4), ticks);
 }
 
-/* Colours repeat after N_COLOURS curves, with other dashes. */
-static koksma__dash dash_of(const koksma_curve *k)
+/* The abscissas of marks, ascending; 0: there are too many for ticks. */
+static int marked_xs(const koksma_chart *c, const axis *x, double ticks[MAX_TICKS])
 {
-    return k->dashed ? KOKSMA__DASH_GUIDE : (koksma__dash)(k->colour / N_COLOURS % KOKSMA__DASH_GUIDE);
-}
-
-static void draw_curve(koksma__canvas *canvas, const koksma_curve *k, const axis *x, const axis *y)
-{
-    const koksma__colour colour = k->dashed ? guide : colours[k->colour % N_COLOURS];
-    double last_x = NAN, last_y = NAN, along = 0;
-    for (size_t j = 0; j < k->n; j++) {
-        const double at_x = place(x, k->xs[j]), at_y = place(y, k->ys[j]);
-        const bool shown = isfinite(at_x) && isfinite(at_y);
-        if (shown && isfinite(last_x)) {
-            koksma__canvas_dash(canvas, dash_of(k), along);
-            koksma__canvas_line(canvas, last_x, last_y, at_x, at_y, k->dashed ? 1 : 1.4, colour);
-            koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
-            along += hypot(at_x - last_x, at_y - last_y);
-        }
-        if (shown && k->marks) {
-            koksma__canvas_circle(canvas, at_x, at_y, 2.6, 0, colour);
-        }
-        if (shown && k->errors && k->errors[j] > 0) {
-            const double up = place(y, k->ys[j] + k->errors[j]), down = place(y, k->ys[j] - k->errors[j]);
-            koksma__canvas_line(canvas, at_x, up, at_x, isfinite(down) ? down : y->from, 0.8, colour);
-        }
-        last_x = shown ? at_x : (double)NAN;
-        last_y = at_y;
-    }
-}
-
-static size_t legend_lines(const koksma_chart *c)
-{
-    size_t lines = 0;
+    int n = 0;
     for (size_t i = 0; i < c->n_curves; i++) {
-        lines += c->curves[i].label != NULL;
+        for (size_t j = 0; j < c->curves[i].n && c->curves[i].marks; j++) {
+            const double value = c->curves[i].xs[j];
+            int at = n;
+            while (at > 0 && ticks[at - 1] >= value) {
+                at--;
+            }
+            if (isfinite(scaled(x, value)) && (at == n || ticks[at] != value)) {
+                if (n == MAX_SIZES) {
+                    return 0;
+                }
+                memmove(ticks + at + 1, ticks + at, (size_t)(n++ - at) * sizeof *ticks);
+                ticks[at] = value;
+            }
+        }
     }
-    return lines;
+    return n > 1 ? n : 0;
 }
 
-/* Below the axes, where it hides nothing. */
-static void draw_legend(koksma__canvas *canvas, const koksma_chart *c, double left, double top)
+/* As %g, without the zeros and the plus of an exponent. */
+static const char *tick_text(double value, char text[TICK])
 {
+    koksma__snprintf(text, TICK, "%.8g", value);
+    char *e = strchr(text, 'e'), *digits = e ? e + 1 : NULL;
+    if (e && (*digits == '+' || *digits == '-')) {
+        e += *digits++ == '-' ? 2 : 1;
+        digits += strspn(digits, "0");
+        memmove(e, digits, strlen(digits) + 1);
+    }
+    return text;
+}
+
+static void draw_ticks(const axes *a, const koksma_chart *c)
+{
+    double ticks[MAX_TICKS], end = -HUGE_VAL;
+    char text[TICK];
+    const koksma__style line = {0.7, a->theme->grid, KOKSMA__DASH_WHOLE};
+    int n = c->log_x ? marked_xs(c, &a->x, ticks) : 0;
+    n = n ? n : find_ticks(&a->x, a->box.width / 55, ticks);
+    for (int i = 0; i < n; i++) {
+        const double at = place(&a->x, ticks[i]), half = koksma__text_width(tick_text(ticks[i], text), TEXT) / 2;
+        koksma__canvas_line(a->canvas, at, a->y.from, at, a->y.to, line);
+        if (at - half > end + 4 && at + half < a->box.x + a->box.width + MARGIN) {
+            koksma__canvas_text(a->canvas, at, a->y.from + 14, TEXT, 0.5, text, a->theme->ink);
+            end = at + half;
+        }
+    }
+    end = HUGE_VAL;
+    n = find_ticks(&a->y, a->box.height / 34, ticks);
+    for (int i = 0; i < n; i++) {
+        const double at = place(&a->y, ticks[i]);
+        koksma__canvas_line(a->canvas, a->x.from, at, a->x.to, at, line);
+        if (at < end - TEXT) {
+            koksma__canvas_text(a->canvas, a->x.from - 5, at + 4, TEXT, 1, tick_text(ticks[i], text), a->theme->ink);
+            end = at;
+        }
+    }
+}
+
+/* The widest label of y, whose ticks depend on the height alone. */
+static double label_width(const axis *y, double height)
+{
+    double ticks[MAX_TICKS], widest = 0;
+    char text[TICK];
+    for (int i = find_ticks(y, height / 34, ticks) - 1; i >= 0; i--) {
+        widest = fmax(widest, koksma__text_width(tick_text(ticks[i], text), TEXT));
+    }
+    return widest + 8;
+}
+
+/* ---- Curves ------------------------------------------------------------------------------------------- */
+
+static koksma__style style_of(const koksma__theme *theme, const koksma_curve *k)
+{
+    return k->dashed ? (koksma__style){1, theme->guide, KOKSMA__DASH_GUIDE}
+                     : koksma__series_style(theme, k->colour, 1.5);
+}
+
+/* A disk, a square, a triangle or a diamond, by the dashes. */
+static void draw_mark(koksma__canvas *canvas, double x, double y, koksma__style style)
+{
+    static const double corners[][8] = {
+        {-1, -1, 1, -1, 1, 1, -1, 1}, {-1.2, 1, 1.2, 1, 0, -1.2}, {0, -1.5, 1.5, 0, 0, 1.5, -1.5, 0}};
+    double at[8];
+    style.thickness = 0;
+    if (style.dash == KOKSMA__DASH_WHOLE || style.dash == KOKSMA__DASH_GUIDE) {
+        koksma__canvas_circle(canvas, x, y, 2.6, style);
+        return;
+    }
+    for (int i = 0; i < 8; i++) {
+        at[i] = (i % 2 ? y : x) + 2.4 * corners[style.dash - 1][i];
+    }
+    koksma__canvas_path(canvas, at, style.dash == KOKSMA__DASH_DOTS ? 3 : 4, style);
+}
+
+/* Standard errors: bars at marks, else a band along a run of points from `first` on. */
+static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size_t n, double *band)
+{
+    koksma__style style = style_of(a->theme, k);
+    bool any = false;
+    for (size_t i = 0; i < n; i++) {
+        const size_t j = first + i;
+        const double x = place(&a->x, k->xs[j]), down = place(&a->y, k->ys[j] - error_of(k, j));
+        double *up = band + 2 * i, *back = band + 2 * (2 * n - 1 - i);
+        up[0] = back[0] = x;
+        up[1] = place(&a->y, k->ys[j] + error_of(k, j));
+        back[1] = isfinite(down) ? down : a->y.from;
+        any = any || error_of(k, j) > 0;
+        if ((k->marks || n == 1) && error_of(k, j) > 0) {
+            koksma__canvas_line(a->canvas, x, up[1], x, back[1],
+                                (koksma__style){0.8, style.colour, KOKSMA__DASH_WHOLE});
+        }
+    }
+    if (any && !k->marks && n > 1) {
+        style.thickness = 0;
+        style.colour.a = 0.2;
+        koksma__canvas_path(a->canvas, band, 2 * n, style);
+    }
+}
+
+/* Runs of points that can be drawn are lines; a run of one has a mark. xys: room for 4 numbers a point. */
+static void draw_curve(const axes *a, const koksma_curve *k, double *xys)
+{
+    const koksma__style style = style_of(a->theme, k);
+    for (size_t j = 0, n; j < k->n; j += n ? n : 1) {
+        for (n = 0; j + n < k->n && isfinite(scaled(&a->x, k->xs[j + n])) && isfinite(scaled(&a->y, k->ys[j + n]));) {
+            n++;
+        }
+        if (k->errors && n) {
+            draw_errors(a, k, j, n, xys);
+        }
+        for (size_t i = 0; i < n; i++) {
+            xys[2 * i] = place(&a->x, k->xs[j + i]);
+            xys[2 * i + 1] = place(&a->y, k->ys[j + i]);
+        }
+        if (n > 1) {
+            koksma__canvas_path_inside(a->canvas, xys, n, a->box, style);
+        }
+        for (size_t i = 0; i < n && (k->marks || n == 1); i++) {
+            draw_mark(a->canvas, xys[2 * i], xys[2 * i + 1], style);
+        }
+    }
+}
+
+/* Entries from left to right, a label that was there before is left out; with a NULL canvas nothing is drawn. The
+   height. */
+static double legend(koksma__canvas *canvas, const koksma__theme *theme, const koksma_chart *c, koksma__box box)
+{
+    const double line = koksma__line_height(TEXT) + 1, right = box.x + box.width;
+    double x = box.x, y = box.y;
     for (size_t i = 0; i < c->n_curves; i++) {
         const koksma_curve *k = &c->curves[i];
-        if (k->label) {
-            koksma__canvas_dash(canvas, dash_of(k), 0);
-            koksma__canvas_line(canvas, left, top - 4, left + 22, top - 4, k->dashed ? 1 : 1.8,
-                                k->dashed ? guide : colours[k->colour % N_COLOURS]);
-            koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
-            koksma__canvas_text(canvas, left + 28, top, TEXT, 0, k->label, ink);
-            top += LINE;
+        bool again = false;
+        for (size_t j = 0; j < i && k->label; j++) {
+            again = again || (c->curves[j].label && !strcmp(c->curves[j].label, k->label) && k->dashed);
         }
+        if (!k->label || again) {
+            continue;
+        }
+        const double width = SWATCH + koksma__text_width(k->label, TEXT);
+        if (y == box.y || x + width > right) {
+            x = box.x;
+            y += line;
+        }
+        if (canvas) {
+            koksma__style style = style_of(theme, k);
+            koksma__canvas_line(canvas, x, y - 4, x + 22, y - 4, style);
+            if (k->marks) {
+                draw_mark(canvas, x + 11, y - 4, style);
+            }
+        }
+        const size_t lines =
+            koksma__canvas_lines(canvas, x + SWATCH, y, fmax(right - x - SWATCH, 1), TEXT, 0, k->label, theme->ink);
+        y += (double)(lines - 1) * koksma__line_height(TEXT);
+        x = lines > 1 ? right : x + width + 14;
     }
+    return y - box.y;
 }
 
-koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format, unsigned char **bytes,
-                                size_t *n_bytes)
+static double lines_height(const char *text, double width, double height)
 {
-    KOKSMA__REQUIRE(chart, bytes, n_bytes);
-    double width;
-    koksma_status sized = koksma__canvas_size(format, chart->size, 480, &width);
-    sized = sized ? sized : check_curves(chart);
-    if (sized) {
-        return sized;
+    return (double)koksma__canvas_lines(NULL, 0, 0, width, height, 0, text, (koksma__colour){0}) *
+           koksma__line_height(height);
+}
+
+enum { ABOVE = 8, TICKS = 20, BELOW = 6 };
+
+double koksma__chart_texts(const koksma_chart *c, double width)
+{
+    const double inner = width - 2 * MARGIN;
+    return lines_height(c->title, inner, TITLE) + lines_height(c->y_label, inner, TEXT) + ABOVE + TICKS +
+           lines_height(c->x_label, inner, TEXT) +
+           legend(NULL, koksma__theme_of(false), c, (koksma__box){.x = MARGIN, .width = inner}) + BELOW + MARGIN;
+}
+
+koksma_status koksma__chart_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_chart *c,
+                                 koksma__box box)
+{
+    const double left = box.x + MARGIN, inner = box.width - 2 * MARGIN;
+    const double height = fmax(box.height - koksma__chart_texts(c, box.width), 1);
+    double y = box.y;
+    koksma__canvas_lines(canvas, left, y + TITLE + 2, inner, TITLE, 0, c->title, theme->ink);
+    y += lines_height(c->title, inner, TITLE);
+    koksma__canvas_lines(canvas, left, y + TEXT + 2, inner, TEXT, 0, c->y_label, theme->ink);
+    y += lines_height(c->y_label, inner, TEXT) + ABOVE;
+    axes a = {canvas,
+              theme,
+              {HUGE_VAL, -HUGE_VAL, c->log_x, 0, 0},
+              {HUGE_VAL, -HUGE_VAL, c->log_y, y + height, y},
+              {.x = 0}};
+    find_ranges(c, &a.x, &a.y);
+    settle(&a.x, c->log_x ? 0.04 : 0.01);
+    settle(&a.y, 0.05);
+    a.x.from = left + label_width(&a.y, height);
+    a.x.to = fmax(left + inner - 4, a.x.from + 1);
+    a.box = (koksma__box){a.x.from, y, a.x.to - a.x.from, height};
+    draw_ticks(&a, c);
+    koksma__canvas_box(canvas, a.box, (koksma__style){1, theme->frame, KOKSMA__DASH_WHOLE});
+    if (c->has_level) {
+        const double at = place(&a.y, c->level);
+        koksma__canvas_line(canvas, a.x.from, at, a.x.to, at, (koksma__style){1, theme->guide, KOKSMA__DASH_GUIDE});
     }
-    const double height = fmax(0.62 * width, TOP + BOTTOM + 40);
-    axis x = {HUGE_VAL, -HUGE_VAL, chart->log_x, LEFT, fmax(width - RIGHT, LEFT + 40)};
-    axis y = {HUGE_VAL, -HUGE_VAL, chart->log_y, height - BOTTOM, TOP};
-    find_ranges(chart, &x, &y);
-    if (!settle(&x, chart->log_x ? 0.04 : 0.01) || !settle(&y, 0.05)) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: there is no value that can be drawn",
-                            chart->y_label ? chart->y_label : "chart");
+    size_t longest = 1;
+    for (size_t i = 0; i < c->n_curves; i++) {
+        longest = c->curves[i].n > longest ? c->curves[i].n : longest;
     }
-    const size_t lines = legend_lines(chart);
-    koksma__canvas *canvas;
-    const koksma_status opened = koksma__canvas_open(format, fmax(width, LEFT + 40 + RIGHT),
-                                                     height + (double)lines * LINE + (lines ? 8 : 0), &canvas);
-    if (opened) {
-        return opened;
+    double *xys = malloc(4 * longest * sizeof *xys);
+    for (size_t i = 0; i < c->n_curves && xys; i++) {
+        draw_curve(&a, &c->curves[i], xys);
     }
-    draw_axes(canvas, chart, &x, &y);
-    koksma__canvas_clip(canvas, x.from, y.to, x.to - x.from, y.from - y.to);
-    if (chart->has_level) {
-        const double at = place(&y, chart->level);
-        koksma__canvas_dash(canvas, KOKSMA__DASH_GUIDE, 0);
-        koksma__canvas_line(canvas, x.from, at, x.to, at, 1, guide);
-        koksma__canvas_dash(canvas, KOKSMA__DASH_WHOLE, 0);
+    free(xys);
+    if (!xys) {
+        return koksma__fail_memory(4 * longest * sizeof *xys);
     }
-    for (size_t i = 0; i < chart->n_curves; i++) {
-        draw_curve(canvas, &chart->curves[i], &x, &y);
-    }
-    koksma__canvas_clip(canvas, 0, 0, width, height + (double)lines * LINE + 8);
-    draw_legend(canvas, chart, LEFT, height + 6);
-    return koksma__canvas_close(canvas, bytes, n_bytes);
+    y += height + TICKS;
+    koksma__canvas_lines(canvas, left + inner / 2, y + TEXT, inner, TEXT, 0.5, c->x_label, theme->ink);
+    y += lines_height(c->x_label, inner, TEXT) + BELOW;
+    legend(canvas, theme, c, (koksma__box){left, y, inner, 0});
+    return KOKSMA_OK;
 }

@@ -1,27 +1,40 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991, or through a map with the borders of its
-   cells, as in figure 5.34, and power spectra, one beside another. */
+/*
+ * Point sets in the unit square, as in figures 5.13 to 5.27 of Shirley 1991, or through a map with the borders of its
+ * cells, as in figure 5.34; points of more dimensions as their projections on all pairs of axes, the lower triangle of
+ * a scatter matrix; and power spectra.
+ */
+#include "plot/scatter.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/atomic_file.h"
 #include "core/c_locale.h"
 #include "core/points_io.h"
 #include "core/status.h"
 #include "measures/shared/spectrum.h"
-#include "plot/canvas.h"
 
-static const koksma__colour ink = {0.1, 0.1, 0.12, 1}, frame = {0.35, 0.35, 0.4, 1}, guide = {0.5, 0.58, 0.74, 1},
-                            mark = {0.85, 0.25, 0.1, 0.9}, wash = {0.95, 0.5, 0.3, 0.25};
+enum { MARGIN = 6, TITLE = 12, TEXT = 11, LABEL = 10, SWATCH = 12, FAR = 100, CURVE = 96, LOCAL = 256, NOTE = 128 };
 
-enum { MARGIN = 6, LINE = 20, FAR = 100, CURVE = 96, LOCAL = 256 };
-
+/* A square of the picture that shows coordinates axes[0] and axes[1] of points. */
 typedef struct plot {
     koksma__canvas *canvas;
+    const koksma__theme *theme;
     double left, top, side;
+    int axes[2];
 } plot;
+
+static koksma__style line_of(koksma__colour colour, double thickness)
+{
+    return (koksma__style){thickness, colour, KOKSMA__DASH_WHOLE};
+}
+
+static koksma__box square(const plot *p)
+{
+    return (koksma__box){p->left, p->top, p->side, p->side};
+}
 
 static double at_x(const plot *p, double x)
 {
@@ -53,17 +66,13 @@ static void position(const plot *p, const koksma_warp *warp, const double in[2],
 static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double value)
 {
     const int pieces = warp ? CURVE : 1;
-    double from[2], to[2], in[2];
+    double xys[2 * (CURVE + 1)], in[2];
     in[fixed] = value;
-    in[1 - fixed] = 0;
-    position(p, warp, in, from);
-    for (int i = 1; i <= pieces; i++) {
+    for (int i = 0; i <= pieces; i++) {
         in[1 - fixed] = (double)i / pieces;
-        position(p, warp, in, to);
-        koksma__canvas_line(p->canvas, from[0], from[1], to[0], to[1], 0.8, guide);
-        from[0] = to[0];
-        from[1] = to[1];
+        position(p, warp, in, xys + 2 * i);
     }
+    koksma__canvas_path(p->canvas, xys, (size_t)pieces + 1, line_of(p->theme->cell, 0.8));
 }
 
 /* The borders between cells. With a warp also the border of the square, which in a disk is the line where it is cut
@@ -81,42 +90,56 @@ static void draw_guides(const plot *p, const koksma_scatter_options *o)
 static void draw_frame(const plot *p, const koksma_warp *warp)
 {
     const double right = p->left + p->side, bottom = p->top + p->side;
+    const koksma__style style = line_of(p->theme->frame, 1);
     if (!warp) {
-        koksma__canvas_box(p->canvas, p->left, p->top, p->side, p->side, 1, frame);
+        koksma__canvas_box(p->canvas, square(p), style);
     } else if (warp->domain == KOKSMA_DOMAIN_TRIANGLE) {
-        koksma__canvas_line(p->canvas, p->left, p->top, p->left, bottom, 1, frame);
-        koksma__canvas_line(p->canvas, p->left, bottom, right, bottom, 1, frame);
-        koksma__canvas_line(p->canvas, p->left, p->top, right, bottom, 1, frame);
+        koksma__canvas_path(p->canvas, (double[]){p->left, p->top, p->left, bottom, right, bottom, p->left, p->top},
+                            4, style);
     } else {
-        koksma__canvas_circle(p->canvas, p->left + p->side / 2, p->top + p->side / 2, p->side / 2, 1, frame);
+        koksma__canvas_circle(p->canvas, p->left + p->side / 2, p->top + p->side / 2, p->side / 2, style);
     }
+}
+
+/* A disk with its copies on the torus, as polygons cut at the square. */
+static void draw_disk(const plot *p, const koksma_witness *w)
+{
+    double xys[2 * (KOKSMA__MAX_CORNERS)];
+    for (int copy = 0; copy < 9; copy++) {
+        for (int i = 0; i < KOKSMA__MAX_CORNERS; i++) {
+            const double angle = 2 * M_PI * i / (KOKSMA__MAX_CORNERS - 1);
+            xys[2 * i] = at_x(p, w->lo[0] + copy % 3 - 1 + w->hi[0] * cos(angle));
+            xys[2 * i + 1] = at_y(p, w->lo[1] + copy / 3 - 1 + w->hi[0] * sin(angle));
+        }
+        koksma__canvas_path_inside(p->canvas, xys, KOKSMA__MAX_CORNERS, square(p), line_of(p->theme->wash, 0));
+        koksma__canvas_path_inside(p->canvas, xys, KOKSMA__MAX_CORNERS, square(p), line_of(p->theme->mark, 1.2));
+    }
+}
+
+static void draw_half_plane(const plot *p, const koksma_witness *w)
+{
+    const double norm = hypot(w->lo[0], w->lo[1]), a = w->lo[0] / norm, b = w->lo[1] / norm, reach = 2;
+    const double x = a * w->hi[0] / norm, y = b * w->hi[0] / norm;
+    /* the line, and a band as wide as `reach` inwards from it */
+    const double xys[] = {at_x(p, x - reach * b),       at_y(p, y + reach * a),       at_x(p, x + reach * b),
+                          at_y(p, y - reach * a),       at_x(p, x + reach * (b - a)), at_y(p, y - reach * (a + b)),
+                          at_x(p, x - reach * (a + b)), at_y(p, y + reach * (a - b))};
+    koksma__canvas_path_inside(p->canvas, xys, 4, square(p), line_of(p->theme->wash, 0));
+    koksma__canvas_path_inside(p->canvas, xys, 2, square(p), line_of(p->theme->mark, 1.2));
 }
 
 static void draw_witness(const plot *p, const koksma_witness *w)
 {
-    if (w->kind == KOKSMA_WITNESS_BOX && w->dim >= 2) {
-        const double x = at_x(p, w->lo[0]), y = at_y(p, w->hi[1]);
-        const double width = (w->hi[0] - w->lo[0]) * p->side, height = (w->hi[1] - w->lo[1]) * p->side;
-        koksma__canvas_box(p->canvas, x, y, width, height, 0, wash);
-        koksma__canvas_box(p->canvas, x, y, width, height, 1.2, mark);
+    if (w->kind == KOKSMA_WITNESS_BOX && w->dim > p->axes[1]) {
+        const int h = p->axes[0], v = p->axes[1];
+        const koksma__box box = {at_x(p, w->lo[h]), at_y(p, w->hi[v]), (w->hi[h] - w->lo[h]) * p->side,
+                                 (w->hi[v] - w->lo[v]) * p->side};
+        koksma__canvas_box(p->canvas, box, line_of(p->theme->wash, 0));
+        koksma__canvas_box(p->canvas, box, line_of(p->theme->mark, 1.2));
     } else if (w->kind == KOKSMA_WITNESS_DISK) {
-        for (int i = -1; i <= 1; i++) {
-            for (int j = -1; j <= 1; j++) { /* the torus' copies; the clip leaves what is in the square */
-                const double x = at_x(p, w->lo[0] + i), y = at_y(p, w->lo[1] + j);
-                koksma__canvas_circle(p->canvas, x, y, w->hi[0] * p->side, 0, wash);
-                koksma__canvas_circle(p->canvas, x, y, w->hi[0] * p->side, 1.2, mark);
-            }
-        }
+        draw_disk(p, w);
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 2) {
-        const double a = w->lo[0], b = w->lo[1], norm = hypot(a, b), reach = 2;
-        const double x = a * w->hi[0] / (norm * norm), y = b * w->hi[0] / (norm * norm);
-        /* the half-plane: a band as wide as `reach`, inwards from the line */
-        const double in_x = x - reach / 2 * a / norm, in_y = y - reach / 2 * b / norm;
-        koksma__canvas_line(p->canvas, at_x(p, in_x - reach * b / norm), at_y(p, in_y + reach * a / norm),
-                            at_x(p, in_x + reach * b / norm), at_y(p, in_y - reach * a / norm), reach * p->side,
-                            wash);
-        koksma__canvas_line(p->canvas, at_x(p, x - reach * b / norm), at_y(p, y + reach * a / norm),
-                            at_x(p, x + reach * b / norm), at_y(p, y - reach * a / norm), 1.2, mark);
+        draw_half_plane(p, w);
     }
 }
 
@@ -141,16 +164,13 @@ static koksma_status draw_local(const plot *p, const koksma_points *points, doub
     for (size_t i = 0; !status && i < n; i++) {
         *scale = fmax(*scale, fabs(values[i]));
     }
-    koksma__canvas_clip(p->canvas, p->left, p->top, p->side, p->side);
     for (size_t row = 0; !status && row < LOCAL; row++) {
         for (size_t column = 0; column < LOCAL; column++) {
             paint(*scale > 0 ? values[(LOCAL - 1 - row) * LOCAL + column] / *scale : 0,
                   rgb + 3 * (row * LOCAL + column));
         }
     }
-    if (!status && !koksma__canvas_pixels(p->canvas, p->left, p->top, p->side, p->side, LOCAL, LOCAL, rgb)) {
-        status = koksma__fail_memory(4 * n);
-    }
+    status = status ? status : koksma__canvas_pixels(p->canvas, square(p), LOCAL, LOCAL, rgb);
     free(values);
     free(rgb);
     return status;
@@ -158,18 +178,47 @@ static koksma_status draw_local(const plot *p, const koksma_points *points, doub
 
 static void draw_points(const plot *p, const koksma_points *points, const koksma_scatter_options *options)
 {
-    koksma__canvas_clip(p->canvas, p->left - 1, p->top - 1, p->side + 2, p->side + 2);
     draw_guides(p, options);
     if (options->witness) {
         draw_witness(p, options->witness);
     }
     draw_frame(p, options->warp);
-    koksma__canvas_clip(p->canvas, p->left - MARGIN, p->top - MARGIN, p->side + 2 * MARGIN, p->side + 2 * MARGIN);
     const double radius = fmax(0.6, fmin(4, 0.14 * p->side / sqrt((double)points->n)));
     for (size_t i = 0; i < points->n; i++) {
+        const double *x = points->xs + i * (size_t)points->dim, in[2] = {x[p->axes[0]], x[p->axes[1]]};
         double at[2];
-        position(p, options->warp, points->xs + i * (size_t)points->dim, at);
-        koksma__canvas_circle(p->canvas, at[0], at[1], radius, 0, ink);
+        position(p, options->warp, in, at);
+        koksma__canvas_circle(p->canvas, at[0], at[1], radius, line_of(p->theme->ink, 0));
+    }
+}
+
+static int dimensions(const koksma_panel *panel)
+{
+    const int dim = panel->points ? panel->points->dim : 2;
+    return dim < KOKSMA_PLOT_MAX_DIM ? dim : KOKSMA_PLOT_MAX_DIM;
+}
+
+/* The lower triangle: coordinate j against i > j, named at the left and below. */
+static void draw_matrix(const plot *p, const koksma_panel *panel)
+{
+    const int n = dimensions(panel) - 1, gap = 4;
+    const double pitch = (p->side - 2 * LABEL) / n;
+    for (int i = 1; i <= n; i++) {
+        char name[16];
+        plot q = *p;
+        q.side = fmax(pitch - gap, 1);
+        q.top = p->top + (i - 1) * pitch;
+        koksma__snprintf(name, sizeof name, "x%d", i + 1);
+        koksma__canvas_text(p->canvas, p->left + 2 * LABEL - 4, q.top + pitch / 2 + 2, LABEL, 1, name, p->theme->ink);
+        for (int j = 0; j < i; j++) {
+            q.axes[0] = j;
+            q.axes[1] = i;
+            q.left = p->left + 2 * LABEL + j * pitch;
+            draw_points(&q, panel->points, &panel->scatter);
+        }
+        koksma__snprintf(name, sizeof name, "x%d", i);
+        koksma__canvas_text(p->canvas, p->left + 2 * LABEL + (i - 0.5) * pitch, p->top + p->side - 6, LABEL, 0.5,
+                            name, p->theme->ink);
     }
 }
 
@@ -187,46 +236,86 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
                    (unsigned char)(255 * fmin(power / white, 1) + 0.5), 3);
         }
     }
-    koksma__canvas_clip(p->canvas, p->left - 1, p->top - 1, p->side + 2, p->side + 2);
-    const bool drawn = koksma__canvas_pixels(p->canvas, p->left, p->top, p->side, p->side, side, side, rgb);
+    const koksma_status status = koksma__canvas_pixels(p->canvas, square(p), side, side, rgb);
     free(rgb);
-    koksma__canvas_box(p->canvas, p->left, p->top, p->side, p->side, 1, frame);
-    return drawn ? KOKSMA_OK : koksma__fail_memory((size_t)side * (size_t)side * 4);
-}
-
-static koksma_status draw_panel(koksma__canvas *canvas, const koksma_panel *panel, double left, double size,
-                                bool scale)
-{
-    const plot p = {canvas, left + MARGIN, MARGIN, size - 2 * MARGIN};
-    koksma_status status = KOKSMA_OK;
-    double line = size + 13;
-    const double white = panel->white > 0 ? panel->white : 2;
-    double largest = 0;
-    if (panel->points) {
-        status = panel->scatter.local_discrepancy ? draw_local(&p, panel->points, &largest) : KOKSMA_OK;
-        draw_points(&p, panel->points, &panel->scatter);
-    } else {
-        status = draw_spectrum(&p, panel->spectrum, white);
-    }
-    koksma__canvas_clip(canvas, left, 0, size, size + 2 * LINE);
-    if (panel->caption) {
-        koksma__canvas_text(canvas, left + size / 2, line, 12, 0.5, panel->caption, ink);
-        line += LINE;
-    }
-    if (scale && panel->spectrum) {
-        char text[128];
-        koksma__snprintf(text, sizeof text, "power 0 (black) to %g (white), frequencies to %d", white,
-                         panel->spectrum->half);
-        koksma__canvas_text(canvas, left + size / 2, line, 11, 0.5, text, ink);
-    } else if (scale && panel->scatter.local_discrepancy) {
-        char text[128];
-        koksma__snprintf(text, sizeof text, "local discrepancy -%.3g (blue) to %.3g (orange)", largest, largest);
-        koksma__canvas_text(canvas, left + size / 2, line, 11, 0.5, text, ink);
-    }
+    koksma__canvas_box(p->canvas, square(p), line_of(p->theme->frame, 1));
     return status;
 }
 
-static koksma_status check_panel(const koksma_panel *panel)
+/* What the colours mean, or which dimensions there are; empty: there is nothing to say. */
+static void put_note(const koksma_panel *panel, double largest, char text[NOTE])
+{
+    *text = '\0';
+    if (!panel->points) {
+        koksma__snprintf(text, NOTE, "power: black 0, white %g; frequencies to %d",
+                         panel->white > 0 ? panel->white : 2, panel->spectrum->half);
+    } else if (panel->scatter.local_discrepancy) {
+        koksma__snprintf(text, NOTE, "local discrepancy -%.4f (blue) to %.4f (orange)", largest, largest);
+    } else if (panel->points->dim > KOKSMA_PLOT_MAX_DIM) {
+        koksma__snprintf(text, NOTE, "the first %d of %d dimensions", KOKSMA_PLOT_MAX_DIM, panel->points->dim);
+    }
+}
+
+static double lines_height(const char *text, double width, double height)
+{
+    return (double)koksma__canvas_lines(NULL, 0, 0, width, height, 0, text, (koksma__colour){0}) *
+           koksma__line_height(height);
+}
+
+double koksma__panel_side(const koksma_panel *panel)
+{
+    return fmax(320, 110 * (dimensions(panel) - 1));
+}
+
+double koksma__panel_title(const koksma_panel *panel, double width)
+{
+    return lines_height(panel->title, width - 2 * (MARGIN + (panel->swatch ? SWATCH : 0)), TITLE);
+}
+
+double koksma__panel_texts(const koksma_panel *panel, double width)
+{
+    char note[NOTE];
+    const double inner = width - 2 * MARGIN;
+    put_note(panel, 0.5, note);
+    const double below = lines_height(panel->caption, inner, TEXT) + lines_height(note, inner, TEXT);
+    return koksma__panel_title(panel, width) + below + (below > 0 ? 2 : 0);
+}
+
+koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_panel *panel,
+                                 koksma__box box, double title, double side)
+{
+    const double inner = box.width - 2 * MARGIN, middle = box.x + box.width / 2;
+    const plot p = {canvas, theme, middle - side / 2 + MARGIN, box.y + title + MARGIN, side - 2 * MARGIN, {0, 1}};
+    koksma_status status = KOKSMA_OK;
+    double largest = 0, y = box.y + title - koksma__panel_title(panel, box.width) + TITLE;
+    if (panel->title) {
+        const double swatch = panel->swatch ? SWATCH : 0;
+        koksma__canvas_lines(canvas, middle + swatch / 2, y, inner - 2 * swatch, TITLE, 0.5, panel->title,
+                             theme->ink);
+        if (panel->swatch) {
+            const double half = fmin(koksma__text_width(panel->title, TITLE), inner - 2 * swatch) / 2;
+            koksma__canvas_box(canvas, (koksma__box){middle - half - swatch / 2, y - 8, 8, 8},
+                               koksma__series_style(theme, panel->swatch - 1, 0));
+        }
+    }
+    if (!panel->points) {
+        status = draw_spectrum(&p, panel->spectrum, panel->white > 0 ? panel->white : 2);
+    } else if (dimensions(panel) > 2) {
+        draw_matrix(&p, panel);
+    } else {
+        status = panel->scatter.local_discrepancy ? draw_local(&p, panel->points, &largest) : KOKSMA_OK;
+        draw_points(&p, panel->points, &panel->scatter);
+    }
+    char note[NOTE];
+    y = box.y + title + side + TEXT;
+    koksma__canvas_lines(canvas, middle, y, inner, TEXT, 0.5, panel->caption, theme->ink);
+    put_note(panel, largest, note);
+    koksma__canvas_lines(canvas, middle, y + lines_height(panel->caption, inner, TEXT), inner, TEXT, 0.5, note,
+                         theme->ink);
+    return status;
+}
+
+koksma_status koksma__panel_check(const koksma_panel *panel)
 {
     const koksma_scatter_options *o = &panel->scatter;
     if (!panel->points) {
@@ -243,6 +332,9 @@ static koksma_status check_panel(const koksma_panel *panel)
     if (o->local_discrepancy && (o->warp || panel->points->dim != 2)) {
         return koksma__fail(KOKSMA_ARGUMENT, "the local discrepancy is drawn of points of the square, 2 dimensions");
     }
+    if (o->warp && panel->points->dim != 2) {
+        return koksma__fail(KOKSMA_DIM, "a map takes points of 2 dimensions, not %d", panel->points->dim);
+    }
     if (o->warp && o->witness) {
         return koksma__fail(KOKSMA_ARGUMENT, "a witness is drawn in the square, not through a map");
     }
@@ -255,86 +347,4 @@ static koksma_status check_panel(const koksma_panel *panel)
         }
     }
     return koksma__points_check(panel->points);
-}
-
-koksma_status koksma__canvas_size(koksma_plot_format format, double asked, double fallback, double *size)
-{
-    if (format != KOKSMA_PLOT_SVG && format != KOKSMA_PLOT_PDF && format != KOKSMA_PLOT_PNG) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%d is no format of a plot", (int)format);
-    }
-    *size = asked == 0 ? fallback : asked;
-    return *size >= KOKSMA_PLOT_MIN_SIZE && *size <= KOKSMA_PLOT_MAX_SIZE
-               ? KOKSMA_OK
-               : koksma__fail(KOKSMA_ARGUMENT, "a picture of size %g: it takes %d to %d", asked, KOKSMA_PLOT_MIN_SIZE,
-                              KOKSMA_PLOT_MAX_SIZE);
-}
-
-koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size, koksma_plot_format format,
-                                 unsigned char **bytes, size_t *n_bytes)
-{
-    KOKSMA__REQUIRE(panels, bytes, n_bytes);
-    bool captions = false, scales = false;
-    double side = 0; /* gcc does not see that a failure leaves before it is used */
-    const koksma_status sized = koksma__canvas_size(format, size, 320, &side);
-    if (sized) {
-        return sized;
-    }
-    if (n == 0 || side * (double)n > KOKSMA_PLOT_MAX_SIZE) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side,
-                            KOKSMA_PLOT_MAX_SIZE);
-    }
-    for (size_t i = 0; i < n; i++) {
-        const koksma_status checked = check_panel(&panels[i]);
-        if (checked) {
-            return checked;
-        }
-        captions = captions || panels[i].caption;
-        scales = scales || !panels[i].points || panels[i].scatter.local_discrepancy;
-    }
-    koksma__canvas *canvas;
-    const koksma_status opened =
-        koksma__canvas_open(format, side * (double)n, side + LINE * ((captions ? 1 : 0) + (scales ? 1 : 0)), &canvas);
-    if (opened) {
-        return opened;
-    }
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; i < n && !status; i++) {
-        status = draw_panel(canvas, &panels[i], side * (double)i, side, scales);
-    }
-    const koksma_status closed = koksma__canvas_close(canvas, bytes, n_bytes);
-    if (status && !closed) {
-        free(*bytes);
-    }
-    return status ? status : closed;
-}
-
-koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
-                                  koksma_plot_format format, unsigned char **bytes, size_t *size)
-{
-    KOKSMA__REQUIRE(points, bytes, size);
-    static const koksma_scatter_options plain = {0};
-    options = options ? options : &plain;
-    const koksma_panel panel = {.points = points, .scatter = *options, .caption = options->caption};
-    return koksma_plot_panels(&panel, 1, options->size, format, bytes, size);
-}
-
-koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format)
-{
-    KOKSMA__REQUIRE(path, format);
-    static const char *const endings[] = {".svg", ".pdf", ".png"};
-    const size_t length = strlen(path);
-    for (int i = 0; i < 3; i++) {
-        if (length > 4 && !strcmp(path + length - 4, endings[i])) {
-            *format = (koksma_plot_format)i;
-            return KOKSMA_OK;
-        }
-    }
-    return koksma__fail(KOKSMA_ARGUMENT, "%s: a picture's name ends in .svg, .pdf or .png", path);
-}
-
-koksma_status koksma_plot_write(const char *path, const unsigned char *bytes, size_t size)
-{
-    KOKSMA__REQUIRE(path, bytes);
-    const koksma_status status = koksma__array_check("bytes", bytes, size, 1);
-    return status ? status : koksma__atomic_put(NULL, path, bytes, size);
 }

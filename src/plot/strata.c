@@ -8,9 +8,10 @@
 
 #include "core/status.h"
 #include "plot/canvas.h"
+#include "plot/figure.h"
 
 static const koksma__colour line = {0.2, 0.35, 0.75, 1}, dot = {0.85, 0.25, 0.1, 1}, ink = {0.1, 0.1, 0.12, 1},
-                            black = {0, 0, 0, 1}, ring = {0, 0.5, 0.2, 1};
+                            black = {0, 0, 0, 1}, ring = {0, 0.5, 0.2, 1}, paper = {1, 1, 1, 1};
 
 enum { MARGIN = 6, CAPTION = 18 };
 
@@ -25,8 +26,8 @@ typedef struct square {
 static void add_box(const square *q, double x, double y, double width, double height, double thickness,
                     koksma__colour colour)
 {
-    koksma__canvas_box(q->canvas, q->x + x * q->side, q->y + y * q->side, width * q->side, height * q->side,
-                       thickness, colour);
+    const koksma__box box = {q->x + x * q->side, q->y + y * q->side, width * q->side, height * q->side};
+    koksma__canvas_box(q->canvas, box, (koksma__style){.thickness = thickness, .colour = colour});
 }
 
 /* From black at 0 to white at 1; where black is a mark, the values' own range from mid-grey on. */
@@ -64,8 +65,8 @@ static void add_needed(const square *q, const koksma_strata_panel *panel)
         const double width = s->width < s->height ? s->width : s->height, radius = 0.5 * width * q->side;
         if (!s->needless) {
             koksma__canvas_circle(q->canvas, q->x + (s->x + s->width / 2) * q->side,
-                                  q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3, s->level ? 1 : 2,
-                                  ring);
+                                  q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3,
+                                  (koksma__style){.thickness = s->level ? 1 : 2, .colour = ring});
         }
     }
 }
@@ -78,7 +79,7 @@ static void add_panel(const square *q, const koksma_strata_panel *panel)
         const koksma_stratum *s = &panel->strata[i];
         add_box(q, s->x, s->y, s->width, s->height, 0.6, line);
         koksma__canvas_circle(q->canvas, q->x + s->at[0] * q->side, q->y + s->at[1] * q->side, s->level ? 1.5 : 2.2,
-                              0, dot);
+                              (koksma__style){.colour = dot});
     }
     add_needed(q, panel);
     if (panel->caption) {
@@ -117,7 +118,7 @@ koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, do
     KOKSMA__REQUIRE(panels, bytes, n_bytes);
     double whole;
     bool captions = false;
-    koksma_status status = koksma__canvas_size(format, size, 320, &whole);
+    koksma_status status = koksma__figure_size(format, size, 320, &whole);
     if (!status && (n < 1 || whole * (double)n > KOKSMA_PLOT_MAX_SIZE)) {
         status = koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, whole,
                               KOKSMA_PLOT_MAX_SIZE);
@@ -130,7 +131,8 @@ koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, do
         return status;
     }
     square q = {.x = MARGIN, .y = MARGIN, .side = whole - 2 * MARGIN};
-    status = koksma__canvas_open(format, (double)n * whole, whole + (captions ? CAPTION : 0), &q.canvas);
+    status = koksma__canvas_open(format, (double)n * whole, whole + (captions ? CAPTION : 0), panels[0].caption,
+                                 paper, &q.canvas);
     for (size_t p = 0; !status && p < n; p++) {
         add_panel(&q, &panels[p]);
         q.x += whole;

@@ -180,6 +180,19 @@ static void *a_chart(void)
     return COPY(koksma_chart, {.x_label = "x", .y_label = "y", .log_x = true, .curves = curves, .n_curves = 1});
 }
 
+static void *a_figure(void)
+{
+    const koksma_cell cells[] = {{.panel = two_panels()}, {.chart = a_chart(), .row = 1}};
+    return COPY(koksma_figure,
+                {.title = "a figure", .cells = a_copy(cells, sizeof cells), .n_cells = 2, .width = 300});
+}
+
+static void *two_specs(void)
+{
+    const char *const specs[] = {a_copy("jittered", 9), a_copy("sobol:scramble=owen", 20)};
+    return a_copy(specs, sizeof specs);
+}
+
 static void *a_strata_panel(void)
 {
     const koksma_stratum stratum = {0, 0, 1, 1, {0.5, 0.5}, 0.5, 0};

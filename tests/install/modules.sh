@@ -13,7 +13,7 @@ loaded() { LD_DEBUG=files "$@" 2>&1 >/dev/null | sed -n 's/.*calling init: //p' 
 
 "$program" generate sobol -n 64 -o points.npy -q
 for command in --help version\ --help "generate jittered -n 64 -o jittered.txt -q" "measure points.npy -m all" "verify points.npy" \
-  "list patterns" "render ball --size 16x16 -n 4 -o ball.png -q"; do
+  "list patterns" "plot points.npy -o points.svg" "render ball --size 16x16 -n 4 -o ball.png -q"; do
   # shellcheck disable=SC2086
   found=$(loaded "$program" $command)
   [ -z "$found" ] || fail "koksma $command loads $found"
@@ -25,7 +25,7 @@ cp "$program" bin/koksma
 alone=$work/bin/koksma
 for module in "$@"; do
   case $module in
-    cairo) set -- plot points.npy -o points.svg ;;
+    cairo) set -- plot points.npy -o points.png ;;
     exr) set -- render ball --size 16x16 -n 4 -o ball.exr -q ;;
     embree)
       printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What plots refuse: sizes, grids, formats and points that can't be drawn. */
+/* What plots refuse (sizes, grids, formats, points that can't be drawn), and what is in them: marks, dashes, colours, and
+   the same bytes each time. tests/plot/pictures.py looks at those of the program. */
 #include <stdlib.h>
 #include <string.h>
 
 #include <koksma/plot.h>
 
 #include "test.h"
+
+enum { COLOURS = 7 };
 
 static double xs[] = {0.5, 0.25, 0.75, 0.125};
 
@@ -63,7 +66,7 @@ static int count(const char *text, const char *what)
 static void splits_are_marked(void **state)
 {
     (void)state;
-    static const char black[] = "rgb(0%,0%,0%)", green[] = "rgb(0%,50%,20%)";
+    static const char black[] = "fill=\"#000000\"", green[] = "stroke=\"#008033\"";
     const koksma_stratum strata[] = {{0, 0, 0.5, 1, {0.2, 0.2}, 0.3, 0}, {0.5, 0, 0.5, 1, {0.7, 0.2}, 0.9, 0}};
     const koksma_split splits[] = {{0, 0, 0.5, 1, 0, true}, {0.5, 0, 0.5, 1, 0, false}, {0.5, 0, 0.1, 0.1, 1, false}};
     const koksma_strata_panel panels[] = {{strata, 2, splits, 3, "a"}, {strata, 2, NULL, 0, NULL}};
@@ -73,10 +76,7 @@ static void splits_are_marked(void **state)
         assert_ok(koksma_plot_strata(panels + first, 2 - first, 0, KOKSMA_PLOT_SVG, &bytes, &size));
         char *text = calloc(size + 1, 1);
         assert_non_null(text);
-        for (size_t i = 0, n = 0; i < size; i++) { /* versions of cairo put spaces into colours, or none */
-            text[n] = (char)bytes[i];
-            n += bytes[i] != ' ';
-        }
+        memcpy(text, bytes, size);
         assert_int_equal(count(text, black), first ? 0 : 1);
         assert_int_equal(count(text, green), first ? 0 : 2);
         free(text);
@@ -100,58 +100,168 @@ static void charts_without_labels(void **state)
     assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
 }
 
-/* The stroke and the dashes of the last line drawn: of the legend's last entry. */
+/* An SVG file as a text, to be freed. */
+static char *chart_text(const koksma_chart *chart)
+{
+    unsigned char *bytes;
+    size_t size;
+    assert_ok(koksma_plot_chart(chart, KOKSMA_PLOT_SVG, &bytes, &size));
+    char *text = calloc(size + 1, 1);
+    assert_non_null(text);
+    memcpy(text, bytes, size);
+    free(bytes);
+    return text;
+}
+
+/* The colour and the dashes of the last <g> of lines: of the legend's last entry. */
 static void last_style(const char *svg, char *out, size_t size)
 {
-    const char *last = NULL; /* versions of cairo write stroke-width:1.8 or stroke-width="1.8" */
-    for (const char *at = svg; (at = strstr(at, "stroke-width")) != NULL; at++) {
-        const char *wide = strstr(at, "1.8");
-        last = wide && wide - at <= 14 ? at : last;
+    const char *last = NULL;
+    for (const char *at = svg; (at = strstr(at, "<g stroke=")) != NULL; at++) {
+        last = at;
     }
     assert_non_null(last);
-    const char *end = strstr(last, " d=\"");
-    const size_t n = (size_t)(end - last);
-    assert_true(end && n < size);
+    const size_t n = strcspn(last, ">");
+    assert_true(n < size);
     memcpy(out, last, n);
     out[n] = 0;
 }
 
-/* Each of 18 curves has its own colour or its own dashes; those of a curve of many points go on from one to the next.
- */
-static void eighteen_curves_differ(void **state)
+/* Each of 28 curves has its own colour or its own dashes. */
+static void twenty_eight_curves_differ(void **state)
 {
-    enum { CURVES = 18, POINTS = 200 };
-    double line_xs[POINTS], line_ys[POINTS];
+    enum { CURVES = 28 };
     char styles[CURVES][256];
     (void)state;
-    for (int i = 0; i < POINTS; i++) {
-        line_xs[i] = line_ys[i] = i;
-    }
     for (size_t c = 0; c < CURVES; c++) {
-        unsigned char *bytes;
-        size_t size;
-        const koksma_curve curve = {.label = "a", .n = POINTS, .xs = line_xs, .ys = line_ys, .colour = c};
-        const koksma_chart chart = {.curves = &curve, .n_curves = 1};
-        assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_OK);
-        char *svg = calloc(size + 1, 1);
-        assert_non_null(svg);
-        memcpy(svg, bytes, size);
+        const koksma_curve curve = {.label = "a", .n = 4, .xs = (double[]){1, 2, 3, 4}, .ys = xs, .colour = c};
+        char *svg = chart_text(&(koksma_chart){.curves = &curve, .n_curves = 1});
         last_style(svg, styles[c], sizeof styles[c]);
         for (size_t other = 0; other < c; other++) {
             assert_string_not_equal(styles[c], styles[other]);
         }
-        assert_int_equal(strstr(svg, "stroke-dashoffset") != NULL, c >= 6);
+        assert_int_equal(count(svg, "stroke-dasharray") > 0, c >= COLOURS);
         free(svg);
-        free(bytes);
     }
+}
+
+/* A point between two that are not finite has a mark; the others are a line. */
+static void isolated_points_are_marked(void **state)
+{
+    (void)state;
+    const double ys[] = {1, NAN, 3, NAN, 2, 2};
+    const koksma_curve curve = {.n = 6, .xs = (double[]){1, 2, 3, 4, 5, 6}, .ys = ys};
+    char *svg = chart_text(&(koksma_chart){.curves = &curve, .n_curves = 1});
+    assert_int_equal(count(svg, "<circle"), 2);
+    free(svg);
+}
+
+/* Every pattern has a colour of the palette, the same alone and beside any other; no two specs of a picture look
+   alike, as long as there are styles. */
+static void patterns_have_colours(void **state)
+{
+    (void)state;
+    const koksma_pattern *pattern;
+    const char *names[64];
+    size_t all[64], n = 0;
+    for (; (pattern = koksma_pattern_at(n)); n++) {
+        size_t alone, beside[2];
+        names[n] = pattern->name;
+        assert_ok(koksma_plot_colours(&names[n], 1, &alone));
+        assert_true(alone < COLOURS);
+        for (size_t other = 0; other < n; other++) {
+            assert_ok(koksma_plot_colours((const char *const[]){names[other], names[n]}, 2, beside));
+            assert_int_equal(beside[1] % COLOURS, alone);
+            assert_int_not_equal(beside[0], beside[1]);
+        }
+    }
+    assert_ok(koksma_plot_colours(names, n, all));
+    const char *const specs[] = {"sobol", "sobol:scramble=owen", "points.txt", "sobol@16", "", "other.txt"};
+    assert_ok(koksma_plot_colours(specs, 6, all));
+    assert_true(all[0] == all[1] % COLOURS && all[0] == all[3] % COLOURS);
+    for (size_t i = 0; i < 6; i++) {
+        for (size_t j = 0; j < i; j++) {
+            assert_int_not_equal(all[i], all[j]);
+        }
+    }
+}
+
+/* A name in the palette that no pattern has would be of no use: the words of palette.def are the table's names. */
+static void the_palette_names_patterns(void **state)
+{
+    (void)state;
+    static const char *const lists[] = {
+#define COLOUR(light, dark, patterns) patterns,
+#include "plot/palette.def"
+#undef COLOUR
+    };
+    size_t n = 0, n_patterns = 0;
+    for (size_t c = 0; c < sizeof lists / sizeof *lists; c++) {
+        for (const char *at = lists[c]; *at; at += strspn(at, " ")) {
+            char name[64] = "";
+            memcpy(name, at, strcspn(at, " "));
+            assert_non_null(koksma_pattern_find(name));
+            at += strlen(name);
+            n++;
+        }
+    }
+    while (koksma_pattern_at(n_patterns)) {
+        n_patterns++;
+    }
+    assert_int_equal(n, n_patterns);
+    assert_int_equal(sizeof lists / sizeof *lists, COLOURS);
+}
+
+/* A figure of everything, in each format, twice in a process: the same bytes. */
+static void bytes_are_the_same_again(void **state)
+{
+    (void)state;
+    koksma_points points = test_points("random", 9, 2, 7), solid = test_points("sobol", 8, 5, 7);
+    const koksma_value value = test_measure("star", &points);
+    koksma_spectrum spectrum;
+    assert_ok(koksma_spectrum_init(&spectrum, 4));
+    assert_ok(koksma_spectrum_add(&spectrum, &points, KOKSMA_SPECTRUM_EXACT, NULL));
+    const koksma_curve curve = {.label = "a", .n = 3, .xs = (double[]){1, 2, 3}, .ys = xs, .marks = true};
+    const koksma_chart chart = {.title = "chart", .curves = &curve, .n_curves = 1};
+    const koksma_panel panels[] = {
+        {.points = &points, .scatter = {.witness = &value.witness, .columns = 3}, .title = "<a & b>", .swatch = 2},
+        {.points = &points, .scatter = {.local_discrepancy = true}, .caption = "\xff\x01"},
+        {.points = &solid},
+        {.spectrum = &spectrum}};
+    const koksma_cell cells[] = {{&panels[0], NULL, 0},
+                                 {&panels[1], NULL, 0},
+                                 {&panels[2], NULL, 0},
+                                 {&panels[3], NULL, 1},
+                                 {NULL, &chart, 1}};
+    for (int k = 0; k < (koksma_plot_library() ? 6 : 2); k++) {
+        const koksma_figure figure = {"title", cells, 5, 400, 0, true, k % 2};
+        unsigned char *bytes[2];
+        size_t sizes[2];
+        for (int again = 0; again < 2; again++) {
+            assert_ok(koksma_plot_figure(&figure, (koksma_plot_format)(k / 2), &bytes[again], &sizes[again]));
+        }
+        assert_int_equal(sizes[0], sizes[1]);
+        assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+        free(bytes[0]);
+        free(bytes[1]);
+    }
+    koksma_spectrum_fini(&spectrum);
+    koksma_points_fini(&points);
+    koksma_points_fini(&solid);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_and_grids),        cmocka_unit_test(points_of_the_unit_square),
-        cmocka_unit_test(splits_are_marked),      cmocka_unit_test(charts_without_labels),
-        cmocka_unit_test(eighteen_curves_differ),
+        cmocka_unit_test(sizes_and_grids),
+        cmocka_unit_test(points_of_the_unit_square),
+        cmocka_unit_test(splits_are_marked),
+        cmocka_unit_test(charts_without_labels),
+        cmocka_unit_test(twenty_eight_curves_differ),
+        cmocka_unit_test(isolated_points_are_marked),
+        cmocka_unit_test(patterns_have_colours),
+        cmocka_unit_test(the_palette_names_patterns),
+        cmocka_unit_test(bytes_are_the_same_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@ import math
 import os
 import pathlib
 import pkgutil
+import re
 import subprocess
 import tempfile
 import unittest
@@ -119,9 +120,27 @@ class Pictures(unittest.TestCase):
         points[0] = 0.5
         self.assertNotEqual(before, koksma.plot(points).svg)
 
+    def test_titles_and_themes(self):
+        sets = [koksma.generate("sobol", 16, dim=d) for d in (2, 4)]
+        light, dark = (koksma.plot(*sets, title="A & B", titles=["two", "four"], theme=t, size=300).svg for t in ("light", "dark"))
+        self.assertEqual(light.count("<circle"), 16 * (1 + 6))
+        for word in ("A &amp; B", "two", "four", "x4", 'width="300"', "#ffffff"):
+            self.assertIn(word, light)
+        self.assertNotIn("#ffffff", dark)
+        self.assertEqual(koksma.plot(*sets).svg, koksma.plot(*sets).svg)
+        for wrong in (dict(theme="blue"), dict(titles=["one"]), dict(title="a\0b"), dict(size=-1)):
+            with self.assertRaises(ValueError):
+                koksma.plot(*sets, **wrong).svg
+
     def test_convergence(self):
         results = [koksma.convergence(p, "star", [4, 16, 64], trials=2) for p in ("random", "sobol")]
-        self.assertIn("<svg", koksma.plot_convergence(*results).svg)
+        svg = koksma.plot_convergence(*results).svg
+        self.assertEqual(svg.count("<circle"), 2 * (3 + 1))
+        for word in ("Convergence of star", "random: slope", "sobol: slope", ">16<", ">64<"):
+            self.assertIn(word, svg)
+        alone = koksma.plot_convergence(results[1], theme="light").svg
+        colour = lambda text: re.findall(r'<g stroke="(#\w+)" fill="none" stroke-width="1.5"', text)[-1]
+        self.assertEqual(colour(svg), colour(alone))  # sobol's, alone and beside another
 
     def test_wrong(self):
         points = koksma.generate("random", 4)

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What draws a canvas: the few strokes that plots are made of, by svg.c, or for PDF and PNG by the module
+   koksma-cairo.so (cairo.c), which the first such canvas loads. A backend knows no clips: canvas.c cuts shapes. */
+#ifndef KOKSMA_PLOT_BACKEND_H
+#define KOKSMA_PLOT_BACKEND_H
+
+#include <koksma/plot.h>
+
+typedef struct koksma__colour {
+    double r, g, b, a;
+} koksma__colour;
+
+/* How lines are drawn; the last is for guides. */
+typedef enum koksma__dash {
+    KOKSMA__DASH_WHOLE,
+    KOKSMA__DASH_LONG,
+    KOKSMA__DASH_DOTS,
+    KOKSMA__DASH_MIXED,
+    KOKSMA__DASH_GUIDE
+} koksma__dash;
+
+/* How a shape is drawn. thickness 0: filled. */
+typedef struct koksma__style {
+    double thickness;
+    koksma__colour colour;
+    koksma__dash dash;
+} koksma__style;
+
+typedef struct koksma__box {
+    double x, y, width, height;
+} koksma__box;
+
+/* A backend's canvas begins with this; dashes[dash] has lengths drawn and left out in turn, ended by 0. */
+enum { KOKSMA__MAX_DASHES = 4 };
+typedef struct koksma__canvas {
+    const struct koksma__canvas_functions *draw;
+    const double (*dashes)[KOKSMA__MAX_DASHES + 1];
+} koksma__canvas;
+
+/* A backend. Texts are UTF-8 without control characters; units are points from the upper left corner. */
+typedef struct koksma__canvas_functions {
+    koksma_status (*open)(koksma_plot_format format, double width, double height, const char *title,
+                          koksma__canvas **out);
+    /* n positions (x, y), joined by lines; filled or closed as a polygon when the style is filled. */
+    void (*path)(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style);
+    void (*box)(koksma__canvas *canvas, koksma__box box, koksma__style style);
+    void (*circle)(koksma__canvas *canvas, double x, double y, double radius, koksma__style style);
+    koksma_status (*pixels)(koksma__canvas *canvas, koksma__box box, int columns, int rows, const unsigned char *rgb);
+    void (*text)(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                 koksma__colour colour);
+    koksma_status (*close)(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
+    const char *(*library)(void);
+} koksma__canvas_functions;
+
+#endif

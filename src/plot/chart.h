@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Curves on a pair of axes, as a part of a figure. */
+#ifndef KOKSMA_PLOT_CHART_H
+#define KOKSMA_PLOT_CHART_H
+
+#include "plot/palette.h"
+
+/* Errors: ARGUMENT (arrays that can't be, nothing to draw). */
+koksma_status koksma__chart_check(const koksma_chart *chart);
+
+/* The height of all that is above and below the axes, at a width. */
+double koksma__chart_texts(const koksma_chart *chart, double width);
+
+/* Errors: MEMORY. */
+koksma_status koksma__chart_draw(koksma__canvas *canvas, const koksma__theme *theme, const koksma_chart *chart,
+                                 koksma__box box);
+
+#endif

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The colours of plots. A curve's number is colour + N_COLOURS dash: palette.def gives a pattern its colour, and specs
+ * of equal colour in a picture get its dashes in turn. What is no pattern gets the first number that is free.
+ */
+#include "plot/palette.h"
+
+#include <string.h>
+
+#include "core/status.h"
+
+static const struct {
+    unsigned light, dark;
+    const char *patterns;
+} colours[] = {
+#define COLOUR(light, dark, patterns) {light, dark, patterns},
+#include "plot/palette.def"
+#undef COLOUR
+};
+
+enum { N_COLOURS = sizeof colours / sizeof *colours, N_STYLES = N_COLOURS * KOKSMA__DASH_GUIDE };
+
+const koksma__theme *koksma__theme_of(bool dark)
+{
+    static const koksma__theme themes[] = {{.paper = {1, 1, 1, 1},
+                                            .ink = {0.1, 0.1, 0.12, 1},
+                                            .frame = {0.35, 0.35, 0.4, 1},
+                                            .grid = {0.88, 0.89, 0.92, 1},
+                                            .guide = {0.45, 0.45, 0.5, 1},
+                                            .cell = {0.5, 0.58, 0.74, 1},
+                                            .mark = {0.85, 0.25, 0.1, 0.9},
+                                            .wash = {0.95, 0.5, 0.3, 0.25}},
+                                           {.paper = {0.09, 0.1, 0.12, 1},
+                                            .ink = {0.9, 0.91, 0.93, 1},
+                                            .frame = {0.6, 0.62, 0.67, 1},
+                                            .grid = {0.2, 0.21, 0.24, 1},
+                                            .guide = {0.62, 0.63, 0.68, 1},
+                                            .cell = {0.32, 0.4, 0.56, 1},
+                                            .mark = {1, 0.5, 0.3, 0.9},
+                                            .wash = {1, 0.5, 0.25, 0.25},
+                                            .dark = true}};
+    return &themes[dark];
+}
+
+koksma__style koksma__series_style(const koksma__theme *theme, size_t number, double thickness)
+{
+    const unsigned rgb = theme->dark ? colours[number % N_COLOURS].dark : colours[number % N_COLOURS].light;
+    const koksma__colour colour = {(rgb >> 16) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 1};
+    return (koksma__style){thickness, colour, (koksma__dash)(number / N_COLOURS % KOKSMA__DASH_GUIDE)};
+}
+
+/* The colour of the pattern that a text begins with the name of; N_COLOURS: it is in no list. */
+static size_t colour_of(const char *spec)
+{
+    const size_t length = strcspn(spec, ":@ ");
+    for (size_t c = 0; c < N_COLOURS && length; c++) {
+        for (const char *at = colours[c].patterns; *at;) {
+            const size_t word = strcspn(at, " ");
+            if (word == length && !strncmp(at, spec, length)) {
+                return c;
+            }
+            at += word + strspn(at + word, " ");
+        }
+    }
+    return N_COLOURS;
+}
+
+koksma_status koksma_plot_colours(const char *const *specs, size_t n, size_t *numbers)
+{
+    KOKSMA__REQUIRE(specs, numbers);
+    const koksma_status status = koksma__array_check("specs", specs, n, sizeof *specs);
+    bool taken[N_STYLES] = {false};
+    for (size_t pass = 0; pass < 2 && !status; pass++) { /* first those that have a colour */
+        for (size_t i = 0; i < n; i++) {
+            KOKSMA__REQUIRE(specs[i]);
+            const size_t colour = colour_of(specs[i]);
+            if ((colour < N_COLOURS) == (pass == 0)) {
+                size_t number = pass ? 0 : colour;
+                while (number < N_STYLES && taken[number]) {
+                    number += pass ? 1 : N_COLOURS;
+                }
+                numbers[i] = number < N_STYLES ? number : i % N_STYLES; /* more than there are styles */
+                taken[numbers[i]] = true;
+            }
+        }
+    }
+    return status;
+}

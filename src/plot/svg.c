@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * SVG: shapes as elements of their own names, texts as <text>, which can be found and edited, and images as PNG.
+ * Shapes of one style that follow each other are in one <g>. There are no ids, so that several pictures fit into one
+ * page, and nothing is counted beyond a canvas: equal strokes are equal bytes.
+ */
+#include "plot/svg.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/image.h>
+
+#include "core/c_locale.h"
+#include "core/status.h"
+
+enum { STYLE = 160 };
+
+typedef struct svg {
+    koksma__canvas base;
+    char *text;
+    size_t size, capacity;
+    char style[STYLE]; /* of the open <g>; "": none is open */
+    bool failed;
+} svg;
+
+/* Appends bytes. */
+static void put_bytes(svg *s, const char *bytes, size_t size)
+{
+    if (s->size + size > s->capacity) {
+        const size_t capacity = 2 * (s->size + size);
+        char *text = s->failed ? NULL : realloc(s->text, capacity);
+        if (!text) {
+            s->failed = true;
+            return;
+        }
+        s->text = text;
+        s->capacity = capacity;
+    }
+    memcpy(s->text + s->size, bytes, size);
+    s->size += size;
+}
+
+static void put(svg *s, const char *text)
+{
+    put_bytes(s, text, strlen(text));
+}
+
+/* before="value", to a hundredth, without zeros at the end. */
+static void put_number(svg *s, const char *before, double value, const char *after)
+{
+    char text[48];
+    koksma__snprintf(text, sizeof text, "%.2f", value);
+    char *end = text + strlen(text);
+    while (end[-1] == '0') {
+        *--end = '\0';
+    }
+    end[-1] = end[-1] == '.' ? '\0' : end[-1];
+    put(s, before);
+    put(s, strcmp(text, "-0") ? text : "0");
+    put(s, after);
+}
+
+static void put_escaped(svg *s, const char *text)
+{
+    for (; *text; text++) {
+        *text == '&' ? put(s, "&amp;") : *text == '<' ? put(s, "&lt;") : put_bytes(s, text, 1);
+    }
+}
+
+/* The <g> of a style: that which is open, or another. */
+static void begin_group(svg *s, const char *style)
+{
+    if (strcmp(s->style, style) != 0) {
+        put(s, *s->style ? "</g>\n" : "");
+        snprintf(s->style, sizeof s->style, "%s", style);
+        put(s, *style ? "<g" : "");
+        put(s, style);
+        put(s, *style ? ">\n" : "");
+    }
+}
+
+/* fill="#rrggbb", and its opacity unless it is whole. */
+static int colour_text(char *text, size_t size, const char *what, koksma__colour c)
+{
+    const int n = snprintf(text, size, " %s=\"#%02x%02x%02x\"", what, (int)(255 * c.r + 0.5), (int)(255 * c.g + 0.5),
+                           (int)(255 * c.b + 0.5));
+    return n + (c.a < 1 ? koksma__snprintf(text + n, size - (size_t)n, " %s-opacity=\"%.3g\"", what, c.a) : 0);
+}
+
+static void begin_shapes(svg *s, koksma__style style)
+{
+    char text[STYLE];
+    const bool filled = !(style.thickness > 0);
+    int n = colour_text(text, sizeof text, filled ? "fill" : "stroke", style.colour);
+    if (!filled) {
+        n += koksma__snprintf(text + n, sizeof text - (size_t)n, " fill=\"none\" stroke-width=\"%.3g\"",
+                              style.thickness);
+    }
+    const double *dashes = s->base.dashes[style.dash];
+    for (int i = 0; !filled && dashes[i] > 0; i++) {
+        n += koksma__snprintf(text + n, sizeof text - (size_t)n, "%s%g%s", i ? " " : " stroke-dasharray=\"",
+                              dashes[i], dashes[i + 1] > 0 ? "" : "\"");
+    }
+    begin_group(s, text);
+}
+
+static koksma_status open_svg(koksma_plot_format format, double width, double height, const char *title,
+                              koksma__canvas **out)
+{
+    (void)format;
+    svg *s = calloc(1, sizeof *s);
+    if (!s) {
+        return koksma__fail_memory(sizeof *s);
+    }
+    put(s, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
+    put_number(s, " width=\"", width, "\"");
+    put_number(s, " height=\"", height, "\"");
+    put_number(s, " viewBox=\"0 0 ", width, " ");
+    put_number(s, "", height, "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>");
+    put_escaped(s, title);
+    put(s, "</title>\n");
+    *out = &s->base;
+    return KOKSMA_OK;
+}
+
+static void path(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style)
+{
+    svg *s = (svg *)canvas;
+    begin_shapes(s, style);
+    put(s, style.thickness > 0 ? "<polyline points=\"" : "<polygon points=\"");
+    for (size_t i = 0; i < n; i++) {
+        put_number(s, i ? " " : "", xys[2 * i], ",");
+        put_number(s, "", xys[2 * i + 1], "");
+    }
+    put(s, "\"/>\n");
+}
+
+static void box(koksma__canvas *canvas, koksma__box b, koksma__style style)
+{
+    svg *s = (svg *)canvas;
+    begin_shapes(s, style);
+    put_number(s, "<rect x=\"", b.x, "\"");
+    put_number(s, " y=\"", b.y, "\"");
+    put_number(s, " width=\"", b.width, "\"");
+    put_number(s, " height=\"", b.height, "\"/>\n");
+}
+
+static void circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style)
+{
+    svg *s = (svg *)canvas;
+    begin_shapes(s, style);
+    put_number(s, "<circle cx=\"", x, "\"");
+    put_number(s, " cy=\"", y, "\"");
+    put_number(s, " r=\"", radius, "\"/>\n");
+}
+
+static void put_base64(svg *s, const unsigned char *bytes, size_t size)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < size; i += 3) {
+        const size_t left = size - i;
+        const unsigned bits =
+            (unsigned)bytes[i] << 16 | (left > 1 ? (unsigned)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
+        const char four[4] = {digits[bits >> 18], digits[bits >> 12 & 63], left > 1 ? digits[bits >> 6 & 63] : '=',
+                              left > 2 ? digits[bits & 63] : '='};
+        put_bytes(s, four, 4);
+    }
+}
+
+/* An image of sRGB's levels: what PNG makes of its linear values is the levels again. */
+static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, int rows, const unsigned char *rgb)
+{
+    svg *s = (svg *)canvas;
+    const size_t n = (size_t)columns * (size_t)rows;
+    unsigned char *png = NULL;
+    size_t size = 0;
+    koksma_image image;
+    bool grey = true;
+    for (size_t i = 0; i < n && grey; i++) {
+        grey = rgb[3 * i] == rgb[3 * i + 1] && rgb[3 * i] == rgb[3 * i + 2];
+    }
+    koksma_status status = koksma_image_init(&image, columns, rows, grey ? 1 : 3);
+    for (size_t i = 0; i < (grey ? n : 3 * n) && !status; i++) {
+        const double level = rgb[grey ? 3 * i : i] / 255.0;
+        image.pixels[i] = (float)(level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4));
+    }
+    status = status ? status : koksma_image_png_bytes(&image, &png, &size);
+    koksma_image_fini(&image);
+    if (!status) {
+        begin_group(s, "");
+        put_number(s, "<image x=\"", b.x, "\"");
+        put_number(s, " y=\"", b.y, "\"");
+        put_number(s, " width=\"", b.width, "\"");
+        put_number(s, " height=\"", b.height, "\"");
+        put(s, " preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,");
+        put_base64(s, png, size);
+        put(s, "\"/>\n");
+    }
+    free(png);
+    return status;
+}
+
+static void put_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
+                     koksma__colour colour)
+{
+    static const char *const anchors[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
+    char style[STYLE];
+    svg *s = (svg *)canvas;
+    const int n = colour_text(style, sizeof style, "fill", colour);
+    koksma__snprintf(style + n, sizeof style - (size_t)n, " font-size=\"%g\"%s", height,
+                     anchors[(int)(2 * anchor + 0.5)]);
+    begin_group(s, style);
+    put_number(s, "<text x=\"", x, "\"");
+    put_number(s, " y=\"", y, "\">");
+    put_escaped(s, text);
+    put(s, "</text>\n");
+}
+
+static koksma_status close_svg(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
+{
+    svg *s = (svg *)canvas;
+    begin_group(s, "");
+    put(s, "</svg>\n");
+    const bool failed = s->failed;
+    *bytes = failed ? NULL : (unsigned char *)s->text;
+    *size = failed ? 0 : s->size;
+    if (failed) {
+        free(s->text);
+    }
+    free(s);
+    return failed ? koksma__fail_memory(2 * *size) : KOKSMA_OK;
+}
+
+const koksma__canvas_functions koksma__svg_functions = {open_svg, path,     box,       circle,
+                                                        pixels,   put_text, close_svg, NULL};

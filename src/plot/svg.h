@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#ifndef KOKSMA_PLOT_SVG_H
+#define KOKSMA_PLOT_SVG_H
+
+#include "plot/backend.h"
+
+/* The backend of SVG; it has no library. */
+extern const koksma__canvas_functions koksma__svg_functions;
+
+#endif
