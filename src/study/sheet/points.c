@@ -11,10 +11,11 @@
 #include "core/status.h"
 #include "study/sheet/sheet.h"
 
-enum { DRAWN = 1024, WIDTH = 190, PROJECTION_WIDTH = 150, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
+enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
 
-/* The points of coordinates a and b as a figure; what: its caption. */
-static void draw(koksma__document *d, const koksma_points *points, int a, int b, int width, const char *what)
+/* The points of coordinates a and b as a figure. */
+static void draw(koksma__document *d, const koksma_points *points, int a, int b, int width, const char *what,
+                 const char *caption)
 {
     static const double square[4] = {0, 0, 1, 1};
     koksma__doc_figure_begin(d, NULL);
@@ -29,18 +30,19 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
     }
     koksma__doc_end(d);
     koksma__doc_caption(d);
-    koksma__doc_say(d, "%s", what);
+    koksma__doc_say(d, "%s", caption);
     koksma__doc_figure_end(d);
 }
 
-static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, koksma__document *d)
+/* first: it is the sampler of the sheet, whose name need not stand below each set. */
+static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bool first, koksma__document *d)
 {
     char what[KOKSMA_MAX_SPEC + 64];
     koksma_points points = {0};
     const koksma_status status = koksma__sheet_points(sampler, n, 2, 0, &points);
     if (!status) {
         snprintf(what, sizeof what, "%s, n = %zu", sampler->text, n);
-        draw(d, &points, 0, 1, WIDTH, what);
+        draw(d, &points, 0, 1, WIDTH, what, first ? strrchr(what, ',') + 2 : what);
     }
     koksma_points_fini(&points);
     return status;
@@ -61,12 +63,12 @@ koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *
     koksma__doc_section(d, "points", "Points");
     for (size_t i = 0; i < sheet->n_sizes && !status; i++) {
         if (sheet->sizes[i] <= DRAWN) {
-            status = draw_set(sheet->samplers[0], sheet->sizes[i], d);
+            status = draw_set(sheet->samplers[0], sheet->sizes[i], true, d);
         }
     }
-    koksma__doc_paragraph(d, "The first set of each size, and beside it those of the others:");
+    koksma__doc_paragraph(d, "Above the first set of each size, below those of the others:");
     for (size_t s = 1; s < sheet->n_samplers && !status; s++) {
-        status = draw_set(sheet->samplers[s], common, d);
+        status = draw_set(sheet->samplers[s], common, false, d);
     }
     for (size_t i = 0; i < sheet->n_sizes; i++) {
         if (sheet->sizes[i] <= DRAWN) {
@@ -186,8 +188,8 @@ static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, 
     for (int k = 0; k < dim && !status; k++) {
         char what[64];
         const int a = k + 1 < dim ? k : 0, b = k + 1 < dim ? k + 1 : dim - 1;
-        snprintf(what, sizeof what, "coordinates %d and %d, n = %zu", a, b, n);
-        draw(d, &points, a, b, PROJECTION_WIDTH, what);
+        snprintf(what, sizeof what, "coordinates %d and %d", a, b);
+        draw(d, &points, a, b, PROJECTION_WIDTH, what, what);
     }
     koksma_points_fini(&points);
     return status;

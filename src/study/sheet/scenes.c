@@ -52,10 +52,11 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
     char name[128];
     snprintf(name, sizeof name, "scene-%s", sheet->scenes[scene]);
     koksma__doc_table_begin(d, name);
-    koksma__doc_column(
-        d,
-        &(koksma__column){.name = "samples a pixel", .title = "samples", .type = KOKSMA__COLUMN_NUMBER, .digits = 9});
-    koksma__doc_head_number(d, "position", 3);
+    koksma__doc_column(d, &(koksma__column){.name = "samples a pixel",
+                                            .title = "samples",
+                                            .digits = 9,
+                                            .merged = true,
+                                            .type = KOKSMA__COLUMN_NUMBER});
     koksma__doc_head(d, "sampler");
     koksma__doc_head_interval(d, "error", 4);
     koksma__doc_column(d, &(koksma__column){.name = "behind the first",
@@ -63,22 +64,26 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
                                             .type = KOKSMA__COLUMN_INTERVAL,
                                             .digits = 2,
                                             .fixed = true});
-    koksma__doc_column(d, &(koksma__column){.name = "coherence", .type = KOKSMA__COLUMN_NUMBER, .digits = 3});
-    koksma__doc_head(d, "pattern in the error");
-    koksma__doc_head(d, "decision");
-    koksma__doc_head_number(d, "images", 9);
+    koksma__doc_column(d, &(koksma__column){.name = "coherent", .title = "bands"});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "position", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "coherence", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    koksma__doc_column(d, &(koksma__column){.name = "decision", .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "images", .type = KOKSMA__COLUMN_NUMBER, .digits = 9, .hidden = true});
     for (size_t k = 0; k < sheet->n_spp; k++) {
         const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
         for (size_t i = 0; i < sheet->n_samplers; i++) {
             const koksma_rank_row *row = &r->rows[i];
             koksma__doc_row(d);
             koksma__doc_number(d, r->spp);
-            koksma__doc_number(d, row->position ? (double)row->position : (double)NAN);
             koksma__doc_text(d, sheet->samplers[row->pattern]->text);
             koksma__doc_interval(d, (koksma__estimate){row->mean, row->low, row->high});
             koksma__doc_interval(d, (koksma__estimate){row->behind, row->behind_low, row->behind_high});
-            koksma__doc_number(d, row->coherence.images ? row->coherence.coherence : (double)NAN);
             koksma__doc_text(d, !row->coherence.images ? "–" : row->coherence.coherent ? "yes" : "no");
+            koksma__doc_number(d, row->position ? (double)row->position : (double)NAN);
+            koksma__doc_number(d, row->coherence.images ? row->coherence.coherence : (double)NAN);
             koksma__doc_text(d, decision_of(row));
             koksma__doc_number(d, (double)row->trials);
         }
@@ -136,11 +141,12 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_paragraph(d, "No scene was rendered: no set has 4, 16, 64 or another number of up to 256 points, "
                                  "one for each sample of a pixel.");
     } else {
-        koksma__doc_paragraph(
-            d,
-            "Mean absolute error of an image's luminance, samplers as a renderer uses them, a set for each pixel and "
-            "use. Intervals and decisions of a scene hold together with 95 %%. A pattern in the error is "
-            "bands or the like, which eyes notice more than noise.");
+        koksma__doc_paragraph(d, "Mean absolute error of an image's luminance, samplers as a renderer uses them: a "
+                                 "set for each pixel and use. "
+                                 "Behind: relative difference to the first. Bands: the error has a pattern, which "
+                                 "eyes notice more than noise. "
+                                 "Intervals and decisions of a scene hold together with 95 %%; coherence and "
+                                 "decisions are in the CSV files.");
     }
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
         koksma__doc_section(d, NULL, sheet->scenes[i]);

@@ -25,9 +25,9 @@ static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tes
     size_t won = 0, equal = 0;
     bool lost = false;
     for (size_t s = 1; s < v->n_samplers; s++) {
-        const int sign = koksma__sheet_compare(v, s, 0, m, last, tests);
+        const int sign = koksma__sheet_compare(v, 0, s, m, last, tests);
         const bool exact = v->samplers[0]->same && v->samplers[s]->same;
-        won += sign > 0; /* the other's mean is larger in the sense of "worse" */
+        won += sign > 0;
         equal += sign == 0 &&
                  (exact || koksma__sheet_tally(v, 0, m, last)->mean == koksma__sheet_tally(v, s, m, last)->mean);
         if (sign < 0) {
@@ -166,7 +166,11 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     say_count(d, s.n[WON], n, scenes[WON], of_scenes);
     koksma__doc_say(d, "*. It is beaten in *");
     say_count(d, s.n[LOST], n, scenes[LOST], of_scenes);
-    koksma__doc_say(d, "*; for the rest it is equal to the best, or the sets were too few to decide.");
+    koksma__doc_say(d, "*");
+    if (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes) {
+        koksma__doc_say(d, "; in the rest it is equal to the best, or not decided");
+    }
+    koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
     koksma__doc_list_begin(d, NULL, false);
     put_measures(v, &s, WON, "Best", d);
