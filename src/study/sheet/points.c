@@ -18,7 +18,7 @@ static void draw(koksma__document *d, const koksma_points *points, int a, int b,
                  const char *caption)
 {
     static const double square[4] = {0, 0, 1, 1};
-    koksma__doc_figure_begin(d, NULL);
+    koksma__doc_figure_begin(d, width == WIDTH ? "set" : "projection");
     koksma__doc_drawing_begin(d, width, square, what);
     koksma__doc_line(d, 0, 0, 1, 0);
     koksma__doc_line(d, 1, 0, 1, 1);

@@ -10,6 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <koksma/render.h>
+
 #include "api/generate.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
@@ -313,6 +315,11 @@ koksma_status koksma__sheet_choose(koksma__sheet *sheet)
     const size_t n = o->beside ? o->n_beside : sizeof beside_by_default / sizeof *beside_by_default;
     for (size_t i = 0; !status && i < n; i++) {
         status = add_sampler(sheet, o->beside ? o->beside[i] : beside_by_default[i], !o->beside);
+    }
+    for (size_t i = 0; !status && i < sheet->n_scenes; i++) { /* now, and not after minutes */
+        koksma_scene *scene = NULL;
+        status = koksma_scene_open(sheet->scenes[i], &scene);
+        koksma_scene_close(scene);
     }
     if (!status) {
         choose_spp(sheet);

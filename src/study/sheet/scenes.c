@@ -148,6 +148,13 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
                                  "Intervals and decisions of a scene hold together with 95 %%; coherence and "
                                  "decisions are in the CSV files.");
     }
+    if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
+        koksma__doc_paragraph(
+            d,
+            "Each pixel and use takes one of the files of its number of points at random: few files "
+            "(here %zu or more) repeat over the image and give bands.",
+            sheet->samplers[0]->sets);
+    }
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
         koksma__doc_section(d, NULL, sheet->scenes[i]);
         if (sheet->n_spp > 1) {

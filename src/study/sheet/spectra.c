@@ -71,7 +71,7 @@ static koksma_status put_picture(const spectra *s, koksma__document *d)
     }
     snprintf(what, sizeof what, "%s, %zu set%s of %zu", s->sampler->text, s->trials, s->trials == 1 ? "" : "s", s->n);
     if (!status) {
-        koksma__doc_figure_begin(d, NULL);
+        koksma__doc_figure_begin(d, "spectrum");
         status = koksma__doc_image(d, &image, scale, what);
         koksma__doc_caption(d);
         koksma__doc_say(d, "%s", what);

@@ -80,30 +80,25 @@ static void say_count(koksma__document *d, size_t measures, size_t of_measures, 
     }
 }
 
-/* By how much the winner is better, of the larger number: "2.1 times". */
-static void say_ratio(const koksma__sheet_values *v, size_t m, size_t s, koksma__document *d)
+/* The measures with this outcome, as an item; of lost ones those that `winner` has won. Nothing where there are none. */
+static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, size_t winner,
+                         const char *head, koksma__document *d)
 {
-    const double own = koksma__sheet_tally(v, 0, m, v->n_sizes - 1)->mean,
-                 other = koksma__sheet_tally(v, s, m, v->n_sizes - 1)->mean;
-    koksma__doc_say(d, " (%s: %.3g beside %.3g)", v->samplers[s]->text, other, own);
-}
-
-/* The measures with this outcome, as an item; nothing where there are none. */
-static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, const char *head,
-                         koksma__document *d)
-{
+    const size_t last = v->n_sizes - 1;
     bool first = true;
     for (size_t m = 0; m < v->n_measures; m++) {
-        if (v->measures[m].left_out || result->of[m] != which) {
+        if (v->measures[m].left_out || result->of[m] != which || (which == LOST && result->winner[m] != winner)) {
             continue;
         }
         if (first) {
             koksma__doc_item(d);
-            koksma__doc_say(d, "%s: ", head);
+            koksma__doc_say(d, "*%s", head);
+            koksma__doc_say(d, which == LOST ? " %s*: " : "*: ", v->samplers[winner]->text);
         }
         koksma__doc_say(d, first ? "%s" : ", %s", v->measures[m].name);
         if (which == LOST) {
-            say_ratio(v, m, result->winner[m], d);
+            koksma__doc_say(d, " (%.3g beside %.3g)", koksma__sheet_tally(v, winner, m, last)->mean,
+                            koksma__sheet_tally(v, 0, m, last)->mean);
         }
         first = false;
     }
@@ -173,10 +168,12 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     koksma__doc_say(d, ".");
     koksma__doc_paragraph_end(d);
     koksma__doc_list_begin(d, NULL, false);
-    put_measures(v, &s, WON, "Best", d);
-    put_measures(v, &s, LOST, "Beaten", d);
-    put_measures(v, &s, EQUAL, "Equal to the best", d);
-    put_measures(v, &s, OPEN, "Not decided", d);
+    put_measures(v, &s, WON, 0, "Best", d);
+    for (size_t k = 1; k < v->n_samplers; k++) {
+        put_measures(v, &s, LOST, k, "Beaten by", d);
+    }
+    put_measures(v, &s, EQUAL, 0, "Equal to the best", d);
+    put_measures(v, &s, OPEN, 0, "Not decided", d);
     put_scenes(sheet, d);
     koksma__doc_list_end(d);
     koksma__doc_paragraph(
