@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* The names that curves have for the library's slopes over trials (koksma/series.h). */
 #ifndef KOKSMA_CLI_SLOPE_H
 #define KOKSMA_CLI_SLOPE_H
 
 #include <koksma/series.h>
 
-enum { CLI_MAX_SIZES = 64 };
+enum { CLI_MAX_SIZES = KOKSMA_MAX_SIZES };
 
-/* A measure at several sizes over trials, and how the values of a trial vary together: all zero is none. */
-typedef struct cli_joint {
-    double count, means[CLI_MAX_SIZES];
-    double spread[CLI_MAX_SIZES][CLI_MAX_SIZES]; /* sums of products of the deviations from the means */
-} cli_joint;
+typedef koksma_joint cli_joint;
 
-void cli_joint_add(cli_joint *joint, size_t n, const double *values);
+static inline void cli_joint_add(cli_joint *joint, size_t n, const double *values)
+{
+    koksma_joint_add(joint, n, values);
+}
 
-/* The line through the means on logarithmic axes. After two trials or more its error is that of the trials' spread;
-   after one, which has none, that of the residuals, as koksma_log_line says it. */
-bool cli_slope(size_t n, const double *sizes, const double *means, const cli_joint *joint, koksma_line *line);
+static inline bool cli_slope(size_t n, const double *sizes, const double *means, const cli_joint *joint,
+                             koksma_line *line)
+{
+    return koksma_joint_line(joint, n, sizes, means, line);
+}
 
 #endif

@@ -50,8 +50,9 @@ MAY_USE = {
     "study/ranking": "core stats image scene render study/plan study/run api",
     "study/images": "core stats image study/plan study/run",
     "study/report": "core stats patterns measures warps image plot render study/plan study/store study/run api",
+    "study/sheet": "core stats patterns measures verify api image render study/plan study/ranking study/report",
     "cli": "core kernels stats patterns measures warps api verify optimise image scene plot render study/plan study/run "
-           "study/ranking study/images study/report",
+           "study/ranking study/images study/report study/sheet",
 }
 
 
@@ -323,7 +324,7 @@ ABOUT = {
     "api": "generate, evaluate", "verify": "proved properties", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
-    "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report",
+    "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet",
     "cli": "the program, one file a command; uses all by the public headers",
 }
 

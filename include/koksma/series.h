@@ -46,6 +46,23 @@ typedef struct koksma_line {
 /* Fits the line to n pairs. Returns false, and sets nothing, with fewer than three usable pairs or only one x. */
 KOKSMA_API bool koksma_log_line(size_t n, const double *xs, const double *ys, koksma_line *line);
 
+enum { KOKSMA_MAX_SIZES = 64 };
+
+/* A measure at several sizes over trials, and how the values of a trial vary together. All zero is the start. */
+typedef struct koksma_joint {
+    double count, means[KOKSMA_MAX_SIZES];
+    double spread[KOKSMA_MAX_SIZES][KOKSMA_MAX_SIZES]; /* sums of products of the deviations from the means */
+} koksma_joint;
+
+/* Adds a trial: values[i] at size i, n of them, the same n each time, at most KOKSMA_MAX_SIZES (others are left out).
+   O(n^2). */
+KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
+
+/* Fits koksma_log_line to n means. After two trials or more slope_error is that of the trials' spread (infinitesimal
+   jackknife, Efron 1982), after one that of the residuals. Returns false as koksma_log_line does. */
+KOKSMA_API bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
+                                  koksma_line *line);
+
 /* Evaluates a measure of several prefixes of a point set: values[i] is of the first sizes[i] points.
      sizes   n_sizes numbers, 1 to points->n, in any order
      values  receives n_sizes values

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "patterns/shared/file_names.h"
 
 /* x + u on the torus; never 1. */
 static void shift_points(uint64_t seed, koksma_points *out)
@@ -49,7 +50,8 @@ static const koksma_pattern *pattern_of(const koksma_spec *spec)
 bool koksma__spec_is_deterministic(const koksma_spec *spec)
 {
     const koksma_pattern *p = pattern_of(spec);
-    bool deterministic = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC;
+    bool deterministic = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
+                         !(p->takes_path && koksma__file_has(spec->path, "{seed}"));
     for (int k = 0; p->params && p->params[k].name; k++) {
         if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
             deterministic = deterministic && spec->params[k] == 0;

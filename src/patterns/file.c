@@ -5,21 +5,36 @@
  * plan may name it, so that it is a plain file.
  *
  *     x_i = row i of the file, cut to dim columns
+ *
+ * {n} and {seed} in the path stand for the number of points and the seed: file:my_{n}_{seed}.npy gives the sets of a
+ * sampler whose files are my_16_0.npy, my_16_1.npy, my_64_0.npy, ... With {n} the file has exactly n points.
  */
 #include <string.h>
 
 #include "core/points_io.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/file_names.h"
 
-static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points *out)
+/* The file of n points (0: any number) for a seed, cut to the dimensions of out. */
+static koksma_status read_set(size_t n, uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    (void)seed;
     const int dim = out->dim;
-    koksma_status status = koksma__points_read(args->path, KOKSMA__BY_FILE, out);
+    char path[KOKSMA_MAX_SPEC];
+    if (!n && koksma__file_has(args->path, "{n}")) {
+        return koksma__fail(KOKSMA_N, "file:%s: the number of points is missing", args->path);
+    }
+    koksma_status status = koksma__file_name(args->path, n, seed, path);
+    status = status ? status : koksma__points_read(path, KOKSMA__BY_FILE, out);
+    if (status == KOKSMA_MISSING && strcmp(path, args->path) != 0) {
+        status = koksma__fail(KOKSMA_MISSING, "file:%s: there is no file %s", args->path, path);
+    }
     if (!status && out->dim < dim) {
-        status =
-            koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", args->path, out->dim, dim);
+        status = koksma__fail(KOKSMA_DIM, "file:%s: its points have %d dimensions, not %d", path, out->dim, dim);
+    }
+    if (!status && n && out->n != n && koksma__file_has(args->path, "{n}")) {
+        status = koksma__fail(KOKSMA_MALFORMED, "file:%s: %s has %zu points, not the %zu of its name", args->path,
+                              path, out->n, n);
     }
     if (!status && dim && dim < out->dim) {
         for (size_t i = 0; i < out->n * (size_t)dim; i++) { /* never before what is still to be read */
@@ -30,8 +45,8 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
     for (size_t i = 0; !status && i < out->n * (size_t)out->dim; i++) {
         if (out->xs[i] >= 1) {
             status = koksma__fail(KOKSMA_MALFORMED,
-                                  "file:%s: point %zu has a coordinate of 1; a pattern's points are in [0,1)",
-                                  args->path, i / (size_t)out->dim);
+                                  "file:%s: point %zu has a coordinate of 1; a pattern's points are in [0,1)", path,
+                                  i / (size_t)out->dim);
         }
     }
     if (status) {
@@ -40,10 +55,15 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
     return status;
 }
 
+static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    return read_set(0, seed, args, out);
+}
+
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     koksma_points all = {.dim = out->dim};
-    koksma_status status = whole(seed, args, &all);
+    koksma_status status = read_set(out->n, seed, args, &all);
     if (status) {
         return status;
     }
@@ -59,7 +79,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 
 const koksma_pattern koksma__pattern_file = {
     .name = "file",
-    .title = "the points of a file: file:PATH (.txt, .csv, .npy)",
+    .title = "the points of a file: file:PATH (.txt, .csv, .npy); {n} and {seed} in PATH: a file for each",
     .cite = "-",
     .min_dim = 1,
     .max_dim = KOKSMA_MAX_DIM,

@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "kernels/kernels.h"
+#include "patterns/shared/file_names.h"
 #include "render/samples/sampler.h"
 
 enum { LANE_PAIRING = 1 << 20 }; /* above the uses: keys of the permutations' random numbers */
@@ -22,8 +23,10 @@ typedef struct pixel_samples {
     const koksma_render_options *options;
     const koksma__batch_table *batch;
     koksma__use_list uses;
-    /* By use. The pairs of a deterministic pattern are made once; else NULL. */
+    /* By use. The pairs of a deterministic pattern are made once, and the sets that a family of files (file_names.h)
+       has, of which a pixel's seed chooses one; else NULL. */
     float *fixed[KOKSMA_N_USES];
+    size_t fixed_sets[KOKSMA_N_USES];
     int dims[KOKSMA_N_USES]; /* of the sets that are generated */
     bool shuffles[KOKSMA_N_USES];
     koksma__place_of_use places[KOKSMA_N_USES];
@@ -146,6 +149,9 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
     const uint32_t set_key = koksma__set_key(&samples->places[u], use);
     const bool shuffles = set_key != KOKSMA__USE_PIXEL && samples->shuffles[u];
     const float *from = samples->fixed[u];
+    if (from && samples->fixed_sets[u] > 1) {
+        from += 2 * n * (koksma__random_seed(samples->options->seed, pixel, use) % samples->fixed_sets[u]);
+    }
     if (!from) {
         const koksma_status status = draw_set(sampler, pixel, use, offset, room, shuffles ? room->pairs : pairs);
         if (status || !shuffles) {
@@ -217,10 +223,54 @@ static koksma_status keep_fixed(const double *set, size_t n, int dim, int first,
     return status;
 }
 
+/* Reads all sets of n points that a family of files has, so that no pixel opens a file. */
+static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, float **fixed, size_t *n_sets)
+{
+    static const float nowhere[2] = {0, 0};
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    koksma_status status = koksma__file_sets(spec->path, &sets, &count);
+    *n_sets = 0;
+    double *xs = malloc(2 * n * sizeof *xs);
+    *fixed = count && n <= MAX_KEPT / count ? malloc(2 * n * count * sizeof **fixed) : NULL;
+    if (!status && (!xs || (count && !*fixed))) {
+        status = koksma__fail_memory(2 * n * count * sizeof **fixed);
+    }
+    for (size_t i = 0; !status && i < count; i++) {
+        if (sets[i].n && sets[i].n != n) {
+            continue;
+        }
+        status = generate(spec, sets[i].seed, n, dims, &alone, xs);
+        if (!status && dims == 1) {
+            widen(xs, n);
+        }
+        if (!status) {
+            koksma__batch()->place(xs, n, nowhere, *fixed + 2 * n * (*n_sets)++);
+        }
+    }
+    if (!status && !*n_sets) {
+        char names[KOKSMA_MAX_SPEC];
+        koksma__file_glob(spec->path, false, names, sizeof names);
+        status = koksma__fail(KOKSMA_MISSING, "file:%s: no file %s has %zu points", spec->path, names, n);
+    }
+    if (status) {
+        free(*fixed);
+        *fixed = NULL;
+    }
+    free(sets);
+    free(xs);
+    return status;
+}
+
 /* Draws one set in dims dimensions; *fixed keeps it when the pattern is deterministic. */
-static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed)
+static koksma_status try_set(const koksma_render_options *options, const koksma_spec *spec, int dims, float **fixed,
+                             size_t *n_sets)
 {
     const size_t n = (size_t)options->spp;
+    *n_sets = 1;
+    if (spec->pattern->takes_path && !spec->shift && koksma__file_has(spec->path, "{seed}")) {
+        return read_sets(spec, n, dims, fixed, n_sets);
+    }
     double *xs = malloc(2 * n * sizeof *xs);
     *fixed = NULL;
     KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
@@ -238,6 +288,7 @@ static koksma_status try_uses(pixel_samples *samples)
     const koksma_render_options *options = samples->options;
     bool tried[3] = {false};
     float *common[3] = {NULL};
+    size_t common_sets[3] = {0};
     koksma_status status = KOKSMA_OK;
     for (int u = 0; !status && u < KOKSMA_N_USES; u++) {
         const bool own = options->patterns[u].pattern != NULL;
@@ -253,12 +304,13 @@ static koksma_status try_uses(pixel_samples *samples)
             continue;
         }
         if (own) {
-            status = try_set(options, spec, dims, &samples->fixed[u]);
+            status = try_set(options, spec, dims, &samples->fixed[u], &samples->fixed_sets[u]);
         } else if (!tried[dims]) {
-            status = try_set(options, spec, dims, &common[dims]);
+            status = try_set(options, spec, dims, &common[dims], &common_sets[dims]);
             tried[dims] = true;
         }
         samples->fixed[u] = own ? samples->fixed[u] : common[dims];
+        samples->fixed_sets[u] = own ? samples->fixed_sets[u] : common_sets[dims];
     }
     return status;
 }

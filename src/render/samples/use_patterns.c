@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/status.h"
+#include "patterns/shared/file_names.h"
 #include "render/samples/sampler.h"
 
 /* ---- Checks ---------------------------------------------------------------------------------------------- */
@@ -137,7 +138,7 @@ static koksma_status try_set(const koksma_spec *spec, size_t n, int dim, const k
     koksma_points points;
     koksma_status status = koksma_points_init(&points, n, dim);
     if (!status) {
-        status = koksma_generate(spec, 0, run, &points);
+        status = koksma_generate(spec, koksma__first_seed(spec, n), run, &points);
         koksma_points_fini(&points);
     }
     return status;

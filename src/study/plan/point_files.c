@@ -9,6 +9,7 @@
 
 #include "core/capacity.h"
 #include "core/read_file.h"
+#include "patterns/shared/file_names.h"
 
 static const char prefix[] = "file:";
 
@@ -28,10 +29,25 @@ static const char *path_in(const char *spec, size_t *length)
     return inner + 6;
 }
 
+/* Of a family of files (file_names.h) that of all of them. */
 static uint64_t hash_of_file(const char *path)
 {
-    uint64_t hash = 0;
-    return koksma__hash_file(path, &hash) ? 0 : hash;
+    uint64_t hash = 0, all = 0;
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    if (!koksma__file_has(path, "{n}") && !koksma__file_has(path, "{seed}")) {
+        return koksma__hash_file(path, &hash) ? 0 : hash;
+    }
+    if (koksma__file_sets(path, &sets, &count)) {
+        return 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char name[KOKSMA_MAX_SPEC];
+        const bool read = !koksma__file_name(path, sets[i].n, sets[i].seed, name) && !koksma__hash_file(name, &hash);
+        all = (all ^ (read ? hash : 0)) * 0x100000001b3;
+    }
+    free(sets);
+    return all;
 }
 
 /* Without memory for the list the file is read again the next time. */

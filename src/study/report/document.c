@@ -296,6 +296,17 @@ void koksma__doc_list_end(koksma__document *d)
     koksma__json_end(&d->json);
 }
 
+void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n)
+{
+    begin_block(d, "commands", NULL);
+    koksma__json_begin_array(&d->json, "lines");
+    for (size_t i = 0; i < n; i++) {
+        koksma__json_write_text(&d->json, NULL, lines[i]);
+    }
+    koksma__json_end(&d->json);
+    koksma__json_end(&d->json);
+}
+
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
 void koksma__doc_table_begin(koksma__document *d, const char *name)

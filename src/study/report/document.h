@@ -54,6 +54,9 @@ void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered);
 void koksma__doc_item(koksma__document *d);
 void koksma__doc_list_end(koksma__document *d);
 
+/* Command lines that give the numbers above them, to be copied. */
+void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n);
+
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
 typedef enum koksma__column_type {

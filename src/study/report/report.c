@@ -11,7 +11,7 @@
 #include "core/atomic_file.h"
 #include "core/status.h"
 #include "study/report/export.h"
-#include "study/report/page_text.h"
+#include "study/report/page.h"
 #include "study/report/report.h"
 
 #define SECTION(name) extern const koksma__section koksma__section_##name;
@@ -115,7 +115,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     }
     if (!status) {
         status = write_file(study, "report.html",
-                            (const char *const[]){koksma__page_head, d.json.text, koksma__page_foot, NULL});
+                            (const char *const[]){koksma__page_before(), d.json.text, koksma__page_after(), NULL});
     }
     koksma__json_writer_fini(&d.json);
     return status;

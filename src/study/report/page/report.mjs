@@ -278,8 +278,16 @@ function section(block, level) {
 const list = block => element(block.numbered ? "ol" : "ul", { id: unique(block.id), class: block.numbered ? "notes note" : null },
   ...block.items.map(item => element("li", {}, ...words(item))));
 
+// Command lines, with a button that copies them all.
+function commands({ lines }) {
+  const text = lines.join("\n"), output = element("output"), button = element("button", { type: "button" }, "copy");
+  button.addEventListener("click", () => navigator.clipboard.writeText(text).then(() => { output.textContent = " copied"; }, () => { output.textContent = " select the lines and copy them"; }));
+  const summary = element("summary", {}, lines.length > 1 ? `${lines.length} commands that give these numbers` : "the command that gives these numbers");
+  return element("details", { class: "commands" }, summary, element("pre", { tabindex: 0 }, text), element("p", {}, button, output));
+}
+
 const kinds = {
-  section, table, list, figure, pictures,
+  section, table, list, figure, pictures, commands,
   paragraph: block => element("p", {}, ...words(block.text)),
   chart: chartFigure,
 };

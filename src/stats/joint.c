@@ -3,14 +3,18 @@
  * Least-squares slopes of means against n on logarithmic axes. The standard error of several trials comes from how
  * the values of a trial vary together (the delta method on their covariance), that of one trial from the residuals.
  */
-#include "slope.h"
-
 #include <math.h>
 
+#include <koksma/series.h>
+
+#include "core/status.h"
+
 /* Welford 1962, for products too. */
-void cli_joint_add(cli_joint *joint, size_t n, const double *values)
+void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 {
-    double off[CLI_MAX_SIZES];
+    double off[KOKSMA_MAX_SIZES];
+    KOKSMA__REQUIRE_OR(, joint, values);
+    n = n < KOKSMA_MAX_SIZES ? n : KOKSMA_MAX_SIZES;
     joint->count++;
     for (size_t i = 0; i < n; i++) {
         off[i] = values[i] - joint->means[i];
@@ -32,9 +36,9 @@ void cli_joint_add(cli_joint *joint, size_t n, const double *values)
  *
  * S being the sums of products of deviations: the infinitesimal jackknife (Efron 1982, chapter 6).
  */
-static double error_of_trials(size_t n, const double *sizes, const double *means, const cli_joint *joint)
+static double error_of_trials(size_t n, const double *sizes, const double *means, const koksma_joint *joint)
 {
-    double weights[CLI_MAX_SIZES], middle = 0, square = 0, count = 0, variance = 0;
+    double weights[KOKSMA_MAX_SIZES], middle = 0, square = 0, count = 0, variance = 0;
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < n; i++) {
             weights[i] = 0;
@@ -57,9 +61,11 @@ static double error_of_trials(size_t n, const double *sizes, const double *means
     return sqrt((variance < 0 ? 0 : variance) / (joint->count * (joint->count - 1))) / square;
 }
 
-bool cli_slope(size_t n, const double *sizes, const double *means, const cli_joint *joint, koksma_line *line)
+bool koksma_joint_line(const koksma_joint *joint, size_t n, const double *sizes, const double *means,
+                       koksma_line *line)
 {
-    if (!koksma_log_line(n, sizes, means, line)) {
+    KOKSMA__REQUIRE_OR(false, joint, sizes, means, line);
+    if (n > KOKSMA_MAX_SIZES || !koksma_log_line(n, sizes, means, line)) {
         return false;
     }
     if (joint->count > 1) {

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* `koksma datasheet`: everything about one sampler beside others as a page, or as the JSON that the page shows. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/datasheet.h>
+#include <koksma/plot.h>
+
+#include "cli.h"
+
+/* A list of an option: names, and where they begin. "none" is an empty one. */
+typedef struct list {
+    char texts[KOKSMA_MAX_SHEET_SCENES][KOKSMA_MAX_SPEC];
+    const char *at[KOKSMA_MAX_SHEET_SCENES];
+    size_t n;
+} list;
+
+/* False after an error. */
+static bool read_list(const cli_arguments *arguments, const char *option, size_t most, list *out)
+{
+    const char *text = cli_text(arguments, option, NULL);
+    char item[KOKSMA_MAX_SPEC];
+    *out = (list){0};
+    while (text && strcmp(text, "none") != 0 && cli_list_item(text, out->n, item, sizeof item)) {
+        if (out->n == most) {
+            cli_usage_error(arguments, "--%s: it takes up to %zu", option, most);
+            return false;
+        }
+        snprintf(out->texts[out->n], sizeof *out->texts, "%s", item);
+        out->at[out->n] = out->texts[out->n];
+        out->n++;
+    }
+    return true;
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), n = strlen(end);
+    return length > n && !strcmp(text + length - n, end);
+}
+
+/* Writes the page, or the JSON. */
+static koksma_status write_sheet(const char *output, bool is_page, const char *json)
+{
+    char *page = NULL;
+    koksma_status status = is_page ? koksma_datasheet_page(json, &page) : KOKSMA_OK;
+    const char *text = is_page ? page : json;
+    status = status ? status : koksma_plot_write(output, (const unsigned char *)text, strlen(text));
+    free(page);
+    return status;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    cli_work work;
+    list beside, scenes;
+    char *json = NULL;
+    const bool to_stdout = cli_flag(arguments, "json");
+    const char *output = cli_text(arguments, "output", to_stdout ? "-" : NULL);
+    if (arguments->n_operands != 1) {
+        return cli_usage_error(arguments, "it takes one sampler: a pattern such as sobol:scramble=owen, a file of "
+                                          "points, or 'my_{n}_{seed}.npy'");
+    }
+    if (!output) {
+        return cli_usage_error(arguments, "--output is missing: it takes a file such as sheet.html");
+    }
+    const bool is_page = ends_with(output, ".html");
+    if (!is_page && !ends_with(output, ".json") && !(to_stdout && !strcmp(output, "-"))) {
+        return cli_usage_error(arguments, "--output %s: a datasheet is written as .html or .json", output);
+    }
+    if (is_page && to_stdout) {
+        return cli_usage_error(arguments, "--json: it goes with no --output, or one that ends in .json");
+    }
+    if (!read_list(arguments, "beside", KOKSMA_MAX_BESIDE, &beside) ||
+        !read_list(arguments, "scenes", KOKSMA_MAX_SHEET_SCENES, &scenes) ||
+        !cli_work_begin(arguments, "datasheet", &work)) {
+        return CLI_USAGE;
+    }
+    const koksma_datasheet_options options = {
+        .sampler = arguments->operands[0],
+        .beside = cli_text(arguments, "beside", NULL) ? beside.at : NULL,
+        .n_beside = beside.n,
+        .scenes = cli_text(arguments, "scenes", NULL) ? scenes.at : NULL,
+        .n_scenes = scenes.n,
+        .quick = cli_flag(arguments, "quick"),
+    };
+    koksma_status status = koksma_datasheet(&options, &work.run, &json);
+    cli_work_end(&work);
+    status = status ? status : write_sheet(output, is_page, json);
+    free(json);
+    return status ? cli_fail(arguments, status) : CLI_YES;
+}
+
+static const cli_option options[] = {
+    {'o', "output", "FILE", "the page (.html), or its data (.json)"},
+    {'b', "beside", "PATTERN,..|none",
+     "samplers to compare with, up to 7 (default: random,jittered,sobol:scramble=owen)"},
+    {0, "scenes", "SCENE,..|none", "scenes to render (default: ball,checker,cornell)"},
+    {0, "quick", NULL, "fewer sets, sizes and images: under a minute"},
+    {0, "json", NULL, "the data on stdout, instead of a page"},
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_datasheet = {
+    .name = "datasheet",
+    .summary = "all about one sampler beside others, on one page",
+    .synopsis = "SPEC|FILE|'my_{n}_{seed}.npy' -o FILE [--beside PATTERN,..|none] [--scenes SCENE,..|none] [--quick] "
+                "[--json]",
+    .details =
+        "A page with the verdict (at what the sampler is best, where it is beaten, how sure that is), its points, "
+        "errors\n"
+        "and coherence in scenes, all measures against n with slopes, spectra, pair correlation, verified "
+        "properties\n"
+        "and projections in more dimensions, each with the commands that give the numbers.\n"
+        "\n"
+        "A name with {n} and {seed} in it is a sampler of files: my_256_3.npy has the 256 points of seed 3. The "
+        "sizes\n"
+        "and seeds that are there decide what is measured, one after the other from the smallest seed on; sizes "
+        "that\n"
+        "are numbers of samples, such as 16, are rendered, each pixel and use with one of the files. --beside takes\n"
+        "such names, too. FILE is one set of points, measured as it is.\n"
+        "\n"
+        "Everything has a fixed count, so that equal sets give equal numbers: 16 sets of 16 to 4,096 points and up\n"
+        "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
+    .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
+                "koksma datasheet jittered --beside random,pmj02 --scenes ball -o sheet.html --quick\n",
+    .options = options,
+    .run = run,
+};

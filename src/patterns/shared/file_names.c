@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Paths with places for numbers. Going from numbers to a path replaces each {n} and {seed} by decimal digits without
+ * leading zeros. The other direction lists what glob(3) finds for a `*` at each place, and keeps the paths that the
+ * numbers read from them give again: `my_16_03.npy` is not the set of seed 3.
+ */
+#include "patterns/shared/file_names.h"
+
+#include <glob.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+
+static const char place_n[] = "{n}", place_seed[] = "{seed}";
+
+bool koksma__file_has(const char *path, const char *place)
+{
+    return strstr(path, place) != NULL;
+}
+
+/* The length of the place that text begins with, else 0. */
+static size_t place_at(const char *text, bool *is_seed)
+{
+    *is_seed = !strncmp(text, place_seed, sizeof place_seed - 1);
+    return *is_seed ? sizeof place_seed - 1 : !strncmp(text, place_n, sizeof place_n - 1) ? sizeof place_n - 1 : 0;
+}
+
+koksma_status koksma__file_name(const char *path, size_t n, uint64_t seed, char out[KOKSMA_MAX_SPEC])
+{
+    size_t used = 0;
+    while (*path && used < KOKSMA_MAX_SPEC) {
+        bool is_seed;
+        const size_t length = place_at(path, &is_seed);
+        if (length) {
+            used += (size_t)snprintf(out + used, KOKSMA_MAX_SPEC - used, "%llu",
+                                     is_seed ? (unsigned long long)seed : (unsigned long long)n);
+        } else {
+            out[used++] = *path;
+        }
+        path += length ? length : 1;
+    }
+    if (used >= KOKSMA_MAX_SPEC) {
+        return koksma__fail(KOKSMA_ARGUMENT, "file: a path with its numbers is longer than %d characters",
+                            KOKSMA_MAX_SPEC - 1);
+    }
+    out[used] = '\0';
+    return KOKSMA_OK;
+}
+
+void koksma__file_glob(const char *path, bool escape, char *out, size_t size)
+{
+    size_t used = 0;
+    while (*path && used + 3 < size) {
+        bool is_seed;
+        const size_t length = place_at(path, &is_seed);
+        if (length) {
+            out[used++] = '*';
+        } else {
+            if (escape && strchr("*?[\\", *path)) {
+                out[used++] = '\\';
+            }
+            out[used++] = *path;
+        }
+        path += length ? length : 1;
+    }
+    out[used] = '\0';
+}
+
+/* The numbers of a path that glob found; false: some other name. */
+static bool read_numbers(const char *path, const char *found, koksma__file_set *set)
+{
+    char again[KOKSMA_MAX_SPEC];
+    const char *at = path, *text = found;
+    *set = (koksma__file_set){0};
+    while (*at && *text) {
+        bool is_seed;
+        const size_t length = place_at(at, &is_seed);
+        if (!length) {
+            if (*at++ != *text++) {
+                return false;
+            }
+            continue;
+        }
+        char *end;
+        const unsigned long long number = strtoull(text, &end, 10);
+        if (*text < '0' || *text > '9' || number > SIZE_MAX) {
+            return false;
+        }
+        if (is_seed) {
+            set->seed = number;
+        } else {
+            set->n = (size_t)number;
+        }
+        text = end;
+        at += length;
+    }
+    return !koksma__file_name(path, set->n, set->seed, again) && !strcmp(again, found);
+}
+
+static int compare_sets(const void *a, const void *b)
+{
+    const koksma__file_set *p = a, *q = b;
+    return p->n != q->n ? (p->n < q->n ? -1 : 1) : p->seed != q->seed ? (p->seed < q->seed ? -1 : 1) : 0;
+}
+
+koksma_status koksma__file_sets(const char *path, koksma__file_set **sets, size_t *count)
+{
+    char pattern[2 * KOKSMA_MAX_SPEC];
+    glob_t found = {0};
+    *sets = NULL;
+    *count = 0;
+    if (strstr(path, "}{")) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "file:%s: its places touch; put a character between them, as in "
+                            "my_{n}_{seed}.npy",
+                            path);
+    }
+    koksma__file_glob(path, true, pattern, sizeof pattern);
+    const int failed = glob(pattern, GLOB_NOSORT, NULL, &found);
+    *sets = failed == GLOB_NOSPACE ? NULL : calloc(found.gl_pathc + 1, sizeof **sets);
+    for (size_t i = 0; *sets && i < found.gl_pathc; i++) {
+        *count += read_numbers(path, found.gl_pathv[i], &(*sets)[*count]);
+    }
+    globfree(&found);
+    if (!*sets) {
+        return koksma__fail_memory(sizeof **sets);
+    }
+    qsort(*sets, *count, sizeof **sets, compare_sets);
+    return KOKSMA_OK;
+}
+
+uint64_t koksma__first_seed(const koksma_spec *spec, size_t n)
+{
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    uint64_t seed = 0;
+    if (spec->pattern->takes_path && koksma__file_has(spec->path, place_seed) &&
+        !koksma__file_sets(spec->path, &sets, &count)) {
+        for (size_t i = count; i-- > 0;) {
+            seed = sets[i].n == n || !sets[i].n ? sets[i].seed : seed;
+        }
+        free(sets);
+    }
+    return seed;
+}

@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Measures of samplers over sizes and trials. A job is one trial of one sampler at one size, on one thread; its values
+ * go to a place of their own and are added up in the order of trials afterwards, as `koksma measure --sizes --trials`
+ * adds them, so that the numbers are those of that command to the last bit. A set that is the same for every seed is
+ * measured once and counted for every trial.
+ *
+ * Comparisons are Welch's (1947) on means over trials, each at 5 % over the number of tests (Bonferroni), so that all
+ * that a sheet decides holds together with 95 %. Means of sets that never vary compare exactly.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/parallel.h"
+#include "core/status.h"
+#include "stats/quantiles.h"
+#include "study/sheet/sheet.h"
+
+/* ---- Evaluation -------------------------------------------------------------------------------------------- */
+
+typedef struct evaluation {
+    koksma__sheet_values *values;
+    size_t trials;         /* the most of a sampler */
+    double *found;         /* [((sampler * sizes + size) * trials + trial) * measures + measure] */
+    unsigned char *status; /* likewise: 0 a value, 1 a bound, 2 none */
+} evaluation;
+
+static koksma_status evaluate_set(void *context, size_t job)
+{
+    const evaluation *e = context;
+    koksma__sheet_values *v = e->values;
+    const size_t t = job % e->trials, i = job / e->trials % v->n_sizes, s = job / e->trials / v->n_sizes;
+    const koksma__sheet_sampler *sampler = v->samplers[s];
+    const koksma_run alone = {.threads = 1};
+    koksma_points points = {0};
+    if (t >= v->trials[s] || (sampler->same && t > 0)) {
+        return KOKSMA_OK;
+    }
+    const koksma_status status = koksma__sheet_points(sampler, v->sizes[i], v->dim, t, &points);
+    for (size_t m = 0; m < v->n_measures && !status; m++) {
+        koksma_value value = {.value = NAN};
+        const bool none = koksma_evaluate(&v->measures[m].spec, &points, &alone, &value) != KOKSMA_OK;
+        e->found[job * v->n_measures + m] = value.value;
+        e->status[job * v->n_measures + m] = none ? 2 : !value.exact;
+    }
+    koksma_points_fini(&points);
+    return status;
+}
+
+/* Says why a measure is left out: the error of the first set that has no value. */
+static void note_missing(koksma__sheet *sheet, const evaluation *e, size_t m)
+{
+    koksma__sheet_values *v = e->values;
+    for (size_t job = 0; job < v->n_samplers * v->n_sizes * e->trials; job++) {
+        koksma_points points = {0};
+        koksma_value value;
+        const size_t t = job % e->trials, i = job / e->trials % v->n_sizes, s = job / e->trials / v->n_sizes;
+        if (e->status[job * v->n_measures + m] == 2 &&
+            !koksma__sheet_points(v->samplers[s], v->sizes[i], v->dim, t, &points)) {
+            const koksma_run alone = {.threads = 1};
+            koksma_evaluate(&v->measures[m].spec, &points, &alone, &value);
+            koksma_points_fini(&points);
+            koksma__sheet_note_error(sheet, v->measures[m].name);
+            return;
+        }
+    }
+}
+
+/* Adds up the values of one sampler and measure, trial by trial. */
+static void add_up(const evaluation *e, size_t s, size_t m)
+{
+    koksma__sheet_values *v = e->values;
+    for (size_t t = 0; t < v->trials[s]; t++) {
+        double values[KOKSMA__SHEET_SIZES];
+        for (size_t i = 0; i < v->n_sizes; i++) {
+            const size_t job = (s * v->n_sizes + i) * e->trials + (v->samplers[s]->same ? 0 : t);
+            values[i] = e->found[job * v->n_measures + m];
+            v->measures[m].n_bounds += e->status[job * v->n_measures + m] == 1;
+            koksma_tally_add(&v->tallies[(s * v->n_measures + m) * v->n_sizes + i], values[i]);
+        }
+        koksma_joint_add(&v->joints[s * v->n_measures + m], v->n_sizes, values);
+    }
+}
+
+koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values *v, const koksma_run *run)
+{
+    evaluation e = {.values = v};
+    for (size_t s = 0; s < v->n_samplers; s++) {
+        e.trials = v->trials[s] > e.trials ? v->trials[s] : e.trials;
+    }
+    const size_t jobs = v->n_samplers * v->n_sizes * e.trials, rows = v->n_samplers * v->n_measures;
+    e.found = calloc(jobs * v->n_measures, sizeof *e.found);
+    e.status = calloc(jobs * v->n_measures, sizeof *e.status);
+    v->tallies = calloc(rows * v->n_sizes, sizeof *v->tallies);
+    v->joints = calloc(rows, sizeof *v->joints);
+    koksma_status status = e.found && e.status && v->tallies && v->joints
+                               ? koksma__parallel(run, jobs, evaluate_set, &e)
+                               : koksma__fail_memory(jobs * v->n_measures * sizeof *e.found);
+    for (size_t m = 0; m < v->n_measures && !status; m++) {
+        for (size_t job = 0; job < jobs; job++) {
+            v->measures[m].left_out |= e.status[job * v->n_measures + m] == 2;
+        }
+        if (v->measures[m].left_out) {
+            note_missing(sheet, &e, m);
+        }
+        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
+            add_up(&e, s, m);
+        }
+    }
+    free(e.found);
+    free(e.status);
+    return status;
+}
+
+void koksma__sheet_values_fini(koksma__sheet_values *v)
+{
+    free(v->tallies);
+    free(v->joints);
+    *v = (koksma__sheet_values){0};
+}
+
+const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *v, size_t s, size_t m, size_t i)
+{
+    return &v->tallies[(s * v->n_measures + m) * v->n_sizes + i];
+}
+
+int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, size_t m, size_t i, size_t tests)
+{
+    const koksma_tally *x = koksma__sheet_tally(v, a, m, i), *y = koksma__sheet_tally(v, b, m, i);
+    const int sign = koksma__compare(x->mean, y->mean) * (v->measures[m].spec.measure->larger_is_better ? 1 : -1);
+    const double ex = v->samplers[a]->same ? 0 : koksma_tally_error(x),
+                 ey = v->samplers[b]->same ? 0 : koksma_tally_error(y);
+    const double variance = ex * ex + ey * ey;
+    if (variance == 0) {
+        return sign;
+    }
+    const double fourth =
+        (ex > 0 ? ex * ex * ex * ex / (x->count - 1) : 0) + (ey > 0 ? ey * ey * ey * ey / (y->count - 1) : 0);
+    const double t = koksma__student_quantile(1 - 0.025 / (double)tests, variance * variance / fourth);
+    return fabs(x->mean - y->mean) > t * sqrt(variance) ? sign : 0; /* one set has no error (NaN): not decided */
+}
+
+koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
+{
+    koksma__sheet_values *v = &sheet->plane;
+    const koksma_measure *measure;
+    *v = (koksma__sheet_values){.dim = 2,
+                                .n_samplers = sheet->n_samplers,
+                                .n_sizes = sheet->n_sizes,
+                                .samplers = sheet->samplers,
+                                .sizes = sheet->sizes};
+    for (size_t k = 0; (measure = koksma_measure_at(k)) && v->n_measures < KOKSMA__SHEET_MEASURES; k++) {
+        koksma__sheet_measure *m = &v->measures[v->n_measures];
+        if (measure->answer == KOKSMA_ANSWER_EXACT && measure->min_dim <= 2 && measure->max_dim >= 2 &&
+            !koksma_measure_spec(measure->name, &m->spec)) {
+            koksma_spec_text(&m->spec, m->name);
+            v->n_measures++;
+        }
+    }
+    for (size_t s = 0; s < v->n_samplers; s++) {
+        v->trials[s] = koksma__sheet_trials(sheet->samplers[s], sheet->trials);
+    }
+    const koksma_run run = koksma__sheet_part(sheet, 0.4);
+    return koksma__sheet_evaluate(sheet, v, &run);
+}
+
+/* ---- The section ------------------------------------------------------------------------------------------- */
+
+static koksma__estimate mean_of(const koksma_tally *t)
+{
+    const double half = koksma_tally_interval(t);
+    return (koksma__estimate){t->mean, t->mean - half, t->mean + half};
+}
+
+static koksma__estimate slope_of(const koksma__sheet_values *v, size_t s, size_t m)
+{
+    double sizes[KOKSMA__SHEET_SIZES], means[KOKSMA__SHEET_SIZES];
+    koksma_line line;
+    for (size_t i = 0; i < v->n_sizes; i++) {
+        sizes[i] = (double)v->sizes[i];
+        means[i] = koksma__sheet_tally(v, s, m, i)->mean;
+    }
+    if (!koksma_joint_line(&v->joints[s * v->n_measures + m], v->n_sizes, sizes, means, &line)) {
+        return (koksma__estimate){NAN, NAN, NAN};
+    }
+    const double half = v->trials[s] > 1 ? koksma_student_975(v->trials[s] - 1) * line.slope_error : (double)NAN;
+    return (koksma__estimate){line.slope, line.slope - half, line.slope + half};
+}
+
+/* The best of the others by measure m at the last size. */
+static size_t best_beside(const koksma__sheet_values *v, size_t m)
+{
+    const double sign = v->measures[m].spec.measure->larger_is_better ? -1 : 1;
+    size_t best = 1;
+    for (size_t s = 2; s < v->n_samplers; s++) {
+        const double mean = koksma__sheet_tally(v, s, m, v->n_sizes - 1)->mean,
+                     before = koksma__sheet_tally(v, best, m, v->n_sizes - 1)->mean;
+        best = sign * mean < sign * before ? s : best;
+    }
+    return best;
+}
+
+static void put_summary(const koksma__sheet_values *v, koksma__document *d)
+{
+    const size_t last = v->n_sizes - 1;
+    koksma__doc_table_begin(d, "measures");
+    koksma__doc_head(d, "measure");
+    koksma__doc_column(d, &(koksma__column){.name = "mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
+    if (v->n_samplers > 1) {
+        koksma__doc_head(d, "best of the others");
+        koksma__doc_column(d, &(koksma__column){.name = "its mean", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3});
+    }
+    for (size_t m = 0; m < v->n_measures; m++) {
+        if (v->measures[m].left_out) {
+            continue;
+        }
+        koksma__doc_row(d);
+        koksma__doc_text(d, v->measures[m].name);
+        koksma__doc_interval(d, mean_of(koksma__sheet_tally(v, 0, m, last)));
+        koksma__doc_interval(d, slope_of(v, 0, m));
+        if (v->n_samplers > 1) {
+            const size_t best = best_beside(v, m);
+            koksma__doc_text(d, v->samplers[best]->text);
+            koksma__doc_interval(d, mean_of(koksma__sheet_tally(v, best, m, last)));
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document *d)
+{
+    const koksma_measure *measure = v->measures[m].spec.measure;
+    char title[256];
+    snprintf(title, sizeof title, "%s%s", v->measures[m].name,
+             measure->larger_is_better ? " (larger is better)" : "");
+    bool positive = true; /* a logarithmic axis has no 0, which the t-values of nets are */
+    for (size_t k = 0; k < v->n_samplers * v->n_sizes; k++) {
+        positive &= koksma__sheet_tally(v, k / v->n_sizes, m, k % v->n_sizes)->mean > 0;
+    }
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "points n", v->measures[m].name, true, positive});
+    for (size_t s = 0; s < v->n_samplers; s++) {
+        koksma__doc_series_begin(d, v->samplers[s]->text, KOKSMA__SERIES_LINE);
+        for (size_t i = 0; i < v->n_sizes; i++) {
+            const koksma__estimate e = mean_of(koksma__sheet_tally(v, s, m, i));
+            koksma__doc_point(d, (double)v->sizes[i], e.value, e.low, e.high);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+}
+
+/* Every number, one a row. */
+static void put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
+{
+    koksma__doc_table_begin(d, name);
+    koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
+    koksma__doc_column(d, &(koksma__column){.name = "sampler", .merged = true});
+    koksma__doc_head_number(d, "n", 9);
+    koksma__doc_head_interval(d, "mean", 4);
+    koksma__doc_column(d, &(koksma__column){.name = "SD", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
+    koksma__doc_head_number(d, "sets", 9);
+    for (size_t m = 0; m < v->n_measures; m++) {
+        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
+            for (size_t i = 0; i < v->n_sizes; i++) {
+                const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
+                koksma__doc_row(d);
+                koksma__doc_text(d, v->measures[m].name);
+                koksma__doc_text(d, v->samplers[s]->text);
+                koksma__doc_number(d, (double)v->sizes[i]);
+                koksma__doc_interval(d, mean_of(t));
+                koksma__doc_number(d, koksma_tally_sd(t));
+                koksma__doc_number(d, t->count);
+            }
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+/* Slopes of all samplers, as `koksma measure --sizes` fits them. */
+static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
+{
+    koksma__doc_table_begin(d, "slopes");
+    koksma__doc_column(d, &(koksma__column){.name = "measure", .merged = true});
+    koksma__doc_head(d, "sampler");
+    koksma__doc_column(
+        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .fixed = true});
+    koksma__doc_column(d, &(koksma__column){.name = "theory", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
+    koksma__doc_column(d, &(koksma__column){.name = "best possible", .type = KOKSMA__COLUMN_NUMBER, .digits = 2});
+    for (size_t m = 0; m < v->n_measures; m++) {
+        for (size_t s = 0; s < v->n_samplers && !v->measures[m].left_out; s++) {
+            koksma__doc_row(d);
+            koksma__doc_text(d, v->measures[m].name);
+            koksma__doc_text(d, v->samplers[s]->text);
+            koksma__doc_interval(d, slope_of(v, s, m));
+            koksma__doc_number(d, -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim));
+            koksma__doc_number(d, -koksma_best_rate(v->measures[m].spec.measure, v->dim));
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *v, const char *name,
+                              koksma__document *d)
+{
+    char list[KOKSMA__SHEET_COMMAND] = "", sizes[128] = "", source[2 * KOKSMA_MAX_SPEC];
+    put_values(v, name, d);
+    for (size_t m = 0; m < v->n_measures; m++) {
+        const size_t used = strlen(list);
+        if (!v->measures[m].left_out) {
+            snprintf(list + used, sizeof list - used, "%s%s", used ? "," : "", v->measures[m].name);
+        }
+    }
+    for (size_t i = 0; i < v->n_sizes; i++) {
+        const size_t used = strlen(sizes);
+        snprintf(sizes + used, sizeof sizes - used, "%s%zu", used ? "," : "", v->sizes[i]);
+    }
+    for (size_t s = 0; s < v->n_samplers; s++) {
+        koksma__sheet_source(v->samplers[s], v->sizes[v->n_sizes - 1], v->dim, source, sizeof source);
+        koksma__sheet_command(sheet, "measure %s --sizes %s -m %s --trials %zu --seed %llu", source, sizes, list,
+                              v->trials[s], (unsigned long long)v->samplers[s]->seed);
+    }
+    koksma__sheet_put_commands(sheet, d);
+}
+
+void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
+{
+    const koksma__sheet_values *v = &sheet->plane;
+    koksma__doc_section(d, "measures", "Discrepancies and distances");
+    koksma__doc_paragraph(d, "Means over sets at n = %zu with 95 %% intervals, and slopes of log mean over log n.",
+                          v->sizes[v->n_sizes - 1]);
+    put_summary(v, d);
+    for (size_t m = 0; m < v->n_measures; m++) {
+        if (!v->measures[m].left_out) {
+            put_chart(v, m, d);
+        }
+    }
+    koksma__doc_section_begin(d, "slopes", true);
+    koksma__doc_say(d, "Slopes of all samplers");
+    koksma__doc_section_body(d);
+    put_slopes(v, d);
+    koksma__doc_end(d);
+    koksma__doc_section_begin(d, "values", true);
+    koksma__doc_say(d, "All values, and the commands that give them");
+    koksma__doc_section_body(d);
+    koksma__sheet_put_values(sheet, v, "values", d);
+    koksma__doc_end(d);
+    koksma__doc_end(d);
+}

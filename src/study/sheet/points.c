@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * What the points are: drawings of the first set of a few sizes, the properties that `koksma verify` finds in it, and
+ * in more dimensions the projections on pairs of coordinates with the discrepancies there.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include <koksma/verify.h>
+
+#include "core/status.h"
+#include "study/sheet/sheet.h"
+
+enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
+
+/* The points of coordinates a and b as a figure. */
+static void draw(koksma__document *d, const koksma_points *points, int a, int b, int width, const char *what,
+                 const char *caption)
+{
+    static const double square[4] = {0, 0, 1, 1};
+    koksma__doc_figure_begin(d, width == WIDTH ? "set" : "projection");
+    koksma__doc_drawing_begin(d, width, square, what);
+    koksma__doc_line(d, 0, 0, 1, 0);
+    koksma__doc_line(d, 1, 0, 1, 1);
+    koksma__doc_line(d, 1, 1, 0, 1);
+    koksma__doc_line(d, 0, 1, 0, 0);
+    for (size_t i = 0; i < points->n; i++) {
+        const double *x = points->xs + i * (size_t)points->dim;
+        koksma__doc_dot(d, x[a], x[b]);
+    }
+    koksma__doc_end(d);
+    koksma__doc_caption(d);
+    koksma__doc_say(d, "%s", caption);
+    koksma__doc_figure_end(d);
+}
+
+/* first: it is the sampler of the sheet, whose name need not stand below each set. */
+static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bool first, koksma__document *d)
+{
+    char what[KOKSMA_MAX_SPEC + 64];
+    koksma_points points = {0};
+    const koksma_status status = koksma__sheet_points(sampler, n, 2, 0, &points);
+    if (!status) {
+        snprintf(what, sizeof what, "%s, n = %zu", sampler->text, n);
+        draw(d, &points, 0, 1, WIDTH, what, first ? strrchr(what, ',') + 2 : what);
+    }
+    koksma_points_fini(&points);
+    return status;
+}
+
+static void put_plot_command(koksma__sheet *sheet, const koksma__sheet_sampler *sampler, size_t n)
+{
+    char source[2 * KOKSMA_MAX_SPEC];
+    koksma__sheet_source(sampler, n, 2, source, sizeof source);
+    koksma__sheet_command(sheet, "plot %s --seed %llu -o points-%zu.svg", source, (unsigned long long)sampler->seed,
+                          n);
+}
+
+koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *d)
+{
+    const size_t common = koksma__sheet_size(sheet, DRAWN / 4);
+    koksma_status status = KOKSMA_OK;
+    koksma__doc_section(d, "points", "Points");
+    for (size_t i = 0; i < sheet->n_sizes && !status; i++) {
+        if (sheet->sizes[i] <= DRAWN) {
+            status = draw_set(sheet->samplers[0], sheet->sizes[i], true, d);
+        }
+    }
+    koksma__doc_paragraph(d, "Above the first set of each size, below those of the others:");
+    for (size_t s = 1; s < sheet->n_samplers && !status; s++) {
+        status = draw_set(sheet->samplers[s], common, false, d);
+    }
+    for (size_t i = 0; i < sheet->n_sizes; i++) {
+        if (sheet->sizes[i] <= DRAWN) {
+            put_plot_command(sheet, sheet->samplers[0], sheet->sizes[i]);
+        }
+    }
+    koksma__sheet_put_commands(sheet, d);
+    koksma__doc_end(d);
+    return status;
+}
+
+/* ---- Properties -------------------------------------------------------------------------------------------- */
+
+/* How many findings of a property hold, as "yes", "no" or "2 of 3"; "–" without any. */
+static void count_findings(const koksma_findings *findings, const char *property, char *out, size_t size)
+{
+    size_t n = 0, held = 0;
+    for (size_t i = 0; i < findings->count; i++) {
+        if (!strcmp(findings->items[i].property, property)) {
+            n++;
+            held += findings->items[i].holds;
+        }
+    }
+    snprintf(out, size, "%zu of %zu", held, n);
+    if (!n || held == n || !held) {
+        snprintf(out, size, "%s", !n ? "–" : held ? "yes" : "no");
+    }
+}
+
+static void put_matrix(const koksma__sheet *sheet, const koksma_findings *findings, koksma__document *d)
+{
+    const koksma_property *property;
+    koksma__doc_table_begin(d, "properties");
+    koksma__doc_head(d, "property");
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma__doc_head(d, sheet->samplers[s]->text);
+    }
+    for (size_t p = 0; (property = koksma_property_at(p)); p++) {
+        char text[48];
+        koksma__doc_row(d);
+        koksma__doc_text(d, property->name);
+        for (size_t s = 0; s < sheet->n_samplers; s++) {
+            count_findings(&findings[s], property->name, text, sizeof text);
+            koksma__doc_text(d, text);
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+static void put_findings(const koksma_findings *findings, const char *name, koksma__document *d)
+{
+    koksma__doc_table_begin(d, name);
+    koksma__doc_column(d, &(koksma__column){.name = "property", .merged = true});
+    koksma__doc_head(d, "subject");
+    koksma__doc_head(d, "holds");
+    koksma__doc_head_number(d, "value", 6);
+    koksma__doc_head(d, "detail");
+    for (size_t i = 0; i < findings->count; i++) {
+        const koksma_finding *f = &findings->items[i];
+        koksma__doc_row(d);
+        koksma__doc_text(d, f->property);
+        koksma__doc_text(d, f->subject);
+        koksma__doc_text(d, f->holds ? "yes" : "no");
+        koksma__doc_number(d, f->value);
+        koksma__doc_text(d, f->detail);
+    }
+    koksma__doc_table_end(d);
+}
+
+static void put_verify_command(koksma__sheet *sheet, const koksma__sheet_sampler *sampler, size_t n, int dim)
+{
+    char source[2 * KOKSMA_MAX_SPEC];
+    koksma__sheet_source(sampler, n, dim, source, sizeof source);
+    koksma__sheet_command(sheet, "verify %s --seed %llu", source, (unsigned long long)sampler->seed);
+}
+
+koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
+{
+    const size_t n = koksma__sheet_size(sheet, VERIFIED);
+    const koksma_run run = koksma__sheet_part(sheet, 0.02);
+    koksma_findings findings[KOKSMA__SHEET_SAMPLERS] = {{0}};
+    koksma_status status = KOKSMA_OK;
+    for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
+        koksma_points points = {0};
+        status = koksma__sheet_points(sheet->samplers[s], n, 2, 0, &points);
+        status = status ? status : koksma_verify(&points, &run, &findings[s]);
+        koksma_points_fini(&points);
+    }
+    if (!status) {
+        koksma__doc_section(d, "properties", "Verified properties");
+        koksma__doc_paragraph(d, "Found by looking at the points of the first set of %zu, not claimed.", n);
+        put_matrix(sheet, findings, d);
+        koksma__doc_section_begin(d, "findings", true);
+        koksma__doc_say(d, "Every finding about %s", sheet->samplers[0]->text);
+        koksma__doc_section_body(d);
+        put_findings(&findings[0], "findings", d);
+        koksma__doc_end(d);
+        for (size_t s = 0; s < sheet->n_samplers; s++) {
+            put_verify_command(sheet, sheet->samplers[s], n, 2);
+        }
+        koksma__sheet_put_commands(sheet, d);
+        koksma__doc_end(d);
+    }
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma_findings_fini(&findings[s]);
+    }
+    return status;
+}
+
+/* ---- More dimensions --------------------------------------------------------------------------------------- */
+
+/* Pairs of neighbouring coordinates, and the first with the last. */
+static koksma_status draw_pairs(const koksma__sheet_sampler *sampler, size_t n, int dim, koksma__document *d)
+{
+    koksma_points points = {0};
+    const koksma_status status = koksma__sheet_points(sampler, n, dim, 0, &points);
+    for (int k = 0; k < dim && !status; k++) {
+        char what[64];
+        const int a = k + 1 < dim ? k : 0, b = k + 1 < dim ? k + 1 : dim - 1;
+        snprintf(what, sizeof what, "coordinates %d and %d", a, b);
+        draw(d, &points, a, b, PROJECTION_WIDTH, what, what);
+    }
+    koksma_points_fini(&points);
+    return status;
+}
+
+/* The samplers that have sets of n points in so many dimensions; false: the first has none. */
+static bool choose_deep(koksma__sheet *sheet, size_t n, int dim, bool note, koksma__sheet_sampler **samplers,
+                        size_t *count)
+{
+    *count = 0;
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma_points points = {0};
+        const bool there = !koksma__sheet_points(sheet->samplers[s], n, dim, 0, &points);
+        koksma_points_fini(&points);
+        if (there) {
+            samplers[(*count)++] = sheet->samplers[s];
+        } else if (s == 0) {
+            return false;
+        } else if (note) {
+            koksma__sheet_note_error(sheet, sheet->samplers[s]->text);
+        }
+    }
+    return true;
+}
+
+koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *d)
+{
+    static const char *const names[] = {"l2-star", "l2-centered", "l2-wraparound", "diaphony"};
+    size_t n = koksma__sheet_size(sheet, DEEP_POINTS);
+    koksma__sheet_sampler *samplers[KOKSMA__SHEET_SAMPLERS];
+    koksma__sheet_values v = {
+        .n_sizes = 1, .sizes = &n, .samplers = samplers, .n_measures = sizeof names / sizeof *names};
+    koksma_findings findings = {0};
+    koksma_points points = {0};
+    const koksma_run run = koksma__sheet_part(sheet, 0.08);
+    v.dim = sheet->max_dim < MOST_DIM ? sheet->max_dim : MOST_DIM;
+    while (v.dim > 2 && !choose_deep(sheet, n, v.dim, false, samplers, &v.n_samplers)) {
+        v.dim--;
+    }
+    if (v.dim < 3) {
+        return KOKSMA_OK;
+    }
+    choose_deep(sheet, n, v.dim, true, samplers, &v.n_samplers);
+    for (size_t m = 0; m < v.n_measures; m++) {
+        koksma_measure_spec(names[m], &v.measures[m].spec);
+        snprintf(v.measures[m].name, sizeof v.measures[m].name, "%s", names[m]);
+    }
+    for (size_t s = 0; s < v.n_samplers; s++) {
+        v.trials[s] = koksma__sheet_trials(samplers[s], sheet->trials);
+    }
+    koksma_status status = koksma__sheet_evaluate(sheet, &v, &run);
+    status = status ? status : koksma__sheet_points(samplers[0], n, v.dim, 0, &points);
+    status = status ? status : koksma_verify(&points, &run, &findings);
+    if (!status) {
+        koksma__doc_section(d, "projections", "More dimensions");
+        koksma__doc_paragraph(d, "The first set of %zu points in %d dimensions, projected on pairs of coordinates.",
+                              n, v.dim);
+        status = draw_pairs(samplers[0], n, v.dim, d);
+        koksma__doc_paragraph(d, "Discrepancies of the points in all %d dimensions:", v.dim);
+        koksma__sheet_put_values(sheet, &v, "projections", d);
+        koksma__doc_section_begin(d, "projection-findings", true);
+        koksma__doc_say(d, "Properties of projections of %s", samplers[0]->text);
+        koksma__doc_section_body(d);
+        put_findings(&findings, "projection-findings", d);
+        put_verify_command(sheet, samplers[0], n, v.dim);
+        koksma__sheet_put_commands(sheet, d);
+        koksma__doc_end(d);
+        koksma__doc_end(d);
+    }
+    koksma_points_fini(&points);
+    koksma_findings_fini(&findings);
+    koksma__sheet_values_fini(&v);
+    return status;
+}

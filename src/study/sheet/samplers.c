@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Which samplers a sheet compares, and at which sizes. A text that names a file, or has {n} or {seed} in it, is one of
+ * points; anything else is the spec of a pattern. Files decide: a family of files is measured at the sizes and with
+ * the seeds that it has, a single file at its own size, everything beside it at the same sizes.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <koksma/render.h>
+
+#include "api/generate.h"
+#include "core/status.h"
+#include "patterns/shared/file_names.h"
+#include "study/sheet/sheet.h"
+
+enum { MOST_POINTS = 4096, MOST_POINTS_QUICK = 1024, MOST_SPP = 256 };
+
+static const char file_prefix[] = "file:";
+
+static const char *const beside_by_default[] = {"random", "jittered", "sobol:scramble=owen"};
+
+/* ---- Texts ------------------------------------------------------------------------------------------------- */
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), n = strlen(end);
+    return length > n && !strcmp(text + length - n, end);
+}
+
+static bool is_family(const char *text)
+{
+    return koksma__file_has(text, "{n}") || koksma__file_has(text, "{seed}");
+}
+
+static bool is_file(const char *text)
+{
+    return is_family(text) || ends_with(text, ".npy") || ends_with(text, ".csv") || ends_with(text, ".txt") ||
+           (!koksma_pattern_find(text) && !strchr(text, ':') && !access(text, F_OK));
+}
+
+static koksma_status parse(const char *text, koksma__sheet_sampler *out)
+{
+    char spec[KOKSMA_MAX_SPEC + sizeof file_prefix];
+    const bool file = strncmp(text, file_prefix, strlen(file_prefix)) != 0 && is_file(text);
+    snprintf(spec, sizeof spec, "%s%s", file ? file_prefix : "", text);
+    koksma_status status = strlen(text) < KOKSMA_MAX_SPEC - sizeof file_prefix
+                               ? koksma_pattern_spec(spec, &out->spec)
+                               : koksma__fail(KOKSMA_ARGUMENT, "sampler '%.40s...': longer than %zu characters", text,
+                                              KOKSMA_MAX_SPEC - sizeof file_prefix - 1);
+    if (!status) {
+        koksma_spec_text(&out->spec, out->text);
+        out->same = koksma__spec_is_deterministic(&out->spec);
+        out->sets = SIZE_MAX;
+    }
+    return status;
+}
+
+/* ---- Files ------------------------------------------------------------------------------------------------- */
+
+/* How many sets of n points a family has one after the other from a seed on. */
+static size_t count_from(const koksma__file_set *sets, size_t count, size_t n, uint64_t seed)
+{
+    size_t found = 0;
+    for (size_t i = 0; i < count; i++) {
+        found += sets[i].n == n && sets[i].seed == seed + found;
+    }
+    return found;
+}
+
+/* Keeps at most KOKSMA__SHEET_SIZES, spread evenly on a logarithmic axis, with the first and the last. */
+static size_t thin(size_t *sizes, size_t n)
+{
+    size_t kept = 0;
+    if (n <= KOKSMA__SHEET_SIZES) {
+        return n;
+    }
+    const double first = log((double)sizes[0]),
+                 step = (log((double)sizes[n - 1]) - first) / (KOKSMA__SHEET_SIZES - 1);
+    for (size_t i = 0, k = 0; i < KOKSMA__SHEET_SIZES && k < n; i++) {
+        while (k + 1 < n && fabs(log((double)sizes[k + 1]) - first - (double)i * step) <=
+                                fabs(log((double)sizes[k]) - first - (double)i * step)) {
+            k++;
+        }
+        sizes[kept++] = sizes[k++];
+    }
+    return kept;
+}
+
+/* A size is measured if it has at least half as many sets as the one with the most, and no more points than is
+   quick to measure, unless all have. */
+static koksma_status choose_sizes_of_family(koksma__sheet *sheet, koksma__sheet_sampler *sampler,
+                                            const koksma__file_set *sets, size_t count)
+{
+    size_t *sizes = calloc(count + 1, sizeof *sizes), n = 0, most = 0;
+    const size_t most_points = sheet->options->quick ? MOST_POINTS_QUICK : MOST_POINTS;
+    if (!sizes) {
+        return koksma__fail_memory(count * sizeof *sizes);
+    }
+    sampler->seed = sets[0].seed;
+    for (size_t i = 0; i < count; i++) {
+        sampler->seed = sets[i].seed < sampler->seed ? sets[i].seed : sampler->seed;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const size_t here = count_from(sets, count, sets[i].n, sampler->seed);
+        most = here > most ? here : most;
+    }
+    sampler->sets = most;
+    for (size_t i = 0; i < count; i++) {
+        const size_t here = count_from(sets, count, sets[i].n, sampler->seed);
+        if ((n && sizes[n - 1] == sets[i].n) || 2 * here < most || (n && sets[i].n > most_points)) {
+            continue;
+        }
+        sizes[n++] = sets[i].n;
+        sampler->sets = here < sampler->sets ? here : sampler->sets;
+    }
+    n = thin(sizes, n);
+    sheet->n_sizes = n;
+    memcpy(sheet->sizes, sizes, n * sizeof *sizes);
+    free(sizes);
+    return KOKSMA_OK;
+}
+
+/* Numbers of sets in a row for one that is beside: of the sizes of the sheet. */
+static void count_sets(const koksma__sheet *sheet, koksma__sheet_sampler *sampler, const koksma__file_set *sets,
+                       size_t count)
+{
+    sampler->seed = sets[0].seed;
+    for (size_t i = 0; i < sheet->n_sizes; i++) {
+        const size_t here = count_from(sets, count, sets[0].n ? sheet->sizes[i] : 0, sampler->seed);
+        sampler->sets = here < sampler->sets ? here : sampler->sets;
+    }
+}
+
+static koksma_status fail_none(const char *path)
+{
+    char looked_for[KOKSMA_MAX_SPEC], first[KOKSMA_MAX_SPEC];
+    koksma__file_glob(path, false, looked_for, sizeof looked_for);
+    const koksma_status status = koksma__file_name(path, 256, 0, first);
+    return status ? status
+                  : koksma__fail(
+                        KOKSMA_MISSING,
+                        "%s: no file %s with whole numbers in place of the stars; %s would be 256 points of seed 0",
+                        path, looked_for, first);
+}
+
+/* The size of a file that says none in its name. */
+static koksma_status size_of_file(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
+{
+    koksma_points points = {0};
+    const koksma_status status = koksma_generate_whole(&sampler->spec, sampler->seed, NULL, 0, &points);
+    sheet->sizes[0] = points.n;
+    sheet->n_sizes = 1;
+    koksma_points_fini(&points);
+    return status;
+}
+
+/* Sizes and seeds of a sampler whose points are in files; of samplers[0] those of the sheet. */
+static koksma_status look_at_files(koksma__sheet *sheet, koksma__sheet_sampler *sampler)
+{
+    koksma__file_set *sets = NULL;
+    size_t count = 0;
+    const char *path = sampler->spec.path;
+    const bool first = sampler == sheet->all;
+    koksma_status status = is_family(path) ? koksma__file_sets(path, &sets, &count) : KOKSMA_OK;
+    if (!status && is_family(path) && !count) {
+        status = fail_none(path);
+    } else if (!status && koksma__file_has(path, "{n}") && first) {
+        status = choose_sizes_of_family(sheet, sampler, sets, count);
+    } else if (!status && count) {
+        sampler->seed = sets[0].seed;
+        sampler->sets = count_from(sets, count, sets[0].n, sampler->seed);
+        status = first ? size_of_file(sheet, sampler) : KOKSMA_OK;
+        if (!first) {
+            count_sets(sheet, sampler, sets, count);
+        }
+    } else if (!status && first) {
+        status = size_of_file(sheet, sampler);
+    }
+    if (!koksma__file_has(path, "{seed}")) { /* one set of each size: the same for every seed */
+        sampler->seed = 0;
+        sampler->sets = SIZE_MAX;
+    }
+    free(sets);
+    return status;
+}
+
+/* The dimensions that samplers[0] has. */
+static koksma_status find_dimensions(koksma__sheet *sheet)
+{
+    const koksma__sheet_sampler *sampler = &sheet->all[0];
+    sheet->max_dim = sampler->spec.pattern->max_dim;
+    if (!sampler->spec.pattern->takes_path) {
+        return KOKSMA_OK;
+    }
+    char path[KOKSMA_MAX_SPEC];
+    koksma_points points = {0};
+    koksma_status status = koksma__file_name(sampler->spec.path, sheet->sizes[0], sampler->seed, path);
+    status = status ? status : koksma_points_read(path, &points);
+    sheet->max_dim = points.dim;
+    koksma_points_fini(&points);
+    return status;
+}
+
+/* ---- The choice -------------------------------------------------------------------------------------------- */
+
+koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
+                                   koksma_points *out)
+{
+    const koksma_run alone = {.threads = 1};
+    koksma_status status = koksma_points_init(out, n, dim);
+    if (!status) {
+        status = koksma_generate(&sampler->spec, sampler->seed + trial, &alone, out);
+        if (status) {
+            koksma_points_fini(out);
+        }
+    }
+    return status;
+}
+
+size_t koksma__sheet_trials(const koksma__sheet_sampler *sampler, size_t wanted)
+{
+    return sampler->sets < wanted ? sampler->sets : wanted;
+}
+
+size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most)
+{
+    size_t found = sheet->sizes[0];
+    for (size_t i = 0; i < sheet->n_sizes; i++) {
+        found = sheet->sizes[i] <= most ? sheet->sizes[i] : found;
+    }
+    return found;
+}
+
+/* Whether a sampler has a first set of every size. */
+static koksma_status try_sizes(const koksma__sheet *sheet, const koksma__sheet_sampler *sampler)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < sheet->n_sizes; i++) {
+        koksma_points points = {0};
+        status = koksma__sheet_points(sampler, sheet->sizes[i], 2, 0, &points);
+        koksma_points_fini(&points);
+    }
+    return status;
+}
+
+/* Adds a sampler; one of those beside that cannot serve a size is left out. */
+static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by_default)
+{
+    koksma__sheet_sampler *sampler = &sheet->all[sheet->n_samplers];
+    const bool first = sheet->n_samplers == 0;
+    *sampler = (koksma__sheet_sampler){0};
+    koksma_status status = parse(text, sampler);
+    if (status) {
+        return status;
+    }
+    for (size_t i = 0; i < sheet->n_samplers; i++) {
+        if (!strcmp(sampler->text, sheet->all[i].text)) {
+            return by_default ? KOKSMA_OK
+                              : koksma__fail(KOKSMA_ARGUMENT, "sampler '%s' is given twice", sampler->text);
+        }
+    }
+    status = sampler->spec.pattern->takes_path ? look_at_files(sheet, sampler) : KOKSMA_OK;
+    status = status ? status : try_sizes(sheet, sampler);
+    if (status && !first && status != KOKSMA_MISSING && status != KOKSMA_MALFORMED && status != KOKSMA_MEMORY) {
+        koksma__sheet_note_error(sheet, sampler->text);
+        return KOKSMA_OK;
+    }
+    sheet->samplers[sheet->n_samplers++] = sampler;
+    return status;
+}
+
+/* Samples a pixel: those of 4, 16 and 64 that the sizes have, else up to three sizes of few points. */
+static void choose_spp(koksma__sheet *sheet)
+{
+    static const int usual[] = {4, 16, 64};
+    const bool any = !sheet->samplers[0]->spec.pattern->takes_path;
+    for (size_t k = sheet->options->quick; k < (sheet->options->quick ? 2 : 3); k++) {
+        bool there = any;
+        for (size_t i = 0; i < sheet->n_sizes; i++) {
+            there |= sheet->sizes[i] == (size_t)usual[k];
+        }
+        if (there) {
+            sheet->spp[sheet->n_spp++] = usual[k];
+        }
+    }
+    for (size_t i = 0; i < sheet->n_sizes && !any && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
+         i++) {
+        bool there = false;
+        for (size_t k = 0; k < sheet->n_spp; k++) {
+            there |= sheet->sizes[i] == (size_t)sheet->spp[k];
+        }
+        if (!there && sheet->sizes[i] <= MOST_SPP) {
+            sheet->spp[sheet->n_spp++] = (int)sheet->sizes[i];
+        }
+    }
+}
+
+koksma_status koksma__sheet_choose(koksma__sheet *sheet)
+{
+    static const size_t usual[] = {16, 64, 256, 1024, 4096};
+    static const char *const scenes[] = {"ball", "checker", "cornell"};
+    const koksma_datasheet_options *o = sheet->options;
+    sheet->n_sizes = o->quick ? 3 : sizeof usual / sizeof *usual;
+    memcpy(sheet->sizes, usual, sheet->n_sizes * sizeof *usual);
+    sheet->trials = o->quick ? 8 : 16;
+    sheet->max_trials = o->quick ? 8 : 64;
+    sheet->scenes = o->scenes ? o->scenes : scenes;
+    sheet->n_scenes = o->scenes ? o->n_scenes : sizeof scenes / sizeof *scenes;
+    koksma_status status = add_sampler(sheet, o->sampler, false);
+    status = status ? status : find_dimensions(sheet);
+    const size_t n = o->beside ? o->n_beside : sizeof beside_by_default / sizeof *beside_by_default;
+    for (size_t i = 0; !status && i < n; i++) {
+        status = add_sampler(sheet, o->beside ? o->beside[i] : beside_by_default[i], !o->beside);
+    }
+    for (size_t i = 0; !status && i < sheet->n_scenes; i++) { /* now, and not after minutes */
+        koksma_scene *scene = NULL;
+        status = koksma_scene_open(sheet->scenes[i], &scene);
+        koksma_scene_close(scene);
+    }
+    if (!status) {
+        choose_spp(sheet);
+    }
+    return status;
+}

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Errors of the samplers in scenes: koksma_rank_patterns at one size without a time limit, so that the numbers depend
+ * on nothing but the scene and the samplers.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "study/sheet/sheet.h"
+
+koksma_status koksma__sheet_rank(koksma__sheet *sheet)
+{
+    const char *patterns[KOKSMA__SHEET_SAMPLERS];
+    const size_t n = sheet->n_scenes * sheet->n_spp;
+    koksma_status status = KOKSMA_OK;
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        patterns[s] = sheet->samplers[s]->text;
+    }
+    sheet->rankings = calloc(n + 1, sizeof *sheet->rankings);
+    if (!sheet->rankings) {
+        return koksma__fail_memory(n * sizeof *sheet->rankings);
+    }
+    for (size_t i = 0; i < n && !status; i++) {
+        koksma__sheet_ranking *r = &sheet->rankings[i];
+        const koksma_run run = koksma__sheet_part(sheet, 0.4 / (double)n);
+        r->scene = sheet->scenes[i / sheet->n_spp];
+        r->spp = sheet->spp[i % sheet->n_spp];
+        const koksma_rank_options options = {.scene = r->scene,
+                                             .patterns = patterns,
+                                             .n_patterns = sheet->n_samplers,
+                                             .spp = r->spp,
+                                             .max_trials = (long long)sheet->max_trials,
+                                             .one_size = true};
+        status = koksma_rank_patterns(&options, &run, r->rows, &r->ranking);
+        sheet->n_rankings += !status;
+    }
+    return status;
+}
+
+/* Words of a decision beside the first row. */
+static const char *decision_of(const koksma_rank_row *row)
+{
+    static const char *const words[] = {"undecided", "best", "equal to the first", "worse than the first"};
+    return row->state == KOKSMA_RANK_RANKED ? words[row->decision] : "not ranked";
+}
+
+static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document *d)
+{
+    char name[128];
+    snprintf(name, sizeof name, "scene-%s", sheet->scenes[scene]);
+    koksma__doc_table_begin(d, name);
+    koksma__doc_column(d, &(koksma__column){.name = "samples a pixel",
+                                            .title = "samples",
+                                            .digits = 9,
+                                            .merged = true,
+                                            .type = KOKSMA__COLUMN_NUMBER});
+    koksma__doc_head(d, "sampler");
+    koksma__doc_head_interval(d, "error", 4);
+    koksma__doc_column(d, &(koksma__column){.name = "behind the first",
+                                            .title = "behind",
+                                            .type = KOKSMA__COLUMN_INTERVAL,
+                                            .digits = 2,
+                                            .fixed = true});
+    koksma__doc_column(d, &(koksma__column){.name = "coherent", .title = "bands"});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "position", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "coherence", .type = KOKSMA__COLUMN_NUMBER, .digits = 3, .hidden = true});
+    koksma__doc_column(d, &(koksma__column){.name = "decision", .hidden = true});
+    koksma__doc_column(
+        d, &(koksma__column){.name = "images", .type = KOKSMA__COLUMN_NUMBER, .digits = 9, .hidden = true});
+    for (size_t k = 0; k < sheet->n_spp; k++) {
+        const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
+        for (size_t i = 0; i < sheet->n_samplers; i++) {
+            const koksma_rank_row *row = &r->rows[i];
+            koksma__doc_row(d);
+            koksma__doc_number(d, r->spp);
+            koksma__doc_text(d, sheet->samplers[row->pattern]->text);
+            koksma__doc_interval(d, (koksma__estimate){row->mean, row->low, row->high});
+            koksma__doc_interval(d, (koksma__estimate){row->behind, row->behind_low, row->behind_high});
+            koksma__doc_text(d, !row->coherence.images ? "–" : row->coherence.coherent ? "yes" : "no");
+            koksma__doc_number(d, row->position ? (double)row->position : (double)NAN);
+            koksma__doc_number(d, row->coherence.images ? row->coherence.coherence : (double)NAN);
+            koksma__doc_text(d, decision_of(row));
+            koksma__doc_number(d, (double)row->trials);
+        }
+    }
+    koksma__doc_table_end(d);
+}
+
+/* Errors over samples a pixel, where there are several. */
+static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document *d)
+{
+    char title[128];
+    snprintf(title, sizeof title, "Error in %s", sheet->scenes[scene]);
+    koksma__doc_chart_begin(d, &(koksma__chart){title, "samples a pixel", "mean absolute error", true, true});
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
+        for (size_t k = 0; k < sheet->n_spp; k++) {
+            const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
+            for (size_t i = 0; i < sheet->n_samplers; i++) {
+                if (r->rows[i].pattern == s && r->rows[i].state == KOKSMA_RANK_RANKED) {
+                    koksma__doc_point(d, r->spp, r->rows[i].mean, r->rows[i].low, r->rows[i].high);
+                }
+            }
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+}
+
+static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
+{
+    char patterns[KOKSMA__SHEET_COMMAND] = "", spp[64] = "";
+    bool quoted = false;
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        const size_t used = strlen(patterns);
+        snprintf(patterns + used, sizeof patterns - used, "%s%s", used ? "," : "", sheet->samplers[s]->text);
+        quoted |= sheet->samplers[s]->text[strcspn(sheet->samplers[s]->text, " {}[]*?$&;|<>()\"\\`!#~")] != '\0';
+    }
+    for (size_t k = 0; k < sheet->n_spp; k++) {
+        const size_t used = strlen(spp);
+        snprintf(spp + used, sizeof spp - used, "%s%d", used ? "," : "", sheet->spp[k]);
+    }
+    koksma__sheet_command(sheet, "rank %s --spp %s -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000",
+                          sheet->scenes[scene], spp, quoted ? "'" : "", patterns, quoted ? "'" : "",
+                          sheet->max_trials);
+    koksma__sheet_put_commands(sheet, d);
+}
+
+void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
+{
+    if (!sheet->n_scenes) {
+        return;
+    }
+    koksma__doc_section(d, "scenes", "Errors in scenes");
+    if (!sheet->n_spp) {
+        koksma__doc_paragraph(d, "No scene was rendered: no set has 4, 16, 64 or another number of up to 256 points, "
+                                 "one for each sample of a pixel.");
+    } else {
+        koksma__doc_paragraph(d, "Mean absolute error of an image's luminance, samplers as a renderer uses them: a "
+                                 "set for each pixel and use. "
+                                 "Behind: relative difference to the first. Bands: the error has a pattern, which "
+                                 "eyes notice more than noise. "
+                                 "Intervals and decisions of a scene hold together with 95 %%; coherence and "
+                                 "decisions are in the CSV files.");
+    }
+    if (sheet->samplers[0]->sets != SIZE_MAX && sheet->n_spp) {
+        koksma__doc_paragraph(
+            d,
+            "Each pixel and use takes one of the files of its number of points at random: few files "
+            "(here %zu or more) repeat over the image and give bands.",
+            sheet->samplers[0]->sets);
+    }
+    for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
+        koksma__doc_section(d, NULL, sheet->scenes[i]);
+        if (sheet->n_spp > 1) {
+            put_chart(sheet, i, d);
+        }
+        put_table(sheet, i, d);
+        for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
+            const koksma__sheet_ranking *r = &sheet->rankings[i * sheet->n_spp + k / sheet->n_samplers];
+            const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];
+            if (row->state != KOKSMA_RANK_RANKED) {
+                koksma__doc_paragraph(d, "%s at %d samples: %s", sheet->samplers[row->pattern]->text, r->spp,
+                                      row->reason);
+            }
+        }
+        put_command(sheet, i, d);
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+}

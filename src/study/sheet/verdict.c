@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The verdict of a sheet: at what the sampler is best, where it is beaten, and how sure that is. A measure counts as
+ * won when the sampler is better than every other one at the largest n, as lost when one is better than it, and is not
+ * decided otherwise; a scene likewise by the decisions of its ranking at the most samples.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/sheet/sheet.h"
+
+/* What came of the comparisons of one measure or scene. */
+typedef enum outcome { OPEN, WON, LOST, EQUAL } outcome;
+
+typedef struct score {
+    size_t n[4], tests;
+    outcome of[KOKSMA__SHEET_MEASURES];
+    size_t winner[KOKSMA__SHEET_MEASURES]; /* where LOST: who is the best of those that are better */
+} score;
+
+static outcome judge_measure(const koksma__sheet_values *v, size_t m, size_t tests, size_t *winner)
+{
+    const size_t last = v->n_sizes - 1;
+    size_t won = 0, equal = 0;
+    bool lost = false;
+    for (size_t s = 1; s < v->n_samplers; s++) {
+        const int sign = koksma__sheet_compare(v, 0, s, m, last, tests);
+        const bool exact = v->samplers[0]->same && v->samplers[s]->same;
+        won += sign > 0;
+        equal += sign == 0 &&
+                 (exact || koksma__sheet_tally(v, 0, m, last)->mean == koksma__sheet_tally(v, s, m, last)->mean);
+        if (sign < 0) {
+            const double sense = v->measures[m].spec.measure->larger_is_better ? -1 : 1;
+            const bool better = !lost || sense * koksma__sheet_tally(v, s, m, last)->mean <
+                                             sense * koksma__sheet_tally(v, *winner, m, last)->mean;
+            *winner = better ? s : *winner;
+            lost = true;
+        }
+    }
+    return lost ? LOST : won == v->n_samplers - 1 ? WON : won + equal == v->n_samplers - 1 ? EQUAL : OPEN;
+}
+
+static score score_measures(const koksma__sheet_values *v)
+{
+    score result = {0};
+    for (size_t m = 0; m < v->n_measures; m++) {
+        result.tests += v->measures[m].left_out ? 0 : v->n_samplers - 1;
+    }
+    for (size_t m = 0; m < v->n_measures; m++) {
+        if (!v->measures[m].left_out) {
+            result.of[m] = judge_measure(v, m, result.tests, &result.winner[m]);
+            result.n[result.of[m]]++;
+        }
+    }
+    return result;
+}
+
+/* The row of the sampler, and what the ranking decides about it. */
+static outcome judge_scene(const koksma__sheet_ranking *r, const koksma_rank_row **row)
+{
+    *row = NULL;
+    for (size_t i = 0; i < r->ranking.n; i++) {
+        *row = r->rows[i].pattern == 0 ? &r->rows[i] : *row;
+    }
+    if (!*row) {
+        return OPEN;
+    }
+    return (*row)->decision == KOKSMA_RANK_BEST    ? WON
+           : (*row)->decision == KOKSMA_RANK_WORSE ? LOST
+           : (*row)->decision == KOKSMA_RANK_EQUAL ? EQUAL
+                                                   : OPEN;
+}
+
+static void say_count(koksma__document *d, size_t measures, size_t of_measures, size_t scenes, size_t of_scenes)
+{
+    koksma__doc_say(d, "%zu of %zu measures", measures, of_measures);
+    if (of_scenes) {
+        koksma__doc_say(d, " and %zu of %zu scenes", scenes, of_scenes);
+    }
+}
+
+/* The measures with this outcome, as an item; of lost ones those that `winner` has won. Nothing where there are none. */
+static void put_measures(const koksma__sheet_values *v, const score *result, outcome which, size_t winner,
+                         const char *head, koksma__document *d)
+{
+    const size_t last = v->n_sizes - 1;
+    bool first = true;
+    for (size_t m = 0; m < v->n_measures; m++) {
+        if (v->measures[m].left_out || result->of[m] != which || (which == LOST && result->winner[m] != winner)) {
+            continue;
+        }
+        if (first) {
+            koksma__doc_item(d);
+            koksma__doc_say(d, "*%s", head);
+            koksma__doc_say(d, which == LOST ? " %s*: " : "*: ", v->samplers[winner]->text);
+        }
+        koksma__doc_say(d, first ? "%s" : ", %s", v->measures[m].name);
+        if (which == LOST) {
+            koksma__doc_say(d, " (%.3g beside %.3g)", koksma__sheet_tally(v, winner, m, last)->mean,
+                            koksma__sheet_tally(v, 0, m, last)->mean);
+        }
+        first = false;
+    }
+}
+
+/* One item for each scene, at the most samples a pixel. */
+static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
+{
+    for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
+        const koksma__sheet_ranking *r = &sheet->rankings[(i + 1) * sheet->n_spp - 1];
+        const koksma_rank_row *row;
+        const outcome o = judge_scene(r, &row);
+        koksma__doc_item(d);
+        koksma__doc_say(d, "Scene %s at %d samples a pixel: ", r->scene, r->spp);
+        if (!row) {
+            koksma__doc_say(d, "not ranked");
+        } else if (o == WON) {
+            koksma__doc_say(d, "the least error");
+            if (r->ranking.n > 1) {
+                koksma__doc_say(d, "; the next, %s, leaves %.0f %% more (%.0f to %.0f)",
+                                sheet->samplers[r->rows[1].pattern]->text, 100 * r->rows[1].behind,
+                                100 * r->rows[1].behind_low, 100 * r->rows[1].behind_high);
+            }
+        } else if (o == LOST) {
+            koksma__doc_say(d, "%.0f %% more error (%.0f to %.0f) than %s", 100 * row->behind, 100 * row->behind_low,
+                            100 * row->behind_high, sheet->samplers[r->rows[0].pattern]->text);
+        } else if (o == EQUAL) {
+            koksma__doc_say(d, "equal within 2 %% to %s", sheet->samplers[r->rows[0].pattern]->text);
+        } else {
+            koksma__doc_say(d, "not decided by %lld images of each", r->ranking.trials);
+        }
+        if (row && row->coherence.coherent) {
+            koksma__doc_say(d, "; its error has a pattern, not noise alone");
+        }
+    }
+}
+
+void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
+{
+    const koksma__sheet_values *v = &sheet->plane;
+    const score s = score_measures(v);
+    size_t n = 0, scenes[4] = {0}, of_scenes = sheet->n_spp ? sheet->n_scenes : 0;
+    const koksma_rank_row *row;
+    for (size_t m = 0; m < v->n_measures; m++) {
+        n += !v->measures[m].left_out;
+    }
+    for (size_t i = 0; i < of_scenes; i++) {
+        scenes[judge_scene(&sheet->rankings[(i + 1) * sheet->n_spp - 1], &row)]++;
+    }
+    koksma__doc_section(d, "verdict", "Verdict");
+    koksma__doc_paragraph_begin(d);
+    if (sheet->n_samplers == 1) {
+        koksma__doc_say(d, "Nothing is beside %s on this sheet: it has numbers and no comparison.",
+                        sheet->samplers[0]->text);
+        koksma__doc_paragraph_end(d);
+        koksma__doc_end(d);
+        return;
+    }
+    koksma__doc_say(d, "`%s` is better than every other sampler here in *", sheet->samplers[0]->text);
+    say_count(d, s.n[WON], n, scenes[WON], of_scenes);
+    koksma__doc_say(d, "*. It is beaten in *");
+    say_count(d, s.n[LOST], n, scenes[LOST], of_scenes);
+    koksma__doc_say(d, "*");
+    if (s.n[WON] + s.n[LOST] < n || scenes[WON] + scenes[LOST] < of_scenes) {
+        koksma__doc_say(d, "; in the rest it is equal to the best, or not decided");
+    }
+    koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
+    koksma__doc_list_begin(d, NULL, false);
+    put_measures(v, &s, WON, 0, "Best", d);
+    for (size_t k = 1; k < v->n_samplers; k++) {
+        put_measures(v, &s, LOST, k, "Beaten by", d);
+    }
+    put_measures(v, &s, EQUAL, 0, "Equal to the best", d);
+    put_measures(v, &s, OPEN, 0, "Not decided", d);
+    put_scenes(sheet, d);
+    koksma__doc_list_end(d);
+    koksma__doc_paragraph(
+        d,
+        "How sure: measures at n = %zu over %zu set%s of the sampler; all %zu comparisons hold together with 95 %% "
+        "(Welch, Bonferroni). Decisions of each scene hold together with 95 %%.",
+        v->sizes[v->n_sizes - 1], v->trials[0], v->trials[0] == 1 ? "" : "s", s.tests);
+    koksma__doc_end(d);
+}

@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""sheet.py KOKSMA: datasheets. Each is as docs/datasheet.schema.json says; every command that it prints is run, and gives the
+numbers that stand above it; threads change nothing but the time; a family of files is measured at the sizes and seeds that
+it has; the verdict follows from the numbers; what cannot serve is left out with a reason."""
+import json
+import math
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "tests/study/report"))
+from schema import errors  # noqa: E402
+
+KOKSMA = str(Path(sys.argv[1]).resolve())
+REPORT = json.loads((ROOT / "docs/report.schema.json").read_text())
+SHEET = json.loads((ROOT / "docs/datasheet.schema.json").read_text())
+problems = 0
+
+
+def expect(holds, text):
+    global problems
+    if not holds:
+        problems += 1
+        print(text)
+
+
+def run(*arguments, code=0):
+    result = subprocess.run([KOKSMA, *arguments], capture_output=True, text=True)
+    expect(result.returncode == code, f"{arguments}: exit {result.returncode}: {result.stderr}")
+    return result
+
+
+def sheet(*arguments):
+    text = run("datasheet", *arguments, "--json").stdout
+    data = json.loads(text)
+    for error in list(errors(data, SHEET, REPORT))[:5]:
+        expect(False, f"{arguments}: {error}")
+    return text, data
+
+
+def blocks(content):
+    for block in content:
+        yield block
+        yield from blocks(block.get("content", []))
+
+
+def tables(data):
+    return {b["name"]: [dict(zip([c["name"] for c in b["columns"]], row)) for row in b["rows"]]
+            for b in blocks(data["content"]) if b["kind"] == "table"}
+
+
+def text_of(runs):
+    return "".join(r if isinstance(r, str) else r["text"] for r in runs)
+
+
+def rows_of(command):
+    """The rows that a printed command gives; rank's exit code 1 says that it is undecided."""
+    words = shlex.split(command)
+    result = subprocess.run([KOKSMA, *words[1:], "--json", "-q"], capture_output=True, text=True)
+    expect(words[0] == "koksma" and result.returncode in (0, 1), f"{command}: {result.stderr}")
+    return [json.loads(line) for line in result.stdout.splitlines()]
+
+
+def same(a, b):
+    return (a is None and b is None) or (a is not None and b is not None and math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300))
+
+
+def student(degrees):
+    """The 97.5 % quantile of Student's t for the numbers of trials here (Abramowitz and Stegun, table 26.10)."""
+    return {3: 3.182, 4: 2.776, 7: 2.365, 15: 2.131}[degrees]
+
+
+def check_measure(command, rows, data):
+    all_tables = tables(data)
+    values = {(r["sampler"], r["measure"], r["n"]): r for r in all_tables["values"]}
+    deep = {(r["sampler"], r["measure"], r["n"]): r for r in all_tables.get("projections", [])}
+    slopes = {(r["sampler"], r["measure"]): r for r in all_tables["slopes"]}
+    for row in rows:
+        source = row["source"].removeprefix("pattern:")
+        sampler = source.rsplit("@", 2 if row["dim"] > 2 else 1)[0]
+        if row["measure"].startswith("slope of "):
+            mine = slopes[sampler, row["measure"].removeprefix("slope of ")]["slope"]
+            expect(same(mine[0], row["value"]), f"{command}: slope {mine} is {row['value']}")
+            half = student(row["trials"] - 1) * row["standard_error"]
+            expect(math.isclose(mine[2] - mine[0], half, rel_tol=1e-3, abs_tol=1e-12), f"{command}: half of the interval: {mine}, {half}")
+            continue
+        mine = (deep if row["dim"] > 2 else values)[sampler, row["measure"], row["n"]]
+        expect(same(mine["mean"][0], row["value"]) and mine["sets"] == row["trials"], f"{command}: {mine} is {row}")
+        half = student(row["trials"] - 1) * row["standard_error"]
+        expect(math.isclose(mine["mean"][2] - mine["mean"][0], half, rel_tol=1e-3, abs_tol=1e-12), f"{command}: {mine}, {half}")
+    return bool(rows)
+
+
+def check_rank(command, rows, data):
+    mine = {(r["samples a pixel"], r["sampler"]): r for r in tables(data)["scene-" + rows[0]["scene"]]}
+    expect(len(mine) == len(rows), f"{command}: {len(rows)} rows, {len(mine)} on the sheet")
+    for row in rows:
+        own = mine[row["spp"], row["pattern"]]
+        # The command prints error and interval in full to JSON.
+        expect(all(math.isclose(a, b, rel_tol=1e-3, abs_tol=1e-12) for a, b in zip(own["error"], (row["error"], row["low"], row["high"]))) and
+               own["position"] == row["position"] and own["images"] == row["trials"] and
+               own["coherent"] == ("yes" if row["coherent"] else "no"), f"{command}: {own} is {row}")
+    return True
+
+
+def check_curve(command, rows, data, name):
+    spec = rows[0]["source"].removeprefix("pattern:").rsplit("@", 1)
+    sampler, n = spec[0], int(spec[1])
+    if name == "quality":
+        mine = next(r for r in tables(data)["spectra"] if r["sampler"] == sampler)
+        pairs = [(mine["effective Nyquist"], rows[0]["effective_nyquist"]), (mine["over sqrt(n)/2"], rows[0]["relative_nyquist"]),
+                 (mine["oscillation"], rows[0]["oscillation"])]
+    else:
+        title = {"rings": "Radial mean of the power", "pairs": "Pair correlation"}[name]
+        chart = next(b for b in blocks(data["content"]) if b["kind"] == "chart" and b["title"] == title)
+        points = next(s["points"] for s in chart["series"] if s["label"] == sampler)
+        x = [row["frequency"] / math.sqrt(n) if name == "rings" else row["distance"] * math.sqrt(n) for row in rows]
+        expect(len(points) == len(rows), f"{command}: {len(rows)} rows, {len(points)} in the chart")
+        pairs = [(p[0], a) for p, a in zip(points, x)] + [(p[1], row["value"]) for p, row in zip(points, rows)]
+    expect(all(same(a, b) for a, b in pairs), f"{command}: {[p for p in pairs if not same(*p)][:2]}")
+    return True
+
+
+def check_verify(command, rows, data):
+    spec = rows[0]["source"].removeprefix("pattern:")
+    deep = rows[0]["dim"] > 2
+    sampler = spec.rsplit("@", 2 if deep else 1)[0]
+    if sampler == data["samplers"][0]:
+        mine = [(r["property"], r["subject"], r["holds"], r["value"], r["detail"])
+                for r in tables(data)["projection-findings" if deep else "findings"]]
+        theirs = [(r["property"], r["subject"], "yes" if r["holds"] else "no", r["value"], r["detail"]) for r in rows]
+        expect(len(mine) == len(theirs) and all(a[:3] + a[4:] == b[:3] + b[4:] and same(a[3], b[3]) for a, b in zip(mine, theirs)), f"{command}: findings differ")
+    if not deep:
+        for r in tables(data)["properties"]:
+            held = [row["holds"] for row in rows if row["property"] == r["property"]]
+            word = "–" if not held else "yes" if all(held) else "no" if not any(held) else f"{sum(held)} of {len(held)}"
+            expect(r[sampler] == word, f"{command}: {r['property']}: {r[sampler]}, not {word}")
+    return True
+
+
+def check_commands(data):
+    """Runs every command of the sheet; returns how many of each kind."""
+    done = {}
+    for block in blocks(data["content"]):
+        for command in block.get("lines", []):
+            words = shlex.split(command)
+            if words[1] == "plot":
+                subprocess.run([KOKSMA, *words[1:]], check=True)
+                expect(Path(words[-1]).stat().st_size > 500, command)
+                checked = True
+            else:
+                rows = rows_of(command)
+                expect(rows, f"{command}: no rows")
+                checked = rows and {"measure": check_measure, "rank": check_rank, "verify": check_verify}[words[1]](command, rows, data) \
+                    if words[1] != "curve" else check_curve(command, rows, data, words[2])
+            done[words[1]] = done.get(words[1], 0) + bool(checked)
+    return done
+
+
+def check_verdict(data):
+    """Whom the verdict calls best has the least mean of all; whom it calls beaten has not."""
+    n = max(r["n"] for r in tables(data)["values"])
+    larger = {"min-distance", "relative-radius"}
+    section = next(b for b in data["content"] if b.get("id") == "verdict")
+    items = [text_of(i) for b in section["content"] if b["kind"] == "list" for i in b["items"]]
+    counted = 0
+    for item in items:
+        head, _, names = item.partition(": ")
+        if head != "Best" and not head.startswith("Beaten by "):
+            continue
+        for name in (part.split(" ")[0] for part in names.split(", ")):
+            means = {r["sampler"]: r["mean"][0] * (-1 if name in larger else 1) for r in tables(data)["values"] if r["measure"] == name and r["n"] == n}
+            best = min(means, key=means.get)
+            expect(best == (data["samplers"][0] if head == "Best" else head.removeprefix("Beaten by ")), f"{item}: {name}: {means}")
+            counted += 1
+    said = text_of(section["content"][0]["text"])
+    expect(f"{sum(len(i.partition(': ')[2].split(', ')) for i in items if i.startswith('Best: '))} of " in said, f"{said} {items}")
+    return counted
+
+
+def check_patterns():
+    text, data = sheet("sobol:scramble=owen", "--beside", "random,jittered", "--scenes", "ball", "--quick", "--threads", "2")
+    again, _ = sheet("sobol:scramble=owen", "--beside", "random,jittered", "--scenes", "ball", "--quick", "--threads", "1")
+    expect(text.rsplit("\n", 1)[0] == again.rsplit("\n", 1)[0] or text.split('"seconds"')[0] == again.split('"seconds"')[0], "threads change the sheet")
+    expect([b["id"] for b in data["content"]] == ["verdict", "points", "scenes", "measures", "spectra", "properties", "projections", "origin"], "sections")
+    done = check_commands(data)
+    expect(done == {"plot": 3, "rank": 1, "measure": 6, "curve": 9, "verify": 4}, f"commands: {done}")
+    expect(check_verdict(data) >= 12, "the verdict says little of sobol")
+
+
+def check_family():
+    Path("sets").mkdir()
+    for n in (16, 36, 100):
+        for seed in range(3, 8):
+            run("generate", "jittered", "-n", str(n), "-s", str(seed), "-q", "-o", f"sets/my_{n}_{seed}.npy")
+    run("generate", "jittered", "-n", "64", "-s", "3", "-q", "-o", "sets/my_64_3.npy")  # one set of five: too few
+    text, data = sheet("sets/my_{n}_{seed}.npy", "--beside", "jittered,pmj02", "--scenes", "checker", "--quick")
+    expect(data["samplers"][0] == "file:sets/my_{n}_{seed}.npy", data["samplers"])
+    values = [r for r in tables(data)["values"] if r["sampler"] == data["samplers"][0]]
+    expect({r["n"] for r in values} == {16, 36, 100} and all(r["sets"] == 5 for r in values), "sizes and seeds of the files")
+    reference = rows_of("koksma measure pattern:jittered@100 --sizes 16,36,100 -m star,l2-disk --trials 5 --seed 3")
+    for row in reference:
+        for r in values:
+            if (r["measure"], r["n"]) == (row["measure"], row["n"]):
+                expect(same(r["mean"][0], row["value"]), f"{r} is {row}")
+    expect({r["samples a pixel"] for r in tables(data)["scene-checker"]} == {16}, "samples a pixel")
+    left = [text_of(i) for b in blocks(data["content"]) if b.get("id") == "left-out" for i in b["items"]]
+    expect(any(i.startswith("t-value: ") for i in left), f"100 points are no net: {left}")
+    expect("t-value" not in {r["measure"] for r in values}, "t-value of 100 points")
+    check_commands(data)
+    check_verdict(data)
+
+
+def check_single_file():
+    run("generate", "halton", "-n", "100", "-d", "3", "-q", "-o", "mine.txt")
+    _, data = sheet("mine.txt", "--beside", "random", "--scenes", "none", "--quick")
+    values = [r for r in tables(data)["values"] if r["sampler"] == "file:mine.txt"]
+    expect({r["n"] for r in values} == {100}, "the size of the file")
+    expect(next(b for b in data["content"] if b.get("id") == "projections")["content"][0]["text"][1] != "", "projections of 3 dimensions")
+    expect(not any(name.startswith("scene-") for name in tables(data)), "no scenes were asked for")
+    check_commands(data)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        check_patterns()
+        check_family()
+        check_single_file()
+    print(f"{problems} problems")
+    return problems > 0
+
+
+sys.exit(main())
