@@ -48,7 +48,9 @@ static void put_params(cli_rows *rows, const koksma_param *params)
             snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
                      params->choices[(int)params->fallback]);
         } else {
-            snprintf(text + used, sizeof text - used, "%s%s=%g", separator, params->name, params->fallback);
+            char number[CLI_NUMBER];
+            snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
+                     cli_number(params->fallback, number));
         }
     }
     cli_row_text(rows, "parameters", *text ? text : "-");
@@ -161,7 +163,8 @@ static void put_range(cli_rows *rows, const koksma_param *p)
             snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", p->choices[i]);
         }
     } else {
-        snprintf(text, sizeof text, "%g to %g", p->min, p->max);
+        char min[CLI_NUMBER], max[CLI_NUMBER];
+        snprintf(text, sizeof text, "%s to %s", cli_number(p->min, min), cli_number(p->max, max));
     }
     cli_row_text(rows, "range", text);
 }

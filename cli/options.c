@@ -185,13 +185,26 @@ int cli_end_output(int code)
     return code;
 }
 
+/* --digits, of the commands that print tables. */
+static bool set_digits(const cli_arguments *arguments)
+{
+    uint64_t digits = CLI_DIGITS;
+    for (const cli_option *o = arguments->command->options; o->name; o++) {
+        if (!strcmp(o->name, "digits") && !cli_whole(arguments, o->name, CLI_DIGITS, 1, 17, &digits)) {
+            return false;
+        }
+    }
+    cli_set_digits((int)digits);
+    return true;
+}
+
 int cli_run(const cli_command *command, int argc, char **argv)
 {
     cli_arguments arguments = {.command = command};
     complained = false;
     int code = parse(&arguments, argc, argv);
     if (code == PARSED) {
-        code = command->run(&arguments);
+        code = set_digits(&arguments) ? command->run(&arguments) : CLI_USAGE;
     }
     for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
         free(arguments.joined[i]);

@@ -19,6 +19,13 @@ struct cli_rows {
     size_t n, capacity;
 };
 
+static int digits = CLI_DIGITS;
+
+void cli_set_digits(int n)
+{
+    digits = n;
+}
+
 static cli_rows no_rows = {.failed = true}; /* takes rows and keeps none */
 
 cli_rows *cli_rows_open(bool json)
@@ -94,24 +101,30 @@ void cli_row_json(cli_rows *rows, const char *key, const char *json, const char 
     }
 }
 
-void cli_row_rounded(cli_rows *rows, const char *key, double value, int digits)
+const char *cli_number(double value, char text[CLI_NUMBER])
 {
-    char text[40];
-    if (rows->json) {
-        json_key(rows, key);
-        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
-        fputs(text, stdout);
-        return;
+    const double size = fabs(value);
+    const bool whole = size < 1e15 && (value == floor(value) || size >= pow(10, digits));
+    if (!isfinite(value)) {
+        strcpy(text, "-");
+    } else if (whole) {
+        snprintf(text, CLI_NUMBER, "%.0f", value + 0.0); /* no -0 */
+    } else {
+        snprintf(text, CLI_NUMBER, "%.*g", digits, value);
     }
-    if (isfinite(value)) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-    }
-    push(rows, key, isfinite(value) ? text : "-", true);
+    return text;
 }
 
 void cli_row_number(cli_rows *rows, const char *key, double value)
 {
-    cli_row_rounded(rows, key, value, 9);
+    char text[CLI_NUMBER];
+    if (rows->json) {
+        json_key(rows, key);
+        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
+        fputs(text, stdout);
+    } else {
+        push(rows, key, cli_number(value, text), true);
+    }
 }
 
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value)
