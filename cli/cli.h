@@ -51,6 +51,7 @@ const cli_command *cli_command_find(const char *name);
 /* The options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
     {0, "json", NULL, "one JSON object a line instead of aligned text"},                                             \
+        {0, "long", NULL, "all columns, also those that do not fit the terminal"},                                   \
     {                                                                                                                \
         0, "digits", "N", "significant digits of numbers as text, 1 to 17 (default: 5; JSON has all)"                \
     }
@@ -121,7 +122,7 @@ typedef struct cli_rows cli_rows;
 /* A number as all text shows it: to the digits of --digits, whole numbers and the part before the point in full, "-" for
    none. Returns text. */
 const char *cli_number(double value, char text[CLI_NUMBER]);
-void cli_set_digits(int digits);
+void cli_set_style(int digits, bool all_columns); /* of --digits, --long */
 
 /* With json, rows are printed as they end; as text, all of them at cli_rows_close. */
 cli_rows *cli_rows_open(bool json);

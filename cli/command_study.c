@@ -400,11 +400,11 @@ static int run(const cli_arguments *arguments)
         const char *options; /* that it takes beside those of all long work */
     } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
                  {"new", new_plan, " output "},
-                 {"estimate", estimate, " trials quick time-limit json "},
+                 {"estimate", estimate, " trials quick time-limit json digits long "},
                  {"export", export_rows, " output format "},
                  {"report", report, " "},
-                 {"audit", audit, " rows seed json "},
-                 {"images", images, " reference json "}};
+                 {"audit", audit, " rows seed json digits long "},
+                 {"images", images, " reference json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
