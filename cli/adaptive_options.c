@@ -84,13 +84,13 @@ void cli_adaptive_put(cli_rows *rows, const cli_adaptive *adaptive, double pixel
     }
     koksma_adaptive_text(&adaptive->options, method);
     cli_row_text(rows, "adaptive", method);
-    cli_row_rounded(rows, "mean_spp", (double)report->samples / pixels, 6);
-    cli_row_rounded(rows, "extra", (double)(report->samples - report->first) / pixels, 6);
+    cli_row_number(rows, "mean_spp", (double)report->samples / pixels);
+    cli_row_number(rows, "extra", (double)(report->samples - report->first) / pixels);
     if (report->splits) {
         cli_row_whole(rows, "splits", report->splits);
     }
     if (report->splits && adaptive->options.probes) {
-        cli_row_rounded(rows, "needless", (double)report->needless / (double)report->splits, 4);
+        cli_row_number(rows, "needless", (double)report->needless / (double)report->splits);
     }
 }
 

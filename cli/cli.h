@@ -8,7 +8,7 @@
 
 #include <koksma/koksma.h>
 
-enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2 };
+enum { CLI_MAX_OPTIONS = 32, CLI_YES = 0, CLI_NO = 1, CLI_USAGE = 2, CLI_DIGITS = 5, CLI_NUMBER = 32 };
 
 typedef struct cli_option {
     char letter;      /* 0: none */
@@ -50,8 +50,10 @@ const cli_command *cli_command_find(const char *name);
 
 /* The options that most commands have, for the end of an option table. */
 #define CLI_ROW_OPTIONS                                                                                              \
+    {0, "json", NULL, "one JSON object a line instead of aligned text"},                                             \
+        {0, "long", NULL, "all columns, also those that do not fit the terminal"},                                   \
     {                                                                                                                \
-        0, "json", NULL, "one JSON object a line instead of aligned text"                                            \
+        0, "digits", "N", "significant digits of numbers as text, 1 to 17 (default: 5; JSON has all)"                \
     }
 #define CLI_RUN_OPTIONS                                                                                              \
     {0, "threads", "T", "threads to use (default: all)"},                                                            \
@@ -117,11 +119,15 @@ int cli_study_interrupted(const cli_arguments *arguments, const char *folder);
 
 typedef struct cli_rows cli_rows;
 
+/* A number as all text shows it: to the digits of --digits, whole numbers and the part before the point in full, "-" for
+   none. Returns text. */
+const char *cli_number(double value, char text[CLI_NUMBER]);
+void cli_set_style(int digits, bool all_columns); /* of --digits, --long */
+
 /* With json, rows are printed as they end; as text, all of them at cli_rows_close. */
 cli_rows *cli_rows_open(bool json);
 void cli_row_text(cli_rows *rows, const char *key, const char *value);
-void cli_row_number(cli_rows *rows, const char *key, double value); /* %.17g in JSON, %.9g as text; null or - */
-void cli_row_rounded(cli_rows *rows, const char *key, double value, int digits); /* fewer digits as text */
+void cli_row_number(cli_rows *rows, const char *key, double value); /* %.17g or null in JSON, else cli_number() */
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value);
 void cli_row_flag(cli_rows *rows, const char *key, bool value);
 void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text); /* a ready JSON value */

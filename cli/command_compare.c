@@ -26,13 +26,13 @@ static int put_row(const cli_arguments *arguments, const comparison *c)
     cli_row_number(rows, "sd", c->error.sd / images);
     cli_row_number(rows, "max", c->error.max / images);
     cli_row_number(rows, "rmse", c->error.rmse / images);
-    cli_row_rounded(rows, "coherence", values.coherence, 4);
+    cli_row_number(rows, "coherence", values.coherence);
     if (json) {
         cli_row_number(rows, "coherence_low", values.low);
         cli_row_number(rows, "coherence_high", values.high);
         cli_row_number(rows, "noise_low", values.noise_low);
     }
-    cli_row_rounded(rows, "noise_high", values.noise_high, 4);
+    cli_row_number(rows, "noise_high", values.noise_high);
     if (json) {
         cli_row_number(rows, "p", values.p);
         cli_row_number(rows, "frequency_x", values.frequency_x);

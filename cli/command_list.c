@@ -48,7 +48,9 @@ static void put_params(cli_rows *rows, const koksma_param *params)
             snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
                      params->choices[(int)params->fallback]);
         } else {
-            snprintf(text + used, sizeof text - used, "%s%s=%g", separator, params->name, params->fallback);
+            char number[CLI_NUMBER];
+            snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
+                     cli_number(params->fallback, number));
         }
     }
     cli_row_text(rows, "parameters", *text ? text : "-");
@@ -66,74 +68,80 @@ static void put_claims(cli_rows *rows, unsigned of)
     cli_row_text(rows, "claims", *text ? text : "-");
 }
 
-/* An error is about files of a package that is not installed. */
-static void put_scene_title(cli_rows *rows, const char *name)
+/* Or the error, about files of a package that is not installed. Kept until the next call. */
+static const char *scene_title(const char *name)
 {
+    static char title[512];
     koksma_scene *scene = NULL;
     const koksma_status status = koksma_scene_open(name, &scene);
-    cli_row_text(rows, "what", status ? koksma_error_text() : koksma_scene_title(scene));
+    snprintf(title, sizeof title, "%s", status ? koksma_error_text() : koksma_scene_title(scene));
     koksma_scene_close(scene);
+    return title;
 }
 
-/* list_TABLE: a row for each x that `next` finds as item i, with its name and `columns`. */
-#define LIST(table, noun, type, next, name, columns)                                                                 \
+/* list_TABLE: a row for each x that `next` finds as item i: its name, what it is, and `columns`. */
+#define LIST(table, noun, type, next, name, meaning, columns)                                                        \
     static void list_##table(cli_rows *rows)                                                                         \
     {                                                                                                                \
         type x;                                                                                                      \
         for (size_t i = 0; next; i++) {                                                                              \
             cli_row_text(rows, noun, name);                                                                          \
+            cli_row_text(rows, "what", meaning);                                                                     \
             columns;                                                                                                 \
             cli_row_end(rows);                                                                                       \
         }                                                                                                            \
     }
-#define SOURCE(x) cli_row_text(rows, "source", (x)->cite), cli_row_text(rows, "what", (x)->title)
+#define SOURCE cli_row_text(rows, "source", x->cite)
 
-LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name,
-     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims), SOURCE(x)))
-LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name,
+LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name, x->title,
+     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims), SOURCE))
+LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "cost", x->cost),
-      SOURCE(x)))
-LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name,
-     cli_row_text(rows, "what", x->meaning))
-LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name,
-     cli_row_text(rows, "what", x->meaning))
-LIST(warps, "warp", const koksma_warp *, (x = koksma_warp_at(i)), x->name,
-     (cli_row_text(rows, "domain", domains[x->domain]), SOURCE(x)))
-LIST(curves, "curve", const cli_curve *, (x = cli_curve_at(i)), x->name,
+      SOURCE))
+LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name, x->meaning, (void)x)
+LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name, x->meaning, (void)x)
+LIST(warps, "warp", const koksma_warp *, (x = koksma_warp_at(i)), x->name, x->title,
+     (cli_row_text(rows, "domain", domains[x->domain]), SOURCE))
+LIST(curves, "curve", const cli_curve *, (x = cli_curve_at(i)), x->name, x->meaning,
      (cli_row_text(rows, "by",
                    !x->print.options ? "plot"
                    : x->plot.options ? "curve,plot"
                                      : "curve"),
-      cli_row_text(rows, "source", x->cite), cli_row_text(rows, "what", x->meaning)))
-LIST(scenes, "scene", const char *, (x = koksma_scene_name_at(i)), x, put_scene_title(rows, x))
-LIST(plans, "plan", const char *, (x = koksma_plan_name_at(i)), x, (void)x)
-LIST(formats, "format", const char *left_out;
-     const char *, (x = koksma_image_format(i, &left_out)), x, cli_row_text(rows, "needs", left_out ? left_out : "-"))
-LIST(integrators, "integrator", const koksma_integrator *, (x = koksma_integrator_at(i)), x->name,
-     (cli_row_whole(rows, "depth", (uint64_t)x->depth), SOURCE(x)))
-LIST(filters, "filter", const koksma_filter *, (x = koksma_filter_at(i)), x->name,
-     (cli_row_number(rows, "radius", x->radius), SOURCE(x)))
-LIST(uses, "use", const koksma_use *, (x = koksma_use_at(i)), x->name,
-     (cli_row_whole(rows, "dim", (uint64_t)x->dim), cli_row_text(rows, "what", x->help)))
-LIST(adaptive, "method", const koksma_adaptive *, (x = koksma_adaptive_at(i)), x->name,
+      SOURCE))
+LIST(scenes, "scene", const char *, (x = koksma_scene_name_at(i)), x, scene_title(x), (void)x)
+LIST(integrators, "integrator", const koksma_integrator *, (x = koksma_integrator_at(i)), x->name, x->title,
+     (cli_row_whole(rows, "depth", (uint64_t)x->depth), SOURCE))
+LIST(filters, "filter", const koksma_filter *, (x = koksma_filter_at(i)), x->name, x->title,
+     (cli_row_number(rows, "radius", x->radius), SOURCE))
+LIST(uses, "use", const koksma_use *, (x = koksma_use_at(i)), x->name, x->help,
+     cli_row_whole(rows, "dim", (uint64_t)x->dim))
+LIST(adaptive, "method", const koksma_adaptive *, (x = koksma_adaptive_at(i)), x->name, x->title,
      (put_params(rows, x->params),
-      cli_row_text(rows, "samples", x->own_samples ? "own strata" : "sets of the pattern"), SOURCE(x)))
-#define KIND cli_row_text(rows, "fields", x.fields), SOURCE(&x)
-LIST(materials, "material", koksma_entry, koksma_scene_kind_at("materials", i, &x), x.name, (KIND))
-LIST(lights, "light", koksma_entry, koksma_scene_kind_at("lights", i, &x), x.name, (KIND))
-LIST(shapes, "shape", koksma_entry, koksma_scene_kind_at("shapes", i, &x), x.name, (KIND))
-#define TITLE cli_row_text(rows, "what", x.title)
-LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, TITLE)
-LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, TITLE)
-LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, TITLE)
+      cli_row_text(rows, "samples", x->own_samples ? "own strata" : "sets of the pattern"), SOURCE))
+LIST(methods, "method", const koksma_method *, (x = koksma_method_at(i)), x->name, x->title, SOURCE)
+#define KIND (cli_row_text(rows, "fields", x.fields), cli_row_text(rows, "source", x.cite))
+LIST(materials, "material", koksma_entry, koksma_scene_kind_at("materials", i, &x), x.name, x.title, KIND)
+LIST(lights, "light", koksma_entry, koksma_scene_kind_at("lights", i, &x), x.name, x.title, KIND)
+LIST(shapes, "shape", koksma_entry, koksma_scene_kind_at("shapes", i, &x), x.name, x.title, KIND)
+LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.title, (void)x)
+LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
+LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
 
-static void list_methods(cli_rows *rows)
+/* Tables of names that nobody has described. */
+static void list_plans(cli_rows *rows)
 {
-    const koksma_method *m;
-    for (size_t i = 0; (m = koksma_method_at(i)); i++) {
-        cli_row_text(rows, "method", m->name);
-        cli_row_text(rows, "source", m->cite);
-        cli_row_text(rows, "what", m->title);
+    for (size_t i = 0; koksma_plan_name_at(i); i++) {
+        cli_row_text(rows, "plan", koksma_plan_name_at(i));
+        cli_row_end(rows);
+    }
+}
+
+static void list_formats(cli_rows *rows)
+{
+    const char *name, *left_out;
+    for (size_t i = 0; (name = koksma_image_format(i, &left_out)); i++) {
+        cli_row_text(rows, "format", name);
+        cli_row_text(rows, "needs", left_out ? left_out : "-");
         cli_row_end(rows);
     }
 }
@@ -161,7 +169,8 @@ static void put_range(cli_rows *rows, const koksma_param *p)
             snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", p->choices[i]);
         }
     } else {
-        snprintf(text, sizeof text, "%g to %g", p->min, p->max);
+        char min[CLI_NUMBER], max[CLI_NUMBER];
+        snprintf(text, sizeof text, "%s to %s", cli_number(p->min, min), cli_number(p->max, max));
     }
     cli_row_text(rows, "range", text);
 }
@@ -171,13 +180,13 @@ static void list_parameters_of(cli_rows *rows, const char *member, const koksma_
     for (const koksma_param *p = params; p && p->name; p++) {
         cli_row_text(rows, "of", member);
         cli_row_text(rows, "parameter", p->name);
+        cli_row_text(rows, "what", p->help);
         if (p->choices) {
             cli_row_text(rows, "default", p->choices[(int)p->fallback]);
         } else {
             cli_row_number(rows, "default", p->fallback);
         }
         put_range(rows, p);
-        cli_row_text(rows, "what", p->help);
         cli_row_end(rows);
     }
 }

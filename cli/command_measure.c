@@ -50,20 +50,22 @@ static void put_witness(cli_rows *rows, const koksma_witness *w)
     const bool space = w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 3;
     int used = snprintf(text, sizeof text, "%zu points in the %s %s", w->count, w->closed ? "closed" : "open",
                         space ? "half-space" : kinds[w->kind]);
+    char a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER];
     if (w->kind == KOKSMA_WITNESS_BOX) {
         for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
-            used += snprintf(text + used, sizeof text - (size_t)used, "%s%.6g..%.6g", k ? " x " : " ", w->lo[k],
-                             w->hi[k]);
+            used += snprintf(text + used, sizeof text - (size_t)used, "%s%s..%s", k ? " x " : " ",
+                             cli_number(w->lo[k], a), cli_number(w->hi[k], b));
         }
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
-        used += snprintf(text + used, sizeof text - (size_t)used, " %.6g x + %.6g y", w->lo[0], w->lo[1]);
+        used += snprintf(text + used, sizeof text - (size_t)used, " %s x + %s y", cli_number(w->lo[0], a),
+                         cli_number(w->lo[1], b));
         if (space) {
-            used += snprintf(text + used, sizeof text - (size_t)used, " + %.6g z", w->lo[2]);
+            used += snprintf(text + used, sizeof text - (size_t)used, " + %s z", cli_number(w->lo[2], a));
         }
-        snprintf(text + used, sizeof text - (size_t)used, " <= %.6g", w->hi[0]);
+        snprintf(text + used, sizeof text - (size_t)used, " <= %s", cli_number(w->hi[0], a));
     } else {
-        snprintf(text + used, sizeof text - (size_t)used, " about (%.6g, %.6g) of radius %.6g", w->lo[0], w->lo[1],
-                 w->hi[0]);
+        snprintf(text + used, sizeof text - (size_t)used, " about (%s, %s) of radius %s", cli_number(w->lo[0], a),
+                 cli_number(w->lo[1], b), cli_number(w->hi[0], c));
     }
     cli_row_json(rows, "witness", json, text);
 }

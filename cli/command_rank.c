@@ -94,7 +94,7 @@ static void put_ranking(cli_rows *rows, const koksma_rank_options *options, cons
 {
     cli_row_text(rows, "integrator", options->integrator->name);
     cli_row_text(rows, "filter", options->filter->name);
-    cli_row_rounded(rows, "reference_error", ranking->reference_error, 2);
+    cli_row_number(rows, "reference_error", ranking->reference_error);
     cli_row_flag(rows, "settled", ranking->settled);
     cli_row_flag(rows, "complete", ranking->complete);
     cli_row_flag(rows, "cut_short", ranking->cut_short);
@@ -125,19 +125,19 @@ static void put_row(cli_rows *rows, const koksma_rank_options *options, const ko
         cli_row_number(rows, "position", (double)NAN);
     }
     cli_row_text(rows, "pattern", options->patterns[row->pattern]);
-    cli_row_rounded(rows, "error", row->mean, 4);
-    cli_row_rounded(rows, "low", row->low, 4);
-    cli_row_rounded(rows, "high", row->high, 4);
-    cli_row_rounded(rows, "behind", row->behind, 3);
-    cli_row_rounded(rows, "behind_low", row->behind_low, 3);
-    cli_row_rounded(rows, "behind_high", row->behind_high, 3);
+    cli_row_number(rows, "error", row->mean);
+    cli_row_number(rows, "low", row->low);
+    cli_row_number(rows, "high", row->high);
+    cli_row_number(rows, "behind", row->behind);
+    cli_row_number(rows, "behind_low", row->behind_low);
+    cli_row_number(rows, "behind_high", row->behind_high);
     cli_row_whole(rows, "trials", (uint64_t)row->trials);
-    cli_row_rounded(rows, "coherence", row->coherence.coherence, 3);
+    cli_row_number(rows, "coherence", row->coherence.coherence);
     if (json) {
-        cli_row_rounded(rows, "coherence_low", row->coherence.low, 3);
-        cli_row_rounded(rows, "coherence_high", row->coherence.high, 3);
-        cli_row_rounded(rows, "coherence_noise", row->coherence.noise_high, 3);
-        cli_row_rounded(rows, "coherence_p", row->coherence.p, 3);
+        cli_row_number(rows, "coherence_low", row->coherence.low);
+        cli_row_number(rows, "coherence_high", row->coherence.high);
+        cli_row_number(rows, "coherence_noise", row->coherence.noise_high);
+        cli_row_number(rows, "coherence_p", row->coherence.p);
     }
     cli_row_flag(rows, "coherent", row->coherence.coherent);
     cli_row_whole(rows, "width", (uint64_t)ranking->width);

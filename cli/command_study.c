@@ -182,9 +182,9 @@ static int estimate(const cli_arguments *arguments)
     cli_row_whole(rows, "jobs", cost.jobs);
     cli_row_whole(rows, "references", cost.references);
     cli_row_whole(rows, "rows", cost.rows);
-    cli_row_rounded(rows, "cpu_seconds", cost.seconds, 3);
-    cli_row_rounded(rows, "reference_seconds", cost.reference_seconds, 3);
-    cli_row_rounded(rows, "megabytes", cost.bytes * 1e-6, 3);
+    cli_row_number(rows, "cpu_seconds", cost.seconds);
+    cli_row_number(rows, "reference_seconds", cost.reference_seconds);
+    cli_row_number(rows, "megabytes", cost.bytes * 1e-6);
     cli_row_end(rows);
     return cli_rows_close(rows);
 }
@@ -334,17 +334,17 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_text(out, "images", rows[i].group[0] ? rows[i].group : "-");
         cli_row_whole(out, "spp", (uint64_t)rows[i].spp);
         cli_row_whole(out, "trials", rows[i].trials);
-        cli_row_rounded(out, "mean", rows[i].mean, 4);
-        cli_row_rounded(out, "low", rows[i].low, 4);
-        cli_row_rounded(out, "high", rows[i].high, 4);
-        cli_row_rounded(out, "sd", rows[i].sd, 4);
-        cli_row_rounded(out, "max", rows[i].max, 4);
-        cli_row_rounded(out, "rmse", rows[i].rmse, 4);
-        cli_row_rounded(out, "slope", rows[i].slope, 3);
-        cli_row_rounded(out, "slope_low", rows[i].slope_low, 3);
-        cli_row_rounded(out, "slope_high", rows[i].slope_high, 3);
-        cli_row_rounded(out, "coherence", rows[i].coherence.coherence, 4);
-        cli_row_rounded(out, "noise_high", rows[i].coherence.noise_high, 4);
+        cli_row_number(out, "mean", rows[i].mean);
+        cli_row_number(out, "low", rows[i].low);
+        cli_row_number(out, "high", rows[i].high);
+        cli_row_number(out, "sd", rows[i].sd);
+        cli_row_number(out, "max", rows[i].max);
+        cli_row_number(out, "rmse", rows[i].rmse);
+        cli_row_number(out, "slope", rows[i].slope);
+        cli_row_number(out, "slope_low", rows[i].slope_low);
+        cli_row_number(out, "slope_high", rows[i].slope_high);
+        cli_row_number(out, "coherence", rows[i].coherence.coherence);
+        cli_row_number(out, "noise_high", rows[i].coherence.noise_high);
         cli_row_flag(out, "coherent", rows[i].coherence.coherent);
         cli_row_end(out);
     }
@@ -400,11 +400,11 @@ static int run(const cli_arguments *arguments)
         const char *options; /* that it takes beside those of all long work */
     } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
                  {"new", new_plan, " output "},
-                 {"estimate", estimate, " trials quick time-limit json "},
+                 {"estimate", estimate, " trials quick time-limit json digits long "},
                  {"export", export_rows, " output format "},
                  {"report", report, " "},
-                 {"audit", audit, " rows seed json "},
-                 {"images", images, " reference json "}};
+                 {"audit", audit, " rows seed json digits long "},
+                 {"images", images, " reference json digits long "}};
     for (size_t i = 0; arguments->n_operands > 0 && i < sizeof verbs / sizeof *verbs; i++) {
         if (!strcmp(verbs[i].name, arguments->operands[0])) {
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;

@@ -83,11 +83,11 @@ static void put_tail(measuring *j, tail t)
 static void put_tally(measuring *j, const koksma_tally *t, double n_exact)
 {
     cli_row_number(j->rows, "value", t->mean);
+    cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
     cli_row_whole(j->rows, "trials", (uint64_t)t->count);
     cli_row_number(j->rows, "sd", koksma_tally_sd(t));
     cli_row_number(j->rows, "min", t->min);
     cli_row_number(j->rows, "max", t->max);
-    cli_row_number(j->rows, "standard_error", koksma_tally_error(t));
     const double half = koksma_tally_interval(t);
     put_tail(j, (tail){n_exact, t->mean - half, t->mean + half, NAN, NAN, NAN});
 }
@@ -154,11 +154,11 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     put_head(j, source, j->prefixes[j->n_prefixes - 1], dim, name, false);
     cli_row_number(j->rows, "value", line.slope);
     const double trials = j->joints[measure].count;
+    cli_row_number(j->rows, "standard_error", trials > 1 ? line.slope_error : (double)NAN);
     cli_row_whole(j->rows, "trials", (uint64_t)trials);
     cli_row_number(j->rows, "sd", NAN);
     cli_row_number(j->rows, "min", NAN);
     cli_row_number(j->rows, "max", NAN);
-    cli_row_number(j->rows, "standard_error", trials > 1 ? line.slope_error : (double)NAN);
     put_tail(j, (tail){n_exact_of(j, measure, j->n_whole[measure]), NAN, NAN,
                        known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
                        j->warp ? (double)NAN : -koksma_best_rate(m, dim), line.slope_error});

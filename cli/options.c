@@ -185,13 +185,27 @@ int cli_end_output(int code)
     return code;
 }
 
+/* --digits and --long, of the commands that print tables. */
+static bool set_style(const cli_arguments *arguments)
+{
+    uint64_t digits = CLI_DIGITS;
+    for (const cli_option *o = arguments->command->options; o->name; o++) {
+        if (!strcmp(o->name, "digits")) {
+            const bool valid = cli_whole(arguments, o->name, CLI_DIGITS, 1, 17, &digits);
+            cli_set_style((int)digits, cli_flag(arguments, "long"));
+            return valid;
+        }
+    }
+    return true;
+}
+
 int cli_run(const cli_command *command, int argc, char **argv)
 {
     cli_arguments arguments = {.command = command};
     complained = false;
     int code = parse(&arguments, argc, argv);
     if (code == PARSED) {
-        code = command->run(&arguments);
+        code = set_style(&arguments) ? command->run(&arguments) : CLI_USAGE;
     }
     for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
         free(arguments.joined[i]);

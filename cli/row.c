@@ -4,20 +4,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
-
-typedef struct cell {
-    char *key, *text;
-    bool is_number;
-} cell;
+#include "table.h"
 
 /* As text, rows are kept until the end, because columns are as wide as their widest cell. */
 struct cli_rows {
     bool json, started, failed;
-    cell *cells; /* of all rows; a row ends at a cell with a NULL key */
+    cli_cell *cells; /* of all rows; a row ends at a cell with a NULL key */
     size_t n, capacity;
 };
+
+static int digits = CLI_DIGITS;
+static bool is_long;
+
+void cli_set_style(int n_digits, bool all_columns)
+{
+    digits = n_digits;
+    is_long = all_columns;
+}
 
 static cli_rows no_rows = {.failed = true}; /* takes rows and keeps none */
 
@@ -37,7 +43,7 @@ static void push(cli_rows *rows, const char *key, const char *text, bool is_numb
     }
     if (rows->n == rows->capacity) {
         const size_t capacity = rows->capacity ? 2 * rows->capacity : 64;
-        cell *cells = realloc(rows->cells, capacity * sizeof *cells);
+        cli_cell *cells = realloc(rows->cells, capacity * sizeof *cells);
         if (!cells) {
             rows->failed = true;
             return;
@@ -45,8 +51,8 @@ static void push(cli_rows *rows, const char *key, const char *text, bool is_numb
         rows->cells = cells;
         rows->capacity = capacity;
     }
-    cell *c = &rows->cells[rows->n++];
-    *c = (cell){key ? strdup(key) : NULL, text ? strdup(text) : NULL, is_number};
+    cli_cell *c = &rows->cells[rows->n++];
+    *c = (cli_cell){key ? strdup(key) : NULL, text ? strdup(text) : NULL, is_number};
     rows->failed |= (key && !c->key) || (text && !c->text);
 }
 
@@ -94,24 +100,30 @@ void cli_row_json(cli_rows *rows, const char *key, const char *json, const char 
     }
 }
 
-void cli_row_rounded(cli_rows *rows, const char *key, double value, int digits)
+const char *cli_number(double value, char text[CLI_NUMBER])
 {
-    char text[40];
-    if (rows->json) {
-        json_key(rows, key);
-        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
-        fputs(text, stdout);
-        return;
+    const double size = fabs(value);
+    const bool whole = size < 1e15 && (value == floor(value) || size >= pow(10, digits));
+    if (!isfinite(value)) {
+        strcpy(text, "-");
+    } else if (whole) {
+        snprintf(text, CLI_NUMBER, "%.0f", value + 0.0); /* no -0 */
+    } else {
+        snprintf(text, CLI_NUMBER, "%.*g", digits, value);
     }
-    if (isfinite(value)) {
-        snprintf(text, sizeof text, "%.*g", digits, value);
-    }
-    push(rows, key, isfinite(value) ? text : "-", true);
+    return text;
 }
 
 void cli_row_number(cli_rows *rows, const char *key, double value)
 {
-    cli_row_rounded(rows, key, value, 9);
+    char text[CLI_NUMBER];
+    if (rows->json) {
+        json_key(rows, key);
+        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
+        fputs(text, stdout);
+    } else {
+        push(rows, key, cli_number(value, text), true);
+    }
 }
 
 void cli_row_whole(cli_rows *rows, const char *key, uint64_t value)
@@ -144,63 +156,10 @@ void cli_row_end(cli_rows *rows)
     }
 }
 
-/* A block is a run of rows with the same keys; it gets a header and columns of its own. */
-static size_t row_length(const cli_rows *rows, size_t start)
-{
-    size_t length = 0;
-    while (start + length < rows->n && rows->cells[start + length].key) {
-        length++;
-    }
-    return length;
-}
-
-static bool same_keys(const cli_rows *rows, size_t a, size_t b, size_t length)
-{
-    if (row_length(rows, b) != length) {
-        return false;
-    }
-    for (size_t i = 0; i < length; i++) {
-        if (strcmp(rows->cells[a + i].key, rows->cells[b + i].key) != 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-static void print_cell(const char *text, int width, bool right, bool last)
-{
-    printf(right ? "%*s" : "%-*s", last && !right ? 0 : width, text);
-    fputs(last ? "\n" : "  ", stdout);
-}
-
-static size_t print_block(const cli_rows *rows, size_t start)
-{
-    const size_t length = row_length(rows, start);
-    size_t end = start;
-    int widths[64] = {0};
-    do {
-        for (size_t i = 0; i < length && i < 64; i++) {
-            const int key = (int)strlen(rows->cells[end + i].key), text = (int)strlen(rows->cells[end + i].text);
-            widths[i] = widths[i] > key ? widths[i] : key;
-            widths[i] = widths[i] > text ? widths[i] : text;
-        }
-        end += length + 1;
-    } while (end < rows->n && same_keys(rows, start, end, length));
-    for (size_t i = 0; i < length && i < 64; i++) {
-        print_cell(rows->cells[start + i].key, widths[i], rows->cells[start + i].is_number, i + 1 == length);
-    }
-    for (size_t at = start; at < end; at += length + 1) {
-        for (size_t i = 0; i < length && i < 64; i++) {
-            print_cell(rows->cells[at + i].text, widths[i], rows->cells[at + i].is_number, i + 1 == length);
-        }
-    }
-    return end;
-}
-
 int cli_rows_close(cli_rows *rows)
 {
-    for (size_t at = 0; !rows->failed && at < rows->n;) {
-        at = print_block(rows, at);
+    if (!rows->failed && !rows->json) {
+        cli_table_print(rows->cells, rows->n, is_long ? 0 : cli_terminal_width(STDOUT_FILENO));
     }
     const bool failed = rows->failed;
     for (size_t i = 0; i < rows->n; i++) {

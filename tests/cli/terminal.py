@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""terminal.py KOKSMA: tables on a terminal. Every table of `koksma list` and of the commands below, on pseudo terminals of
+several widths: no line is wider; every column of the table that a pipe gets is a column, in the line above or named as left
+out; and a terminal that is wide enough, or --long, shows what a pipe gets, where nothing is cut. Numbers of a pipe are those
+of JSON to five digits; JSON and files hold them to the last bit."""
+import fcntl
+import json
+import os
+import pty
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+
+KOKSMA = os.path.abspath(sys.argv[1])
+failures, tables = [], 0
+
+
+def check(good, what):
+    """Notes a failure."""
+    if not good:
+        failures.append(what)
+
+
+def on_terminal(arguments, width, columns=None):
+    """What the program prints on a terminal: its stdout, and its stderr apart."""
+    environment = {key: value for key, value in os.environ.items() if key != "COLUMNS"}
+    environment |= {"COLUMNS": str(columns)} if columns else {}
+    shown = []
+    master, slave = pty.openpty()
+    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
+    with subprocess.Popen([KOKSMA, *arguments], stdin=subprocess.DEVNULL, stdout=slave, stderr=subprocess.DEVNULL, env=environment):
+        os.close(slave)
+        try:
+            while text := os.read(master, 1 << 16):
+                shown.append(text)
+        except OSError:  # the other end is closed
+            pass
+    os.close(master)
+    return b"".join(shown).decode().replace("\r\n", "\n")
+
+
+def piped(*arguments):
+    """What the program prints into a pipe, which nothing may cut, whatever COLUMNS is."""
+    return subprocess.run([KOKSMA, *arguments], capture_output=True, text=True, check=False, env=dict(os.environ, COLUMNS="40")).stdout
+
+
+def rows(*arguments):
+    """The rows of --json."""
+    return [json.loads(line) for line in piped(*arguments, "--json").splitlines()]
+
+
+def look(*arguments):
+    """A table on terminals of several widths."""
+    global tables
+    tables += 1
+    name, whole = " ".join(arguments), piped(*arguments)
+    header = whole.split("\n")[0].split()
+    check(header and not re.search(r" $", whole, re.M), f"{name}: no table, or blanks at the end of a line")
+    for width in (40, 60, 80, 132):
+        text = on_terminal(arguments, width)
+        check(max(map(len, text.split("\n"))) <= width, f"{name}: a line of more than {width} columns: {text}")
+        check(text == on_terminal(arguments, 80, width), f"{name}: COLUMNS={width} is not a terminal of that width")
+        words = re.findall(r"[\w%-]+", text)
+        check(all(key in words for key in header), f"{name} in {width}: not told of {[key for key in header if key not in words]}")
+        if max(map(len, whole.split("\n"))) <= width:
+            check(text == whole, f"{name}: fits in {width}, but is not what a pipe gets")
+    check(on_terminal([*arguments, "--long"], 80) == whole, f"{name}: --long is not what a pipe gets")
+    check(on_terminal(arguments, 5000) == whole, f"{name}: a wide terminal has not what a pipe gets")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    lists = re.search(r"one of (.*)", subprocess.run([KOKSMA, "list", "nosuch"], capture_output=True, text=True, check=False).stderr)[1].split(", ")
+    check(len(lists) > 15, f"only {lists}")
+    for kind in lists:
+        look("list", kind)
+        if kind not in ("records", "parameters", "plans", "formats"):
+            shown = on_terminal(["list", kind], 80)
+            check(re.search(r"^\w+ +what( |$)", shown, re.M), f"list {kind}: what the names are does not come first: {shown}")
+    for row in rows("list", "patterns"):
+        check(row["source"] in piped("list", "patterns") and row["claims"] in piped("list", "patterns"), "a pipe's table is cut")
+    subprocess.run([KOKSMA, "generate", "random", "-n", "32", "-o", "a file of points whose name is rather long, with a comma.txt"], check=True)
+    for seed in ("1", "2"):
+        subprocess.run([KOKSMA, "render", "ball", "--size", "32x24", "-n", "1", "-s", seed, "-o", f"{seed}.pfm"], check=True,
+                       stdout=subprocess.DEVNULL)
+    long_source = "pattern:halton:scramble=owen@64"
+    for line in (["measure", "pattern:halton@64"], ["measure", long_source, "-m", "all"],
+                 ["measure", long_source, "pattern:random@16@3", "-m", "all", "--trials", "2", "--time-limit", "1e6"],
+                 ["measure", "a file of points whose name is rather long, with a comma.txt", "pattern:random@4"],
+                 ["measure", long_source, "--prefixes", "powers"], ["measure", "--at", "0.3,0.7", long_source, "pattern:random@7"],
+                 ["measure", "--paired", "--trials", "3", "--warp", "concentric-disk,polar-disk", long_source],
+                 ["verify", long_source], ["verify", "pattern:sobol@16"], ["verify", "--record", "pattern:record@40"],
+                 ["curve", "power", long_source], ["curve", "pairs", "pattern:random@16", long_source],
+                 ["rank", "ball", "--size", "16x12", "--spp", "1,4", "--max-trials", "8", "--one-size", "-p", "random,sobol:scramble=owen"],
+                 ["compare", "1.pfm", "2.pfm"], ["compare", "1.pfm", "1.pfm", "2.pfm"], ["scene", "check", "ball"],
+                 ["study", "images", "{trial}.pfm", "--reference", "1.pfm"],
+                 ["optimise", "l2-star", "-n", "6", "--steps", "1", "-o", "six.txt"]):
+        look(*line)
+        check(rows(*line), f"{line}: no JSON")
+    # Text has five digits, --digits others; JSON and files have all.
+    for row, five, nine in zip(rows("measure", "pattern:random@64", "-m", "all"), piped("measure", "pattern:random@64", "-m", "all").splitlines()[1:],
+                               piped("measure", "pattern:random@64", "-m", "all", "--digits", "9").splitlines()[1:]):
+        value = row["value"]
+        check(five.split()[4] == (f"{value:.5g}" if value != int(value) else str(int(value))), f"five digits: {five}, {value}")
+        check(nine.split()[4] == (f"{value:.9g}" if value != int(value) else str(int(value))), f"nine digits: {nine}, {value}")
+    for ending in (".txt", ".csv", ".npy"):
+        subprocess.run([KOKSMA, "generate", "random", "-n", "50", "-s", "3", "-o", f"p{ending}"], check=True)
+        of_file, of_pattern = (rows("measure", source, "-m", "all", "-s", "3") for source in (f"p{ending}", "pattern:random@50"))
+        for a, b in zip(of_file, of_pattern):
+            check(len(of_file) > 15 and a["value"] == b["value"] and a["witness"] == b["witness"], f"{ending}: {a} is not {b}")
+print("\n".join(failures) or f"{tables} tables")
+sys.exit(bool(failures))
