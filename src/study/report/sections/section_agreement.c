@@ -66,7 +66,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     const size_t waiting = counts[KOKSMA_VERDICT_WAITING];
     if (counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED] + counts[KOKSMA_VERDICT_EXPLAINED] +
         counts[KOKSMA_VERDICT_UNEXPLAINED]) {
-        koksma__doc_paragraph_begin(d);
+        koksma__doc_answer_begin(d, true);
         say_counts(d, counts);
         koksma__doc_paragraph_end(d);
     }
