@@ -96,6 +96,10 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
         work->run.time_limit_s = 0;
         status = koksma_study_report(study, &work->run);
     }
+    const char *line;
+    for (size_t i = 0; !cli_flag(arguments, "quiet") && (line = koksma_study_left_out_at(study, i)); i++) {
+        fprintf(stderr, "left out: %s\n", line);
+    }
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     if (status == KOKSMA_INTERRUPTED) {

@@ -273,6 +273,22 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
     return KOKSMA_OK;
 }
 
+const char *koksma_study_left_out_at(const koksma_study *study, size_t i)
+{
+    KOKSMA__REQUIRE_OR(NULL, study);
+    const koksma__plan *plan = &study->plan;
+    for (size_t b = 0; b < plan->n_discrepancies + plan->n_images; b++) {
+        const koksma__texts *lines = b < plan->n_discrepancies
+                                         ? &plan->discrepancies[b].left_out.lines
+                                         : &plan->images[b - plan->n_discrepancies].left_out.lines;
+        if (i < lines->n) {
+            return lines->at[i];
+        }
+        i -= lines->n;
+    }
+    return NULL;
+}
+
 koksma_status koksma_study_close(koksma_study *study)
 {
     if (!study) {

@@ -156,6 +156,9 @@ koksma_status koksma__answer_inequality(koksma_study *study, koksma__document *d
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *block = topic->discrepancies[b];
         for (size_t i = 0; !status && block->dim <= 2 && i < block->n.n * block->patterns.n; i++) {
+            if (koksma__is_left_out(&block->left_out, i / block->n.n, block->n.n, i % block->n.n)) {
+                continue;
+            }
             const long long n = block->n.at[i % block->n.n];
             if (n <= MAX_POINTS) {
                 status = add_set(&rows, &all, block->patterns.at[i / block->n.n], n, block->dim);
