@@ -4,7 +4,7 @@
 // into the one of the whole page, chooses rows.
 import { element } from "../../../../explorer/page/dom.mjs";
 
-const dash = "–", fewRows = 8, manyIntervals = 5; // intervals then stand below their values
+const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // intervals then stand below their values
 
 // ---- Numbers and words
 
@@ -41,7 +41,7 @@ const small = text => element("span", { class: "pm" }, text);
 
 // What stands behind a value: its interval, or its standard deviation.
 function spread({ value, low, high, sd }, column) {
-  const half = h => column.decimals === undefined ? general(h, 2) : h.toFixed(column.decimals);
+  const half = h => column.decimals === undefined || h < 0.5 * 10 ** -column.decimals ? general(h, 2) : h.toFixed(column.decimals);
   if (typeof sd === "number") return [" ", small(`± ${general(sd, 2)}`)];
   if (low === high && typeof low === "number") return [];
   if (typeof low !== "number" || typeof high !== "number") return column.type === "interval" ? [" ", small("± ?")] : [];
@@ -52,8 +52,8 @@ function spread({ value, low, high, sd }, column) {
 // Verdicts have a mark, and z, or the change, behind it or in its tooltip.
 function verdictMark(cell, withNumber) {
   if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
-  const sign = v => v < 0 ? "" : "+";
-  const number = cell.z === undefined ? `${sign(cell.change)}${(100 * cell.change).toFixed(0)} %` : `z = ${sign(cell.z)}${cell.z.toFixed(1)}`;
+  const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
+  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `z = ${signed(cell.z, 1)}`;
   const mark = cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
   const name = { explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
   return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
@@ -137,7 +137,7 @@ function nextOrder(order, column) {
   return step && { c: column.c, ...step };
 }
 
-const says = (order, columns) => order === null ? "In the order of the data" : `Sorted by ${order.by === "width" ? "the width of the intervals of " : ""}${
+const says = (order, columns) => `Sorted by ${order.by === "width" ? "the width of the intervals of " : ""}${
   columns.find(column => column.c === order.c).title ?? columns.find(column => column.c === order.c).name}, ${order.descending ? "largest" : "smallest"} first`;
 
 const filters = []; // of all tables, by the field of the page
@@ -169,7 +169,7 @@ export function table(block) {
   const show = () => {
     const has = [wanted, field.value.trim().toLowerCase()], shown = (order ? sorted(rows, order) : rows).filter(r => has.every(text => r.text.includes(text)));
     body.replaceChildren(...(moves ? shown : rows).map(r => r.node));
-    state.textContent = moves ? `${says(order, visible)}. ${shown.length === rows.length ? rows.length : `${shown.length} of ${rows.length}`} rows.` : "";
+    state.textContent = moves ? `${order ? `${says(order, visible)}. ` : ""}${shown.length === rows.length ? rows.length : `${shown.length} of ${rows.length}`} rows.` : "";
     heads.forEach((head, i) => {
       const mine = order?.c === visible[i].c, name = !mine ? null : order.by === "width" ? "other" : order.descending ? "descending" : "ascending";
       if (name) head.setAttribute("aria-sort", name);
@@ -183,7 +183,7 @@ export function table(block) {
   const tools = moves ? element("div", { class: "tools" }, rows.length > fewRows ? element("label", {}, "rows with ", field) : null, state) : null;
   const grouped = visible.some(column => column.group);
   const node = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
-    element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals ? "many" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
+    element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
   const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
   return [tools, node, element("p", { class: "csv" }, link)].filter(Boolean);
 }
