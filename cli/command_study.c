@@ -444,7 +444,7 @@ const cli_command cli_command_study = {
                 "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
-        "the current folder.\n"
+        "the plan's file.\n"
         "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
         "new: writes an example plan; it overwrites no file.\n"
