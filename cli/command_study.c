@@ -96,6 +96,10 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
         work->run.time_limit_s = 0;
         status = koksma_study_report(study, &work->run);
     }
+    const char *line;
+    for (size_t i = 0; !cli_flag(arguments, "quiet") && (line = koksma_study_left_out_at(study, i)); i++) {
+        fprintf(stderr, "left out: %s\n", line);
+    }
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     if (status == KOKSMA_INTERRUPTED) {
@@ -440,7 +444,7 @@ const cli_command cli_command_study = {
                 "images 'PLACES' --reference FILE [--json]",
     .details =
         "PLAN is the name of a plan in the library, or a JSON file (./plan.json). Paths in a plan are relative to\n"
-        "the current folder.\n"
+        "the plan's file.\n"
         "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
         "new: writes an example plan; it overwrites no file.\n"

@@ -7,7 +7,7 @@ import { svg, short } from "./dom.mjs";
 const left = 64, right = 14, top = 14, bottom = 42, legendWidth = 220, legendLine = 15, legendFits = 560, shapes = 3;
 
 // As wide as the place that it is for, so that its letters have their size.
-const widthOf = place => Math.min(Math.max(place.clientWidth, 280), 736);
+const widthOf = (place, most) => Math.min(Math.max(place.clientWidth, 280), most);
 
 // low and high are of the values, or of their logarithms to base 10; from and to in the picture.
 function axisOf(values, { log, zero }, from, to) {
@@ -82,10 +82,12 @@ function barEnd(axis, x, value, up) {
   return `V${end}M${x} ${end}l3 ${back}M${x} ${end}l-3 ${back}M${x} ${end}`;
 }
 
-function drawSeries(series, xs, ys) {
+// Puts the series, and what can be named of it, into `drawn`.
+function drawSeries(series, xs, ys, drawn) {
   const group = svg("g", { class: `series ${series.className}` });
   const shown = series.points.filter(([x, y]) => fits(xs, x) && fits(ys, y));
   const at = shown.map(([x, y]) => [round(position(xs, x)), round(position(ys, y))]);
+  at.forEach(([x, y], i) => drawn.push({ x, y, series, group, values: shown[i] }));
   if (series.line && at.length) group.append(svg("path", { class: "line", d: at.map(([x, y], i) => `${i ? "L" : "M"}${x},${y}`).join("") }));
   shown.forEach(([, , low, high], i) => {
     const [x, y] = at[i];
@@ -114,8 +116,9 @@ function drawLegend(node, named, x, y) {
 // Draws into a place of the page. x, y: { title, log, zero }; zero: a linear axis that begins there. series: [{ label,
 // className, points: [[x, y] or [x, y, low, high], ..], line, marks, hollow, guide }]; marks: the number of their shape;
 // guides do not count for the axes. level: a horizontal guide. legend: series with labels, hollow ones left out, are named.
-export function chart(place, { title, x, y, series, level, legend, height = 300 }) {
-  const width = widthOf(place), named = legend ? series.filter(s => s.label && !s.hollow) : [];
+// most: the largest width. Returns every point as drawn: { x, y, series, group, values }, in the units of the picture.
+export function chart(place, { title, x, y, series, level, legend, height = 300, most = 736 }) {
+  const width = widthOf(place, most), drawn = [], named = legend ? series.filter(s => s.label && !s.hollow) : [];
   const beside = named.length > 0 && width >= legendFits, below = named.length > 0 && !beside;
   const rightEnd = width - (beside ? legendWidth : right), bottomEnd = height - bottom;
   const tall = Math.max(height, beside ? top + 12 + legendLine * named.length : 0) + (below ? legendLine * named.length + 8 : 0);
@@ -123,7 +126,7 @@ export function chart(place, { title, x, y, series, level, legend, height = 300 
   place.replaceChildren(node);
   const counted = series.filter(s => !s.guide).flatMap(s => s.points).filter(([px, py]) =>
     Number.isFinite(px) && Number.isFinite(py) && (!x.log || px > 0) && (!y.log || py > 0));
-  if (!counted.length) return;
+  if (!counted.length) return drawn;
   const xs = axisOf(counted.map(p => p[0]), x, left, rightEnd);
   const ys = axisOf([...counted.map(p => p[1]), ...(level === undefined ? [] : [level])], y, bottomEnd, top);
   widenForBars(ys, counted.flatMap(p => p[2] < p[3] ? [p[2], p[3]] : []));
@@ -145,7 +148,8 @@ export function chart(place, { title, x, y, series, level, legend, height = 300 
       transform: `rotate(-90 14 ${(top + bottomEnd) / 2})` }, y.title));
   const area = { x: left - 6, y: top - 6, width: rightEnd - left + 12, height: bottomEnd - top + 12 };
   const inside = svg("svg", { ...area, viewBox: `${area.x} ${area.y} ${area.width} ${area.height}` }); // cuts guides off
-  inside.append(...series.map(s => drawSeries(s, xs, ys)));
+  inside.append(...series.map(s => drawSeries(s, xs, ys, drawn)));
   node.append(inside);
   drawLegend(node, named, beside ? rightEnd + 8 : left, beside ? top + 12 : height + 14);
+  return drawn;
 }

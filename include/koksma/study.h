@@ -62,6 +62,10 @@ KOKSMA_API koksma_status koksma_study_open(const koksma_study_options *options, 
    same. */
 KOKSMA_API koksma_status koksma_study_close(koksma_study *study);
 
+/* Returns line i of what the plan's blocks with `skip` leave out, "PATTERN, N = 8, 32: why"; NULL past the end. Valid
+   until the study is closed. */
+KOKSMA_API const char *koksma_study_left_out_at(const koksma_study *study, size_t i);
+
 /* What a run did. */
 typedef struct koksma_study_summary {
     size_t jobs, done_before, done_now; /* a job is one point set or one rendering */

@@ -122,6 +122,11 @@ static size_t line_of(const koksma__json_node *node)
     return line;
 }
 
+const char *koksma__json_document(const koksma__json_node *node)
+{
+    return node->document->name;
+}
+
 koksma_status koksma__json_fail(const koksma__json_node *node, const char *format, ...)
 {
     char reason[512];

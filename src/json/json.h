@@ -73,6 +73,9 @@ koksma_status koksma__json_get_number(const koksma__json_node *node, const char 
                                       double max, double *out);
 koksma_status koksma__json_get_whole(const koksma__json_node *node, const char *key, bool needed, long long min,
                                      long long max, long long *out);
+/* What the document of a node is called: that of koksma__json_open. */
+const char *koksma__json_document(const koksma__json_node *node);
+
 koksma_status koksma__json_get_flag(const koksma__json_node *node, const char *key, bool needed, bool *out);
 koksma_status koksma__json_get_text(const koksma__json_node *node, const char *key, bool needed, const char **out);
 koksma_status koksma__json_get_numbers(const koksma__json_node *node, const char *key, bool needed, double min,

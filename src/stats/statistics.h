@@ -39,6 +39,10 @@ typedef struct koksma__estimate {
     double value, low, high;
 } koksma__estimate;
 
+/* How many times as many trials would tell two means apart with a probability of 80 %, whose difference has an interval
+   of +- half: both errors fall as trials^-1/2. */
+double koksma__trials_factor(double difference, double half);
+
 /* How much larger the mean of a is than that of base, over that of base, of n pairs: mean a / mean base - 1. 0 where
    both are 0; no interval (NaN) for n = 1. */
 koksma__estimate koksma__relative_change(const double *a, const double *base, size_t n);

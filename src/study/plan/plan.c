@@ -72,8 +72,8 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
 
 static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id",  "patterns", "measures", "warps",
-                                       "n",       "dim", "trials",   "quick",    NULL};
+    static const char *const keys[] = {"comment", "id",     "patterns", "measures", "warps", "n",
+                                       "dim",     "trials", "quick",    "skip",     NULL};
     koksma__discrepancy_block *b = item;
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
@@ -87,9 +87,8 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->dim = (int)dim;
-    status = status ? status : koksma__plan_check_sets(node, &b->patterns, "n", &b->n, b->dim);
+    status = status ? status : koksma__plan_check_sets(node, b);
     status = status ? status : koksma__plan_check_measures(node, b);
-    koksma__plan_sort(&b->n);
     return status ? status : check_warps(node, b);
 }
 
@@ -135,8 +134,8 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__t
 
 static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp", "options",
-                                       "size",    "trials", "quick",  "references", NULL};
+    static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp",  "options",
+                                       "size",    "trials", "quick",  "references", "skip", NULL};
     koksma__image_block *b = item;
     double size[2] = {0, 0};
     koksma_status status = koksma__json_only(node, keys);
@@ -147,7 +146,6 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     status = status ? status : koksma__plan_check_spp(node, b);
-    koksma__plan_sort(&b->spp);
     status = status ? status : koksma__json_get_numbers(node, "size", false, 1, KOKSMA_MAX_IMAGE_SIDE, 2, size);
     status = status ? status : parse_trials(node, trials, &b->trials);
     b->width = (int)size[0];

@@ -15,12 +15,19 @@ typedef struct koksma__wholes {
     long long *at;
 } koksma__wholes;
 
+/* What a block with `skip` leaves out: numbers of points that a pattern does not have. */
+typedef struct koksma__left_out {
+    bool *is;            /* of each pattern and each of its sizes; NULL: nothing */
+    koksma__texts lines; /* for the reader: a pattern, its sizes and the reason */
+} koksma__left_out;
+
 /* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {
     char *id;                         /* what questions call it; may be NULL */
     koksma__texts patterns, measures; /* canonical specs */
     koksma__texts warps;              /* names of maps of the square onto a domain; none: the square itself */
     koksma__wholes n;
+    koksma__left_out left_out;
     int dim;
     long long trials;
 } koksma__discrepancy_block;
@@ -38,6 +45,7 @@ typedef struct koksma__image_block {
     koksma__texts scenes, patterns;
     koksma__texts variants; /* canonical texts of the options; at least one, "" when the plan names none */
     koksma__wholes spp;
+    koksma__left_out left_out;
     int width, height; /* 0: the scene's own */
     long long trials;
     size_t n_references;
@@ -168,6 +176,12 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
 
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
+
+/* Whether size k of `sizes` of pattern p is left out. */
+static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, size_t sizes, size_t k)
+{
+    return of->is && of->is[p * sizes + k];
+}
 
 /* Whether the columns of a table are numbers of points. */
 static inline bool koksma__table_is_over_n(const koksma__table *table)

@@ -106,6 +106,12 @@ koksma_status koksma__plan_append(koksma__plan *p, koksma__plan *q)
     return status;
 }
 
+static void free_left_out(koksma__left_out *of)
+{
+    free(of->is);
+    koksma__texts_fini(&of->lines);
+}
+
 void koksma__texts_fini(koksma__texts *texts)
 {
     for (size_t i = 0; i < texts->n; i++) {
@@ -142,6 +148,7 @@ static void free_image_block(koksma__image_block *b)
     koksma__texts_fini(&b->variants);
     koksma__texts_fini(&b->patterns);
     free(b->spp.at);
+    free_left_out(&b->left_out);
     for (size_t r = 0; r < b->n_references; r++) {
         free(b->references[r].name);
         free(b->references[r].pattern);
@@ -157,6 +164,7 @@ void koksma__plan_fini(koksma__plan *p)
         koksma__texts_fini(&p->discrepancies[i].measures);
         koksma__texts_fini(&p->discrepancies[i].warps);
         free(p->discrepancies[i].n.at);
+        free_left_out(&p->discrepancies[i].left_out);
     }
     for (size_t i = 0; i < p->n_images; i++) {
         free_image_block(&p->images[i]);

@@ -36,20 +36,57 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
     return status;
 }
 
+/* Whether a path may begin at `at`: after "file:" that is a whole text, or a single use's or group's (";lens=file:"). */
+static bool begins_path(const char *text, const char *at)
+{
+    return at - text >= 5 && !strncmp(at - 5, "file:", 5) && (at - 5 == text || strchr("=;", at[-6]));
+}
+
+/* A relative path of a plan begins in the folder of the plan's file: *text, a scene's name or a pattern, becomes what
+   the current folder leads to. Names of scenes in the library have neither '/' nor '.'. */
+static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
+{
+    const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
+    const size_t folder = slash && strncmp(name, "./", (size_t)(slash + 2 - name)) ? (size_t)(slash + 1 - name) : 0;
+    const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strstr(*text, "file:") != NULL;
+    if (!folder || !is_path) {
+        return KOKSMA_OK;
+    }
+    const size_t length = strlen(*text);
+    char *joined = calloc(length + (length / 5 + 1) * folder + 1, 1), *to = joined;
+    if (!joined) {
+        return koksma__fail_memory(length);
+    }
+    for (const char *at = *text; *at; *to++ = *at++) {
+        if (*at != '/' && (is_scene ? at == *text : begins_path(*text, at))) {
+            memcpy(to, name, folder);
+            to += folder;
+        }
+    }
+    const bool fits = (size_t)(to - joined) < KOKSMA_MAX_SPEC;
+    const koksma_status status =
+        fits ? KOKSMA_OK : koksma__json_fail(node, "'%.60s...': the path is too long behind the plan's", *text);
+    free(fits ? *text : joined);
+    *text = fits ? joined : *text;
+    return status;
+}
+
 static koksma_status canonical(const koksma__json_node *node, koksma__spec_parser parser, char **out)
 {
     const char *text;
     char name[KOKSMA_MAX_SPEC];
     KOKSMA__TRY(koksma__json_text(node, &text));
     const koksma_status status = parser(text, name);
-    return status ? koksma__json_fail_in(node, status) : copy(name, out);
+    KOKSMA__TRY(status ? koksma__json_fail_in(node, status) : copy(name, out));
+    return from_plan(node, false, out);
 }
 
 koksma_status koksma__plan_text(const koksma__json_node *node, const char *key, bool needed, char **out)
 {
     const char *text = NULL;
-    const koksma_status status = koksma__json_get_text(node, key, needed, &text);
-    return status || !text ? status : copy(text, out);
+    koksma_status status = koksma__json_get_text(node, key, needed, &text);
+    status = status || !text ? status : copy(text, out);
+    return status || !text || strcmp(key, "scene") != 0 ? status : from_plan(node, true, out);
 }
 
 koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char **out)
@@ -104,6 +141,7 @@ static koksma_status read_texts(const koksma__json_node *node, const char *key, 
             status = canonical(&item, parser, &out->at[out->n]);
         } else if (!(status = koksma__json_text(&item, &text))) {
             status = copy(text, &out->at[out->n]);
+            status = status || strcmp(key, "scenes") != 0 ? status : from_plan(&item, true, &out->at[out->n]);
         }
         for (size_t i = 0; !status && i < out->n; i++) {
             if (!strcmp(out->at[i], out->at[out->n])) {

@@ -53,12 +53,11 @@ koksma_status koksma__plan_check_tables(const koksma__json_node *root, const kok
 /* An item of "figures" (plan_figures.c). */
 koksma_status koksma__plan_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
 
-/* Whether every pattern can make each number of points, the list `counts` of node; and an image block's samples, and
-   a reference's (plan_sets.c). */
-koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__texts *patterns,
-                                      const char *counts, const koksma__wholes *n, int dim);
+/* Whether every pattern can make each number of points, and an image block's samples, and a reference's; of a block
+   with `skip` those that can't are left out. Sorts the numbers (plan_sets.c). */
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block);
 koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block);
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block);
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__image_block *block);
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference);
 
 #endif

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Whether patterns can make the numbers of points that a plan asks of them, and measures take their dimensions: a
    study must not fail in its middle. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"
@@ -31,14 +35,44 @@ static koksma_status try_set(const char *pattern, long long n, int dim)
     return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
 }
 
-koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksma__texts *patterns,
-                                      const char *counts, const koksma__wholes *n, int dim)
+static koksma_status try_image_set(const char *pattern, long long n)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    const koksma_status status = koksma__image_pattern_try(pattern, (size_t)n, &briefly);
+    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
+}
+
+/* Whether a pattern has a number of points in a block. */
+typedef koksma_status (*set_trial)(const void *block, const char *pattern, long long n);
+
+static koksma_status try_points(const void *block, const char *pattern, long long n)
+{
+    return try_set(pattern, n, ((const koksma__discrepancy_block *)block)->dim);
+}
+
+static koksma_status try_image(const void *block, const char *pattern, long long n)
+{
+    (void)block;
+    return try_image_set(pattern, n);
+}
+
+/* What is tried: the numbers `n`, the list `key` of node. */
+typedef struct tried {
+    const koksma__json_node *node;
+    const char *key;
+    const void *block;
+    set_trial trial;
+    const koksma__texts *patterns;
+    koksma__wholes *n;
+} tried;
+
+static koksma_status refuse_first(const tried *t)
 {
     koksma__json_node list;
-    koksma_status status = koksma__json_member(node, counts, &list);
-    for (size_t k = 0; !status && k < n->n; k++) {
-        for (size_t p = 0; !status && p < patterns->n && n->at[k] <= MOST_TRIED; p++) {
-            status = try_set(patterns->at[p], n->at[k], dim);
+    koksma_status status = koksma__json_member(t->node, t->key, &list);
+    for (size_t k = 0; !status && k < t->n->n; k++) {
+        for (size_t p = 0; !status && p < t->patterns->n && t->n->at[k] <= MOST_TRIED; p++) {
+            status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
             if (status) {
                 const koksma__json_node item = koksma__json_item(&list, k);
                 status = koksma__json_fail_in(&item, status);
@@ -46,6 +80,71 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, const koksm
         }
     }
     return status;
+}
+
+/* Appends "PATTERN, N = 8, 32: reason" where a pattern lacks some of the sizes. */
+static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *out)
+{
+    char line[1024], reason[512] = "";
+    int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
+    for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
+        const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
+        if (status == KOKSMA_MEMORY) {
+            return status;
+        }
+        if (status && length < (int)sizeof line) {
+            length +=
+                snprintf(line + length, sizeof line - (size_t)length, "%s%lld", reason[0] ? ", " : "", t->n->at[k]);
+        }
+        if (status && !reason[0]) {
+            snprintf(reason, sizeof reason, "%s", koksma_error_text());
+        }
+        out->is[p * t->n->n + k] = status != KOKSMA_OK;
+    }
+    if (!reason[0]) {
+        return KOKSMA_OK;
+    }
+    const size_t size = strlen(line) + strlen(reason) + 3;
+    char *text = malloc(size);
+    if (!text) {
+        return koksma__fail_memory(size);
+    }
+    const size_t name = strcspn(t->patterns->at[p], ":"); /* which begins the reason, too */
+    const bool twice = !strncmp(reason, line, name) && !strncmp(reason + name, ": ", 2);
+    snprintf(text, size, "%s: %s", line, reason + (twice ? name + 2 : 0));
+    out->lines.at[out->lines.n++] = text;
+    return KOKSMA_OK;
+}
+
+/* Without `skip` a pattern that lacks a number is an error, with it that number is left out. */
+static koksma_status check(const tried *t, koksma__left_out *out)
+{
+    bool skip = false, any = false;
+    koksma_status status = koksma__json_get_flag(t->node, "skip", false, &skip);
+    if (!status && !skip) {
+        status = refuse_first(t);
+    }
+    koksma__plan_sort(t->n);
+    if (status || !skip) {
+        return status;
+    }
+    const size_t n = t->patterns->n * t->n->n;
+    out->is = calloc(n, sizeof *out->is);
+    out->lines.at = calloc(t->patterns->n, sizeof *out->lines.at);
+    status = out->is && out->lines.at ? KOKSMA_OK : koksma__fail_memory(n);
+    for (size_t p = 0; !status && p < t->patterns->n; p++) {
+        status = leave_out_of(t, p, out);
+    }
+    for (size_t i = 0; !status && i < n; i++) {
+        any |= !out->is[i];
+    }
+    return status || any ? status : koksma__json_fail(t->node, "'skip' leaves nothing: %s", out->lines.at[0]);
+}
+
+koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__discrepancy_block *block)
+{
+    const tried t = {node, "n", block, try_points, &block->patterns, &block->n};
+    return check(&t, &block->left_out);
 }
 
 /* Whether each measure serves the block's dim: that shows at one point. */
@@ -82,13 +181,6 @@ static bool takes_spp_points(const char *variant)
            v.render.pairing != KOKSMA_PAIRING_NATIVE && !v.adaptive.method;
 }
 
-static koksma_status try_image_set(const char *pattern, long long n)
-{
-    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
-    const koksma_status status = koksma__image_pattern_try(pattern, (size_t)n, &briefly);
-    return status == KOKSMA_INTERRUPTED ? KOKSMA_OK : status;
-}
-
 /* Native pairing, and methods that draw strata of their own, have no place for patterns of single uses and groups. */
 static koksma_status check_variant(const char *variant, const koksma__texts *patterns)
 {
@@ -103,26 +195,20 @@ static koksma_status check_variant(const char *variant, const koksma__texts *pat
     return status;
 }
 
-koksma_status koksma__plan_check_spp(const koksma__json_node *node, const koksma__image_block *block)
+koksma_status koksma__plan_check_spp(const koksma__json_node *node, koksma__image_block *block)
 {
-    koksma__json_node list;
-    koksma_status status = koksma__json_member(node, "spp", &list);
+    const tried t = {node, "spp", block, try_image, &block->patterns, &block->spp};
+    koksma_status status = KOKSMA_OK;
     bool takes_spp = false;
     for (size_t v = 0; !status && v < block->variants.n; v++) {
         takes_spp |= takes_spp_points(block->variants.at[v]);
         status = check_variant(block->variants.at[v], &block->patterns);
         status = status ? koksma__json_fail_in(node, status) : KOKSMA_OK;
     }
-    for (size_t k = 0; !status && takes_spp && k < block->spp.n; k++) {
-        for (size_t p = 0; !status && p < block->patterns.n && block->spp.at[k] <= MOST_TRIED; p++) {
-            status = try_image_set(block->patterns.at[p], block->spp.at[k]);
-            if (status) {
-                const koksma__json_node item = koksma__json_item(&list, k);
-                status = koksma__json_fail_in(&item, status);
-            }
-        }
+    if (!takes_spp) {
+        koksma__plan_sort(&block->spp);
     }
-    return status;
+    return status || !takes_spp ? status : check(&t, &block->left_out);
 }
 
 koksma_status koksma__plan_check_reference(const koksma__json_node *node, const koksma__reference *reference)

@@ -254,6 +254,13 @@ void koksma__doc_paragraph_begin(koksma__document *d)
     koksma__json_begin_array(&d->json, "text");
 }
 
+void koksma__doc_answer_begin(koksma__document *d, bool decided)
+{
+    begin_block(d, "paragraph", NULL);
+    koksma__json_write_text(&d->json, "answer", decided ? "decided" : "undecided");
+    koksma__json_begin_array(&d->json, "text");
+}
+
 void koksma__doc_paragraph_end(koksma__document *d)
 {
     end_words(d);
@@ -311,8 +318,21 @@ void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t 
 
 void koksma__doc_table_begin(koksma__document *d, const char *name)
 {
+    koksma__doc_sorted_table_begin(d, name, NULL, false, false);
+}
+
+void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
+                                    bool descending)
+{
     begin_block(d, "table", NULL);
     koksma__json_write_text(&d->json, "name", name);
+    if (column) {
+        koksma__json_begin_object(&d->json, "sort");
+        koksma__json_write_text(&d->json, "column", column);
+        koksma__json_write_text(&d->json, "by", by_width ? "width" : "value");
+        put_flag(d, "descending", descending);
+        koksma__json_end(&d->json);
+    }
     koksma__json_begin_array(&d->json, "columns");
     d->in_rows = false;
 }

@@ -48,6 +48,8 @@ void koksma__doc_section(koksma__document *d, const char *id, const char *headin
 void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__doc_paragraph_begin(koksma__document *d);
 void koksma__doc_paragraph_end(koksma__document *d);
+/* A paragraph that answers what its section asks, which the page shows first: decided, or not yet. */
+void koksma__doc_answer_begin(koksma__document *d, bool decided);
 
 /* A list of items, each said between item and the next; numbered: notes that cells refer to. */
 void koksma__doc_list_begin(koksma__document *d, const char *id, bool numbered);
@@ -92,6 +94,9 @@ koksma__cell_data koksma__cell_of(double value);
 
 /* Columns come first, then rows; name is the CSV file's without its ending. Rows may end early. */
 void koksma__doc_table_begin(koksma__document *d, const char *name);
+/* Of a table that the page sorts by a column: by its values, or by the widths of its intervals. */
+void koksma__doc_sorted_table_begin(koksma__document *d, const char *name, const char *column, bool by_width,
+                                    bool descending);
 void koksma__doc_column(koksma__document *d, const koksma__column *column);
 void koksma__doc_head(koksma__document *d, const char *name); /* a column of texts */
 void koksma__doc_head_number(koksma__document *d, const char *name, int digits);

@@ -146,12 +146,23 @@ static void say_pairs(koksma__document *d, const koksma__rho_means *s, const kok
 void koksma__rho_sentence(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
     const size_t last = j->of[0].at[j->of[0].n - 1].measure;
-    koksma__doc_paragraph_begin(d);
-    say_first(d, s, j);
-    say_predictors(d, s, j);
-    say_pairs(d, s, j);
-    if (s->n > 1 && koksma__rho_always_last(j, last)) {
-        koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
+    const size_t first = j->of[0].at[0].measure;
+    const bool too_few = s->of[first].few == s->of[first].all;
+    koksma__doc_answer_begin(d, !too_few && (j->n == 1 || koksma__rho_always_first(j, first)));
+    if (too_few) {
+        koksma__doc_say(d,
+                        "*Undecided:* %d patterns or more would give a rank correlation an interval. The largest "
+                        "of too few is that of `%s` (",
+                        KOKSMA__LEAST_PAIRS, s->of[first].measure);
+        say_cases(d, &s->of[first]);
+        koksma__doc_say(d, ").");
+    } else {
+        say_first(d, s, j);
+        say_predictors(d, s, j);
+        say_pairs(d, s, j);
+        if (s->n > 1 && koksma__rho_always_last(j, last)) {
+            koksma__doc_say(d, " The last is `%s` with %+.2f.", s->of[last].measure, mean_of(&s->of[last]));
+        }
     }
     koksma__doc_paragraph_end(d);
     koksma__doc_paragraph(

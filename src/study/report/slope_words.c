@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The sentence on the slopes of one measure or scene: the pattern that falls fastest and those that are not told
- * apart from it (the interval of the difference of two slopes has 0), how many fall faster than random points (or
- * N^-1/2), how many follow no power law, and which have means of 0. Of a quality or a distance no slope is the best.
+ * The sentence on the slopes of one measure or scene: the pattern that falls fastest or, where others are not told
+ * apart from it (the interval of the difference of two slopes has 0), those of them whose slopes are known best, and
+ * how many trials would tell two of them apart; how many fall faster than random points (or N^-1/2), how many follow
+ * no power law, and which have means of 0. Of a quality or a distance no slope is the best.
  */
 #include "study/report/slope_words.h"
 
 #include <math.h>
 
 #include <koksma/koksma.h>
+
+#include "study/run/tasks.h"
 
 enum { NAMED = 4, NAMED_ZEROS = 12 };
 
@@ -68,23 +71,59 @@ static void say_power(koksma__document *d, const koksma__estimate *e)
     }
 }
 
-/* The best and the others of its rank in their order, no more than NAMED by name. */
-static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
+/* Whether pattern i comes before j: by the widths of the intervals, those without one last. */
+static bool is_known_better(const koksma__slopes *of, size_t i, size_t j)
 {
-    koksma__doc_say(d, "%s falls as ", of->patterns[s->best]);
-    say_power(d, &of->trends[s->best].slope);
-    koksma__doc_say(d, "; not told apart from it: ");
-    size_t named = 0;
-    for (size_t i = 0; i < of->n && named < NAMED; i++) {
+    const double x = half(&of->trends[i].slope), y = half(&of->trends[j].slope);
+    return x < y || (isnan(y) && !isnan(x)) || (!(y < x) && isnan(x) == isnan(y) && i < j);
+}
+
+/* Of those that are not told apart from the best the next behind `after` (n: the first); n: none. */
+static size_t next_tied(const koksma__slopes *of, const standing *s, size_t after)
+{
+    size_t next = of->n;
+    for (size_t i = 0; i < of->n; i++) {
         const koksma__estimate *e = &of->trends[i].slope;
-        if (i != s->best && !isnan(e->value) && are_tied(e, &of->trends[s->best].slope)) {
-            koksma__doc_say(d, "%s%s as ", named++ ? ", " : "", of->patterns[i]);
-            say_power(d, e);
+        if (!isnan(e->value) && are_tied(e, &of->trends[s->best].slope) &&
+            (after == of->n || is_known_better(of, after, i)) && (next == of->n || is_known_better(of, i, next))) {
+            next = i;
         }
     }
-    if (s->tied - 1 > named) {
-        koksma__doc_say(d, ", and %zu more", s->tied - 1 - named);
+    return next;
+}
+
+/* What would tell two slopes apart: more trials, or more sizes where a pattern has one set of each. */
+static void say_trials(koksma__document *d, const koksma__slopes *of, size_t a, size_t b)
+{
+    const koksma__estimate *x = &of->trends[a].slope, *y = &of->trends[b].slope;
+    const double factor = koksma__trials_factor(x->value - y->value, hypot(half(x), half(y)));
+    if (!koksma__compare(x->value, y->value)) {
+        koksma__doc_say(d, "; those of %s and %s are equal", of->patterns[a], of->patterns[b]);
+    } else if (koksma__has_one_set(of->patterns[a]) || koksma__has_one_set(of->patterns[b])) {
+        koksma__doc_say(d, "; more sizes might tell %s from %s, more trials would not", of->patterns[a],
+                        of->patterns[b]);
+    } else if (isfinite(factor)) {
+        koksma__doc_say(d, "; about %.0f times as many trials would tell %s from %s", ceil(factor), of->patterns[a],
+                        of->patterns[b]);
     }
+}
+
+/* Those that are not told apart from the best, the best known first, no more than NAMED by name. */
+static void say_tied(koksma__document *d, const koksma__slopes *of, const standing *s)
+{
+    size_t named = 0, at = of->n, first = of->n, second = of->n;
+    koksma__doc_say(d, "undecided between %zu of %zu patterns: ", s->tied, s->counted);
+    while (named < NAMED && named < s->tied && (at = next_tied(of, s, at)) < of->n) {
+        koksma__doc_say(d, "%s%s%s as ", named ? ", " : "", of->patterns[at], named ? "" : " falls");
+        say_power(d, &of->trends[at].slope);
+        first = named == 0 ? at : first;
+        second = named == 1 ? at : second;
+        named++;
+    }
+    if (s->tied > named) {
+        koksma__doc_say(d, ", and %zu more", s->tied - named);
+    }
+    say_trials(d, of, first, first == s->best ? second : s->best);
 }
 
 static void say_fastest(koksma__document *d, const koksma__slopes *of, const standing *s)
@@ -133,7 +172,11 @@ void koksma__slopes_sentence(koksma__document *d, const koksma__slopes *of)
     if (!s.counted && !zeros) {
         return;
     }
-    koksma__doc_paragraph_begin(d);
+    if (of->sense == KOKSMA__FALLS) {
+        koksma__doc_answer_begin(d, s.tied == 1);
+    } else {
+        koksma__doc_paragraph_begin(d);
+    }
     koksma__doc_say(d, "*%s:* ", of->name);
     if (of->sense != KOKSMA__FALLS) {
         koksma__doc_say(d, of->sense == KOKSMA__LARGER ? "larger is better; no slope is the best"

@@ -108,15 +108,17 @@ static koksma_status make_folder(koksma_study *study, const char *folder)
 
 /* The store keeps the texts of its plans and what the run said about trials, so that the folder is enough to make the
    report again. */
-static koksma_status keep_plan(koksma_study *study, const koksma__plan_trials *trials, char *const *texts, size_t n)
+static koksma_status keep_plan(koksma_study *study, const koksma_study_options *options, char *const *texts)
 {
     char key[32], value[32];
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < n; i++) {
+    for (size_t i = 0; !status && i < options->n_plans; i++) {
         snprintf(key, sizeof key, "plan-text-%zu", i);
         status = koksma__store_set_text(study->store, key, texts[i]);
+        snprintf(key, sizeof key, "plan-name-%zu", i);
+        status = status ? status : koksma__store_set_text(study->store, key, options->plans[i]);
     }
-    snprintf(value, sizeof value, "%zu %lld %d", n, trials->trials, trials->quick);
+    snprintf(value, sizeof value, "%zu %lld %d", options->n_plans, options->trials, options->quick);
     status = status ? status : koksma__store_set_text(study->store, "plan-texts", value);
     return status ? status : koksma__store_commit(study->store);
 }
@@ -134,7 +136,7 @@ static koksma_status append_plan(koksma_study *study, koksma__plan *plan)
 /* The plan of a folder that has results. */
 static koksma_status recall_plan(koksma_study *study)
 {
-    char *what, *text, key[32];
+    char *what, key[32];
     unsigned long n = 0;
     int quick = 0;
     koksma__plan_trials trials = {0};
@@ -146,12 +148,17 @@ static koksma_status recall_plan(koksma_study *study)
     trials.quick = quick;
     for (unsigned long i = 0; !status && i < n; i++) {
         koksma__plan plan = {0};
+        char *text = NULL, *name = NULL; /* name: older databases have none */
         snprintf(key, sizeof key, "plan-text-%lu", i);
         status = koksma__store_get_text(study->store, key, &text);
+        snprintf(key, sizeof key, "plan-name-%lu", i);
+        status = status ? status : koksma__store_get_text(study->store, key, &name);
         if (!status) {
-            status = koksma__plan_parse(study->folder, text ? text : "", text ? strlen(text) : 0, &trials, &plan);
+            status = koksma__plan_parse(name ? name : "results.sqlite", text ? text : "", text ? strlen(text) : 0,
+                                        &trials, &plan);
         }
         free(text);
+        free(name);
         status = status ? status : append_plan(study, &plan);
         koksma__plan_fini(&plan);
     }
@@ -184,7 +191,6 @@ static koksma_status load_plans(koksma_study *study, const koksma_study_options 
 /* folder NULL: no results are kept (estimates; ranks of an MPI run but the first). */
 static koksma_status open_with_plans(koksma_study *study, const koksma_study_options *options)
 {
-    const koksma__plan_trials trials = {options->trials, options->quick};
     char path[KOKSMA__PATH];
     char **texts = calloc(options->n_plans, sizeof *texts);
     KOKSMA__REQUIRE_MEMORY(texts, options->n_plans * sizeof *texts);
@@ -195,7 +201,7 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
         status = make_folder(study, options->folder);
         snprintf(path, sizeof path, "%s/results.sqlite", options->folder);
         status = status ? status : koksma__store_open(path, KOKSMA__STORE_WRITE, study->plan.name, &study->store);
-        status = status ? status : keep_plan(study, &trials, texts, options->n_plans);
+        status = status ? status : keep_plan(study, options, texts);
     }
     for (size_t i = 0; i < options->n_plans; i++) {
         free(texts[i]);
@@ -247,6 +253,22 @@ koksma_status koksma_study_open(const koksma_study_options *options, koksma_stud
     }
     *out = study;
     return KOKSMA_OK;
+}
+
+const char *koksma_study_left_out_at(const koksma_study *study, size_t i)
+{
+    KOKSMA__REQUIRE_OR(NULL, study);
+    const koksma__plan *plan = &study->plan;
+    for (size_t b = 0; b < plan->n_discrepancies + plan->n_images; b++) {
+        const koksma__texts *lines = b < plan->n_discrepancies
+                                         ? &plan->discrepancies[b].left_out.lines
+                                         : &plan->images[b - plan->n_discrepancies].left_out.lines;
+        if (i < lines->n) {
+            return lines->at[i];
+        }
+        i -= lines->n;
+    }
+    return NULL;
 }
 
 koksma_status koksma_study_close(koksma_study *study)

@@ -50,6 +50,9 @@ static koksma_status add_discrepancies(koksma__tasks *tasks, const koksma__discr
     const size_t warps = b->warps.n ? b->warps.n : 1;
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < b->patterns.n * b->n.n * warps; i++) {
+        if (koksma__is_left_out(&b->left_out, i / (b->n.n * warps), b->n.n, i / warps % b->n.n)) {
+            continue;
+        }
         const koksma__task task = {.discrepancy = b,
                                    .pattern = b->patterns.at[i / (b->n.n * warps)],
                                    .n = b->n.at[i / warps % b->n.n],
@@ -66,6 +69,10 @@ static koksma_status add_images(koksma__tasks *tasks, const koksma__image_block 
 {
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; !status && i < b->patterns.n * b->spp.n * b->variants.n; i++) {
+        if (koksma__is_left_out(&b->left_out, i / (b->spp.n * b->variants.n), b->spp.n,
+                                i / b->variants.n % b->spp.n)) {
+            continue;
+        }
         koksma__task task = {.image = b,
                              .scene = scene,
                              .pattern = b->patterns.at[i / (b->spp.n * b->variants.n)],

@@ -2,7 +2,7 @@
 -- names never change meaning. Numbers are the doubles that were computed, bit for bit. `SELECT * FROM rows` shows
 -- everything with its key. Koksma opens a file that has exactly these tables and nothing else.
 
-CREATE TABLE meta (          -- what made this file: 'plan', 'plan-texts', 'plan-text-0' and on; and its 'seal'
+CREATE TABLE meta (          -- what made this file: 'plan', 'plan-texts', 'plan-text-0' and 'plan-name-0' and on; its 'seal'
   key TEXT PRIMARY KEY,                    -- seal: "N SUM", how many rows meta (all but this), series, result and
   value TEXT NOT NULL                      -- reference have, and the sum of their checksums (seal.c)
 ) STRICT, WITHOUT ROWID;

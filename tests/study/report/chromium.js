@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // chromium.js REPORT [SCREENSHOTS]: opens a report in headless Chromium: no console error, every picture loads, no network,
-// the comparer works by keyboard, all pictures have texts, text has contrast, in light and dark. Exit code 77: skipped.
+// the comparer works by keyboard, all pictures have texts, text has contrast, in light and dark; answers, contents, search,
+// tables and charts work by the keyboard alone; printed, nothing is folded. Exit code 77: skipped.
 "use strict";
 const fs = require("fs");
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
@@ -18,11 +19,14 @@ const check = (good, text) => { if (!good) problems.push(text); };
 const data = JSON.parse(fs.readFileSync(report.replace(/html$/, "json"), "utf8"));
 const blocksOf = content => content.flatMap(b => [b, ...blocksOf(b.content ?? [])]);
 const all = blocksOf(data.content), of = kind => all.filter(b => b.kind === kind), sum = list => list.reduce((a, b) => a + b, 0);
+const lineLabels = b => [...new Set(b.series.filter(s => s.style !== "theory" && s.points.length).map(s => s.label))];
+const limited = b => b.series.some(s => s.style === "line" && s.points.length);
+const shownSeries = b => b.series.filter(s => s.style !== "theory" && (limited(b) ? lineLabels(b).slice(0, 8) : lineLabels(b)).includes(s.label));
 const expected = {
   headings: of("section").filter(b => !b.collapsed).length, details: of("section").filter(b => b.collapsed).length,
-  paragraphs: of("paragraph").length + (data.about ? 1 : 0) + of("table").length, tables: of("table").length,
+  paragraphs: of("paragraph").length + of("table").length, tables: of("table").length,
   rows: sum(of("table").map(b => b.rows.length)), charts: of("chart").length, lines: sum(of("list").map(b => b.items.length)),
-  marks: sum(of("chart").flatMap(b => b.series.slice(0, 24).filter(s => s.style !== "theory").map(s =>
+  marks: sum(of("chart").flatMap(b => shownSeries(b).map(s =>
     s.points.filter(([x, y]) => x !== null && y !== null && (!b.x.log || x > 0) && (!b.y.log || y > 0)).length))),
   figures: of("figure").length, images: sum(of("figure").map(b => b.images.filter(i => i.type !== "drawing").length)),
   canvases: sum(of("pictures").map(b => 2 * b.images.length)), comparers: of("pictures").length,
@@ -52,6 +56,91 @@ const contrasts = () => {
   return [...bad];
 };
 
+// Presses Tab until the focus is on what `test` finds in the page.
+async function tabTo(page, selector, most = 400) {
+  for (let i = 0; i < most; i++) {
+    await page.keyboard.press("Tab");
+    if (await page.evaluate(s => document.activeElement.matches(s), selector)) return true;
+  }
+  check(false, `Tab does not reach ${selector}`);
+  return false;
+}
+
+const has = (page, selector) => page.evaluate(s => Boolean(document.querySelector(s)), selector);
+
+async function byKeyboard(page) {
+  const start = () => page.evaluate(() => { document.activeElement.blur(); document.querySelector("h1").tabIndex = -1; document.querySelector("h1").focus(); });
+  const answers = all.filter(b => b.answer).length, shown = await page.evaluate(() => document.querySelectorAll("#verdict dd > .mark").length);
+  check(answers ? shown > 0 && shown <= answers : !await has(page, "#verdict"), `${shown} answers at the top of ${answers}`);
+  if (answers && await tabTo(page, "#verdict dt a")) {
+    await page.keyboard.press("Enter");
+    check(await page.evaluate(() => Boolean(document.getElementById(decodeURIComponent(location.hash.slice(1)))?.matches("#evidence *"))), "a question leads nowhere");
+    await start();
+  }
+  const links = await page.evaluate(() => [...document.querySelectorAll("nav a")].filter(a => !document.getElementById(decodeURIComponent(a.hash.slice(1)))).length);
+  check(links === 0, `${links} entries of the contents lead nowhere`);
+  // The first table that can be sorted: by each way of its last column of intervals, against the data.
+  const folded = blocksOf(of("section").filter(s => s.collapsed).flatMap(s => s.content));
+  const sortable = of("table").find(t => t.rows.length > 8 && !folded.includes(t) && t.columns.some(c => c.type === "interval" && !c.hidden) && !t.columns.some(c => c.merged));
+  if (sortable) {
+    const number = of("table").indexOf(sortable), visible = sortable.columns.filter(c => !c.hidden);
+    const at = visible.findLastIndex(c => c.type === "interval"), c = sortable.columns.indexOf(visible[at]);
+    await page.evaluate(([t, i]) => document.querySelectorAll("#evidence table")[t].querySelectorAll("thead tr:last-child th button")[i].classList.add("tried"), [number, at]);
+    const texts = () => page.evaluate(t => [...document.querySelectorAll("#evidence table")[t].querySelectorAll("tbody tr > :first-child")].map(e => e.textContent), number);
+    const order = key => [...sortable.rows].sort((a, b) => { const [x, y] = [key(a[c] ?? [null, null, null]), key(b[c] ?? [null, null, null])]; return x === null || y === null ? (x === null) - (y === null) : x - y; }).map(r => r[0]);
+    const ways = { ascending: v => v[0], descending: v => v[0] === null ? null : -v[0], other: v => v[1] === null || v[2] === null ? null : v[2] - v[1], none: () => 0 };
+    const step = { value: sortable.sort?.descending ? "descending" : "ascending", width: "other" }[sortable.sort?.column === visible[at].name ? sortable.sort.by : ""] ?? "none";
+    const turn = Object.keys(ways), from = turn.indexOf(step);
+    if (await tabTo(page, ".tried")) {
+      for (let i = 1; i <= 4; i++) {
+        const way = turn[(from + i) % 4];
+        await page.keyboard.press("Enter");
+        const state = await page.evaluate(() => document.activeElement.closest("th").getAttribute("aria-sort") ?? "none");
+        check(state === way, `sorted ${state}, not ${way}`);
+        check(JSON.stringify(await texts()) === JSON.stringify(order(ways[way])), `the order of rows by ${way} of ${visible[at].name}`);
+      }
+    }
+    await start();
+    const word = String(sortable.rows[3][0]);
+    await tabTo(page, ".search input");
+    await page.keyboard.type(word);
+    check((await texts()).every(text => text.includes(word)) && (await texts()).length > 0, `the search for ${word} leaves ${await texts()}`);
+    for (let i = 0; i < word.length; i++) await page.keyboard.press("Backspace");
+    check((await texts()).length === sortable.rows.length, "rows are lost after a search");
+    await tabTo(page, ".tools input");
+    await page.keyboard.type("no such pattern");
+    await page.keyboard.press("Escape"); // empties a search field
+    await start();
+  }
+  const drawnChart = of("chart").findIndex(b => shownSeries(b).some(s => s.points.length > 1));
+  if (drawnChart >= 0 && await tabTo(page, ".stage")) {
+    const tip = () => page.evaluate(() => document.activeElement.querySelector(".tip").textContent);
+    const first = await tip(), block = of("chart")[0];
+    check(first.startsWith(shownSeries(block)[0].label + ":"), `the focus on a chart names ${first}`);
+    await page.keyboard.press("ArrowRight");
+    check(await tip() !== first || shownSeries(block)[0].points.length < 2, "an arrow key names no other point");
+    await page.keyboard.press("Escape");
+    check(await tip() === "", "Escape leaves a point named");
+  }
+  const long = of("chart").find(b => limited(b) && lineLabels(b).length > 8);
+  if (long) {
+    await start();
+    await tabTo(page, `.choice summary`);
+    while (!await page.evaluate(n => document.activeElement.textContent.includes(`of ${n} are`), lineLabels(long).length)) await tabTo(page, ".choice summary");
+    await page.keyboard.press("Enter");
+    const figure = () => page.evaluate(() => { const f = document.activeElement.closest("figure"); return { lines: f.querySelectorAll(".chart .series:not(.theory) .line").length, legend: [...f.querySelectorAll(".legend li")].map(li => li.textContent), free: f.querySelectorAll(".choice input:not(:checked):disabled").length }; });
+    const eight = await figure();
+    check(eight.lines === 8 && eight.free === lineLabels(long).length - 8, `${eight.lines} lines at first, ${eight.free} more that can't be chosen`);
+    await tabTo(page, ".choice input");
+    await page.keyboard.press("Space");
+    check((await figure()).lines === 7 && !(await figure()).legend.includes(lineLabels(long)[0]), "a line stays that was chosen away");
+    await page.evaluate(label => { [...document.activeElement.closest("figure").querySelectorAll(".choice label")].find(l => l.textContent.trim() === label).firstChild.classList.add("last"); }, lineLabels(long).at(-1));
+    await tabTo(page, ".last");
+    await page.keyboard.press("Space");
+    check((await figure()).lines === 8 && (await figure()).legend.includes(lineLabels(long).at(-1)), "a line that was chosen is not drawn");
+  }
+}
+
 (async () => {
   const browser = await playwright.chromium.launch({ executablePath: chromium, args: ["--no-sandbox"] });
   for (const colorScheme of ["light", "dark"]) {
@@ -64,7 +153,7 @@ const contrasts = () => {
     const facts = await page.evaluate(() => ({
       broken: [...document.images].filter(i => !i.complete || !i.naturalWidth).length,
       nameless: [...document.images].filter(i => !i.alt).length +
-        [...document.querySelectorAll("svg:not(svg svg), canvas")].filter(s => !s.getAttribute("aria-label")).length,
+        [...document.querySelectorAll("svg:not(svg svg), canvas")].filter(s => !s.getAttribute("aria-label") && !s.getAttribute("aria-hidden")).length,
       unlabelled: [...document.querySelectorAll("select, button")].filter(s => !(s.labels?.length || s.textContent.trim())).length,
       ids: [...document.querySelectorAll("[id]")].map(e => e.id).filter((id, i, all) => all.indexOf(id) !== i),
       wide: document.documentElement.scrollWidth > innerWidth,
@@ -74,8 +163,8 @@ const contrasts = () => {
     const shown = await page.evaluate(() => {
       const count = selector => document.querySelectorAll(selector).length;
       return {
-        headings: count("main h2, main h3, main h4, main h5, main h6"), details: count("details"), paragraphs: count("main p"),
-        tables: count("main table"), rows: count("main tbody tr"), charts: count(".plot > svg.chart"), lines: count("main li"),
+        headings: count("#evidence :is(h2, h3, h4, h5, h6)"), details: count("#evidence details:not(.choice)"), paragraphs: count("#evidence p"),
+        tables: count("main table"), rows: count("main tbody tr"), charts: count(".plot > svg.chart"), lines: count("#evidence li:not(.legend li)"),
         marks: count(".chart svg .dots > *"), figures: count("figure:has(> figcaption):not(.chart-figure):not(:has(canvas))"),
         images: count("main img"), canvases: count("main canvas"), comparers: count(".comparer canvas"),
       };
@@ -95,6 +184,7 @@ const contrasts = () => {
     });
     check(facts.csv.length === expected.tables, `${facts.csv.length} CSV files`);
     (await page.evaluate(contrasts)).forEach(text => check(false, colorScheme + ": " + text));
+    await byKeyboard(page);
     if (expected.comparers) {
       const canvas = page.locator(".comparer canvas").first(), output = page.locator(".comparer output").first();
       const picture = () => canvas.evaluate(c => c.toDataURL());
@@ -131,6 +221,19 @@ const contrasts = () => {
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-400.png`, fullPage: true });
     await page.setViewportSize({ width: 1280, height: 900 });
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}.png`, fullPage: true });
+    if (colorScheme === "light") { // printed, nothing is folded, and nothing is cut off at the side of a page
+      await page.emulateMedia({ media: "print" });
+      await page.setViewportSize({ width: 718, height: 1000 }); // A4 without its margins
+      const cut = await page.evaluate(() => {
+        dispatchEvent(new Event("beforeprint"));
+        const found = [document.querySelectorAll("#evidence details:not([open], .choice)").length,
+          [...document.querySelectorAll("#evidence table.many, #evidence .stage")].filter(e => e.getBoundingClientRect().right > innerWidth + 1).length];
+        dispatchEvent(new Event("afterprint"));
+        return found;
+      });
+      check(cut[0] === 0 && cut[1] === 0, `printed, ${cut[0]} parts are folded and ${cut[1]} are cut off`);
+      await page.emulateMedia({ media: "screen" });
+    }
     if (screenshots && colorScheme === "light") await page.pdf({ path: `${screenshots}/print.pdf` });
   }
   const plain = await (await browser.newContext({ javaScriptEnabled: false })).newPage();

@@ -123,6 +123,7 @@ def check_sections():
             "figures": [{"id": "1", "title": "F", "pattern": "random", "n": 16}, {"id": "2", "title": "S", "scene": "ball", "pattern": "regular", "n": 1},
                         {"id": "3", "title": "L", "pattern": "random", "n": 16, "lines": "dual"}],
             "questions": [{"id": "q", "title": "Q", "kind": "table", "discrepancies": "d"}]}
+    plan["discrepancies"] = [{**POINTS, "n": [4, 8, 16, 64], "skip": True}]
     report = run_study("sections", plan)
     if report:
         found = [b["id"] for b in report["content"] if "id" in b]

@@ -1,154 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shows the data of a report (docs/report-format.md), which stand in the page's element #data: sections, tables with
-// their CSV files, charts, figures and pictures.
-import { chart } from "../../../../explorer/page/chart.mjs";
+// Shows the data of a report (docs/report-format.md), which stand in the page's element #data: the answers and contents first
+// (overview.mjs), then sections, tables with their CSV files (tables.mjs), charts (charts.mjs), figures and pictures.
 import { byId, element, svg } from "../../../../explorer/page/dom.mjs";
+import { chartFigure, redraw } from "./charts.mjs";
+import { addAnchors, overview } from "./overview.mjs";
+import { plain, table, unique, words } from "./tables.mjs";
 
-const dash = "–", colours = 8, chartSeries = 24, errorGain = 8;
-
-// ---- Numbers and words
-
-// As C's %.<digits>g.
-function general(value, digits) {
-  if (value === 0) return "0";
-  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map((part, i) => i ? +part : part);
-  const trimmed = text => text.includes(".") ? text.replace(/\.?0+$/, "") : text;
-  if (exponent >= -4 && exponent < digits) return trimmed(value.toFixed(digits - 1 - exponent));
-  return `${trimmed(mantissa)}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
-}
-
-const shown = (value, column) =>
-  column.decimals === undefined ? general(value, column.digits ?? 4) : value.toFixed(column.decimals);
-
-const words = runs => runs.map(run => {
-  if (typeof run === "string") return run;
-  return run.style ? element(run.style, {}, run.text) : run.text;
-});
-
-const plain = runs => runs.map(run => run.text ?? run).join("");
-
-const taken = new Map(); // ids, which studies of several plans may repeat
-function unique(id) {
-  if (!id) return null;
-  const number = (taken.get(id) ?? 0) + 1;
-  taken.set(id, number);
-  return number === 1 ? id : `${id}-${number}`;
-}
-
-// ---- Tables
-
-const small = text => element("span", { class: "pm" }, text);
-
-// What stands behind a value: its interval, or its standard deviation.
-function spread({ value, low, high, sd }, column) {
-  const half = h => column.decimals === undefined ? general(h, 2) : h.toFixed(column.decimals);
-  if (typeof sd === "number") return [" ", small(`± ${general(sd, 2)}`)];
-  if (low === high && typeof low === "number") return [];
-  if (typeof low !== "number" || typeof high !== "number") return column.type === "interval" ? [" ", small("± ?")] : [];
-  if (Math.abs(high - value - (value - low)) < 1e-6 * (high - low)) return [" ", small(`± ${half(high - value)}`)];
-  return [" ", small(`${half(low)} … ${half(high)}`)];
-}
-
-// Verdicts have a mark, and z, or the change, behind it or in its tooltip.
-function verdictMark(cell, withNumber) {
-  if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
-  const sign = v => v < 0 ? "" : "+";
-  const number = cell.z === undefined ? `${sign(cell.change)}${(100 * cell.change).toFixed(0)} %` : `z = ${sign(cell.z)}${cell.z.toFixed(1)}`;
-  const mark = cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
-  const name = { explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
-  return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
-}
-
-// What a cell shows: a text, a number, [value, low, high], or an object with more than that.
-function cellContent(cell, column) {
-  if (typeof cell === "string") return [cell];
-  if (typeof cell === "number") return [shown(cell, column)];
-  const data = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell ?? {};
-  if (column.type === "verdict") return [verdictMark(data, true)];
-  const content = [];
-  if (data.text !== undefined) content.push(data.text);
-  else if (typeof data.value === "number") content.push(shown(data.value, column), ...spread(data, column));
-  else content.push(dash);
-  if (data.sets) content.push(" ", small(`(${data.sets} set${data.sets > 1 ? "s" : ""})`));
-  if (data.verdict) content.push(" ", verdictMark(data, false));
-  else if (data.note) content.push(element("sup", { class: "note" }, data.note));
-  return content;
-}
-
-// How many rows from this one on have the same cell in a merged column; 0: the one above stands for it.
-function span(rows, row, column) {
-  const same = i => rows[i] && rows[i][column] === rows[row][column];
-  if (same(row - 1)) return 0;
-  let n = 1;
-  while (same(row + n)) n++;
-  return n;
-}
-
-function groupHeads(columns) {
-  const heads = [];
-  for (const { group = "" } of columns) {
-    if (heads.length && group && heads.at(-1).group === group) heads.at(-1).n++;
-    else heads.push({ group, n: 1 });
-  }
-  return element("tr", {}, ...heads.map(({ group, n }) => element("th", { colspan: n > 1 ? n : null, scope: group ? "colgroup" : null }, group)));
-}
-
-// A column of the file for each number of a column of the table.
-function csvParts(column) {
-  const numbers = { interval: ["", " low", " high"], spread: ["", " SD"], verdict: ["", " z", " change"] }[column.type] ?? [""];
-  const keys = { interval: ["value", "low", "high"], spread: ["value", "sd"], verdict: ["verdict", "z", "change"] }[column.type] ?? ["value"];
-  return keys.map((key, i) => ({
-    name: column.name + numbers[i],
-    of: cell => Array.isArray(cell) ? cell[i] : cell !== null && typeof cell === "object" ? cell[key] : i === 0 ? cell : null,
-  }));
-}
-
-// RFC 4180.
-function csvOf({ columns, rows }) {
-  const parts = columns.map(csvParts), quote = v => typeof v === "string" ? `"${v.replaceAll('"', '""')}"` : v ?? "";
-  const lines = [parts.flat().map(p => quote(p.name))];
-  for (const row of rows) lines.push(columns.flatMap((_, c) => parts[c].map(p => row[c] === undefined ? "" : quote(p.of(row[c])))));
-  return lines.map(line => `${line.join(",")}\r\n`).join("");
-}
-
-function table(block) {
-  const visible = block.columns.map((column, c) => ({ ...column, c })).filter(column => !column.hidden);
-  const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null }, column.title ?? column.name));
-  const body = block.rows.map((row, r) => element("tr", {}, ...visible.map(column => {
-    if (row[column.c] === undefined) return null;
-    const rows = column.merged ? span(block.rows, r, column.c) : 1;
-    if (!rows) return null;
-    const name = { class: column.type === "text" ? "name" : null };
-    return column.merged ? element("th", { scope: "rowgroup", rowspan: rows, class: "name" }, row[column.c])
-      : element("td", name, ...cellContent(row[column.c], column));
-  })));
-  const grouped = visible.some(column => column.group);
-  const node = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
-    element("table", {}, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), element("tbody", {}, ...body)));
-  const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
-  return [node, element("p", { class: "csv" }, link)];
-}
-
-// ---- Charts
-
-const drawn = []; // again when the window has another width
-
-function chartFigure(block) {
-  const shownSeries = block.series.slice(0, chartSeries), left = block.series.length - shownSeries.length, styles = new Map();
-  const series = shownSeries.map(({ label, style, points }) => {
-    if (!styles.has(label)) styles.set(label, styles.size);
-    const index = styles.get(label), theory = style === "theory", hollow = style === "hollow";
-    return {
-      label: hollow ? `${label}, printed` : label, points: points.map(p => p.map(v => v ?? NaN)), hollow,
-      className: theory ? "theory" : `${hollow ? "hollow " : ""}s${index % colours}`,
-      line: style === "line" || theory, marks: theory ? undefined : index,
-    };
-  });
-  const place = element("div", { class: "plot" });
-  drawn.push(() => chart(place, { title: block.title, x: block.x, y: block.y, series, legend: true, height: 380 }));
-  const caption = left ? `${block.title}. ${left} more are not in this picture.` : block.title;
-  return element("figure", { class: "chart-figure" }, place, element("figcaption", {}, caption));
-}
+const errorGain = 8;
 
 // ---- Figures
 
@@ -270,7 +128,7 @@ function pictures(block) {
 // ---- Blocks
 
 function section(block, level) {
-  const heading = element(`h${Math.min(level, 6)}`, { id: unique(block.id) }, ...words(block.heading));
+  const heading = element(`h${Math.min(level, 6)}`, { id: block.anchor }, ...words(block.heading));
   if (!block.collapsed) return [heading, ...blocks(block.content, level + 1)];
   return element("details", {}, element("summary", {}, plain(block.heading)), ...blocks(block.content, level));
 }
@@ -288,7 +146,7 @@ function commands({ lines }) {
 
 const kinds = {
   section, table, list, figure, pictures, commands,
-  paragraph: block => element("p", {}, ...words(block.text)),
+  paragraph: block => element("p", { class: block.answer }, ...words(block.text)),
   chart: chartFigure,
 };
 
@@ -307,12 +165,16 @@ function blocks(content, level) {
 
 const report = JSON.parse(byId("data").textContent);
 document.title = report.title;
-byId("report").replaceChildren(element("h1", {}, report.title), report.about ? element("p", {}, report.about) : "", ...blocks(report.content, 2));
-const redraw = () => drawn.forEach(draw => draw());
+addAnchors(report.content);
+byId("report").replaceChildren(overview(report), element("div", { id: "evidence" }, ...blocks(report.content, 2)));
 redraw();
 let drawnFor = innerWidth;
 addEventListener("resize", () => {
   if (innerWidth !== drawnFor) redraw();
   drawnFor = innerWidth;
 });
+// Paper has no folds.
+const folded = [];
+addEventListener("beforeprint", () => document.querySelectorAll("#evidence details:not([open], .choice)").forEach(node => { folded.push(node); node.open = true; }));
+addEventListener("afterprint", () => folded.splice(0).forEach(node => { node.open = false; }));
 if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();

@@ -121,8 +121,10 @@ static void say_verdict(koksma__document *d, const verdict *all)
                     "Koksma's inequality: the mean of _f_ over N points differs from its integral by at most "
                     "V(_f_) D%s, the variation of _f_ (in the plane that of Hardy and Krause) times the star "
                     "discrepancy of the points. There is one set of each pattern here, with seed 0; functions of "
-                    "_x_ alone use the first coordinates. ",
+                    "_x_ alone use the first coordinates.",
                     "*");
+    koksma__doc_paragraph_end(d);
+    koksma__doc_answer_begin(d, true);
     koksma__doc_say(d, "%zu of %zu errors are within the bound; the closest, at %.0f %% of it, is that of %s. ",
                     all->cases - all->beyond, all->cases, 100 * all->closest, all->where);
     if (all->infinite) {
@@ -154,6 +156,9 @@ koksma_status koksma__answer_inequality(koksma_study *study, koksma__document *d
     for (size_t b = 0; b < topic->n_discrepancies; b++) {
         const koksma__discrepancy_block *block = topic->discrepancies[b];
         for (size_t i = 0; !status && block->dim <= 2 && i < block->n.n * block->patterns.n; i++) {
+            if (koksma__is_left_out(&block->left_out, i / block->n.n, block->n.n, i % block->n.n)) {
+                continue;
+            }
             const long long n = block->n.at[i % block->n.n];
             if (n <= MAX_POINTS) {
                 status = add_set(&rows, &all, block->patterns.at[i / block->n.n], n, block->dim);

@@ -84,7 +84,7 @@ static void say_change(koksma__document *d, const char *base, const char *other,
     if (!t->cases) {
         return;
     }
-    koksma__doc_paragraph_begin(d);
+    koksma__doc_answer_begin(d, t->better + t->worse + t->equal > 0);
     koksma__doc_say(d,
                     "*%s instead of %s:* %+.1f %% (geometric mean over %zu cases); surely smaller in %zu, surely "
                     "larger in %zu, too close to tell in %zu",

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * How measures and errors fall with n: average slopes in log-log over the larger half of the sizes, with intervals,
- * beside what theory says is possible. A bound with a logarithm has no slope; the slope of the bound itself over the
+ * beside what theory says is possible; the page sorts the patterns by the widths of the intervals, the best known
+ * first. A bound with a logarithm has no slope; the slope of the bound itself over the
  * same sizes stands in its place.
  */
 #include <math.h>
@@ -134,7 +135,8 @@ static void add_heads(koksma__document *d, const subject *s)
     koksma__doc_head(d, "power law?");
     for (size_t i = 0; i < sizes(s)->n; i++) {
         snprintf(text, sizeof text, "N = %lld", sizes(s)->at[i]);
-        koksma__doc_head_interval(d, text, 3);
+        koksma__doc_column(
+            d, &(koksma__column){.name = text, .type = KOKSMA__COLUMN_INTERVAL, .digits = 3, .hidden = true});
     }
 }
 
@@ -218,7 +220,7 @@ static koksma_status add_subject(koksma_study *study, koksma__document *d, const
     if (!status) {
         koksma__doc_chart_begin(&chart, &(koksma__chart){title, s->image ? "samples a pixel" : "points",
                                                          s->image ? "mean absolute error" : s->measure, true, true});
-        koksma__doc_table_begin(&rows, file);
+        koksma__doc_sorted_table_begin(&rows, file, "slope", true, false);
         add_heads(&rows, s);
         status = add_rows(study, &rows, s, &chart, trends, zeros);
         koksma__doc_table_end(&rows);

@@ -1,50 +1,55 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Means of every pattern with their intervals, a table for each block of points (and warp) and for each scene and
- * options of a block of images. The best pattern of the last column comes first. A table of images has the numbers of
- * samples at which a pattern's error is in visible bands (coherence_rows.h), and names the best pattern without bands.
+ * Means of every pattern with their intervals: a table for each measure (and warp) of a block of points, and for each
+ * scene and options of a block of images. The best pattern of the last column comes first. A sentence says whether it
+ * is told apart from all others there, by the intervals of the differences, at 95 % for all of them together
+ * (Bonferroni), and else how many trials might tell the first two apart. A table of images has the numbers of samples
+ * at which a pattern's error is in visible bands (coherence_rows.h), and names the best pattern without bands.
  */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "core/status.h"
+#include "stats/quantiles.h"
 #include "study/report/coherence_rows.h"
 #include "study/report/means.h"
 #include "study/report/questions/topic.h"
 
-/* The columns of a table: n x measures, or n of a scene and variant. */
-typedef struct columns {
+enum { NAMED = 4 };
+
+/* A table: means by one measure of points, or of images of one scene and variant. */
+typedef struct subject {
     const koksma__discrepancy_block *discrepancy;
     const koksma__image_block *image;
     const char *scene, *variant; /* of images */
-    const char *warp;            /* of points; "": none */
-    size_t n;
-} columns;
+    const char *measure, *warp;  /* of points; "": no warp */
+    const koksma__texts *patterns;
+    const koksma__wholes *n;
+    const char *name, *last; /* heads of the table and of its last column */
+    bool larger;             /* is better */
+} subject;
 
-static koksma_status cell_of(koksma_study *study, const columns *c, const char *pattern, size_t k,
-                             koksma__summary *mean)
+/* The patterns by their means in the last column, the best first. */
+typedef struct standing {
+    koksma__summary *means; /* in the order of the patterns */
+    size_t *by, known;      /* known: patterns with a mean, which come first */
+} standing;
+
+static koksma_status cell_of(koksma_study *study, const subject *c, size_t pattern, size_t k, koksma__summary *mean)
 {
-    if (c->image) {
-        return koksma__image_mean(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], NULL, mean);
-    }
-    const size_t sizes = c->discrepancy->n.n;
-    return koksma__discrepancy_mean(study, c->discrepancy, c->warp, pattern, c->discrepancy->n.at[k % sizes],
-                                    c->discrepancy->measures.at[k / sizes], NULL, mean);
+    const char *name = c->patterns->at[pattern];
+    return c->image
+               ? koksma__image_mean(study, c->image, c->scene, c->variant, name, c->n->at[k], NULL, mean)
+               : koksma__discrepancy_mean(study, c->discrepancy, c->warp, name, c->n->at[k], c->measure, NULL, mean);
 }
 
-static void add_heads(koksma__document *d, const columns *c)
+static void add_heads(koksma__document *d, const subject *c)
 {
-    char text[KOKSMA_MAX_SPEC + 32];
+    char text[64];
     koksma__doc_head(d, "pattern");
-    for (size_t k = 0; k < c->n; k++) {
-        if (c->image) {
-            snprintf(text, sizeof text, "%lld samples", c->image->spp.at[k]);
-        } else {
-            const size_t sizes = c->discrepancy->n.n;
-            snprintf(text, sizeof text, "%s, N = %lld", c->discrepancy->measures.at[k / sizes],
-                     c->discrepancy->n.at[k % sizes]);
-        }
+    for (size_t k = 0; k < c->n->n; k++) {
+        snprintf(text, sizeof text, c->image ? "%lld samples" : "N = %lld", c->n->at[k]);
         koksma__doc_head_interval(d, text, 4);
     }
     if (c->image) {
@@ -52,54 +57,123 @@ static void add_heads(koksma__document *d, const columns *c)
     }
 }
 
-/* Whether the best of the last column is the largest. */
-static bool is_larger_better(const columns *c)
+static bool is_before(const subject *c, double a, double b)
 {
-    koksma_spec spec;
-    return !c->image && !koksma_measure_spec(c->discrepancy->measures.at[(c->n - 1) / c->discrepancy->n.n], &spec) &&
-           spec.measure->larger_is_better;
+    return c->larger ? a > b : a < b;
 }
 
-/* Patterns by their mean in the last column, the best first; means: room for them. */
-static koksma_status order(koksma_study *study, const columns *c, const koksma__texts *patterns, double *means,
-                           size_t *by)
+static koksma_status order(koksma_study *study, const subject *c, standing *s)
 {
-    const double sign = is_larger_better(c) ? -1 : 1;
-    for (size_t p = 0; p < patterns->n; p++) {
-        koksma__summary mean;
-        const koksma_status status = cell_of(study, c, patterns->at[p], c->n - 1, &mean);
+    for (size_t p = 0; p < c->patterns->n; p++) {
+        const koksma_status status = cell_of(study, c, p, c->n->n - 1, &s->means[p]);
         if (status) {
             return status;
         }
         size_t at = p;
-        means[p] = isnan(mean.mean) ? (double)INFINITY : sign * mean.mean;
-        for (; at > 0 && means[by[at - 1]] > means[p]; at--) {
-            by[at] = by[at - 1];
+        const bool known = !isnan(s->means[p].mean);
+        for (; at > 0 && known && (at > s->known || is_before(c, s->means[p].mean, s->means[s->by[at - 1]].mean));
+             at--) {
+            s->by[at] = s->by[at - 1];
         }
-        by[at] = p;
+        s->by[at] = p;
+        s->known += known;
     }
     return KOKSMA_OK;
 }
 
-static koksma_status coherence_of(koksma_study *study, const columns *c, const char *pattern, size_t k,
+/* ---- Which is the best, and how sure that is --------------------------------------------------------------- */
+
+/* Half the interval of the difference of two means, at 95 % for so many comparisons together; NaN: not known. */
+static double half_of(const koksma__summary *a, const koksma__summary *b, size_t comparisons)
+{
+    const double half = hypot(a->high - a->mean, b->high - b->mean);
+    const size_t fewer = a->n > 1 && (a->n < b->n || b->n < 2) ? a->n : b->n;
+    return half > 0 ? half * koksma__student_quantile(1 - 0.025 / (double)comparisons, (double)(fewer - 1)) /
+                          koksma_student_975(fewer - 1)
+                    : half;
+}
+
+/* Whether place i of the order is not told apart from the first. */
+static bool is_tied(const standing *s, size_t i)
+{
+    const koksma__summary *first = &s->means[s->by[0]], *other = &s->means[s->by[i]];
+    return !koksma__compare(first->mean, other->mean) ||
+           !(fabs(first->mean - other->mean) > half_of(first, other, s->known - 1));
+}
+
+/* How many trials would tell the first from the next that is not told apart from it, place i. */
+static void say_trials(koksma__document *d, const subject *c, const standing *s, size_t i)
+{
+    const koksma__summary *a = &s->means[s->by[0]], *b = &s->means[s->by[i]];
+    const char *first = c->patterns->at[s->by[0]], *other = c->patterns->at[s->by[i]];
+    const double half = half_of(a, b, s->known - 1), trials = (double)(a->n > b->n ? a->n : b->n);
+    if (!koksma__compare(a->mean, b->mean)) {
+        koksma__doc_say(d, " %s and %s have equal means", first, other);
+    } else if (isnan(half)) {
+        koksma__doc_say(d, " One trial has no interval: it takes 2 or more");
+    } else {
+        const double needed = trials * koksma__trials_factor(a->mean - b->mean, half);
+        const double unit = pow(10, floor(log10(needed)) - 1);
+        koksma__doc_say(d, " About %.0f trials instead of %.0f would tell %s from %s",
+                        fmax(ceil(needed / unit) * unit, trials + 1), trials, first, other);
+    }
+}
+
+static void say_standing(koksma__document *d, const subject *c, const standing *s)
+{
+    const char *first = c->patterns->at[s->by[0]], *most = c->larger ? "largest" : "least";
+    const koksma__summary *mean = &s->means[s->by[0]];
+    size_t tied = 0, next = 0, named = 0;
+    for (size_t i = s->known; i-- > 1;) {
+        next = is_tied(s, i) ? i : next;
+        tied += is_tied(s, i);
+    }
+    koksma__doc_answer_begin(d, !tied);
+    koksma__doc_say(d, "*%s, %s:* ", c->name, c->last);
+    if (tied) {
+        koksma__doc_say(d, "undecided between %zu of %zu patterns: %s %.4g", tied + 1, s->known, first, mean->mean);
+        for (size_t i = 1; i < s->known && named + 1 < NAMED; i++) {
+            if (is_tied(s, i)) {
+                koksma__doc_say(d, ", %s %.4g", c->patterns->at[s->by[i]], s->means[s->by[i]].mean);
+                named++;
+            }
+        }
+        if (tied > named) {
+            koksma__doc_say(d, " and %zu more", tied - named);
+        }
+        koksma__doc_say(d, ".");
+        say_trials(d, c, s, next);
+    } else {
+        koksma__doc_say(d, "%s has the %s mean, %.4g", first, most, mean->mean);
+        if (mean->low < mean->high) {
+            koksma__doc_say(d, " (%.4g to %.4g)", mean->low, mean->high);
+        }
+        koksma__doc_say(d, ", told apart from %s at 95 %%; %s follows with %.4g",
+                        s->known > 2 ? "all others" : "the other", c->patterns->at[s->by[1]],
+                        s->means[s->by[1]].mean);
+    }
+    koksma__doc_say(d, ".");
+}
+
+static koksma_status coherence_of(koksma_study *study, const subject *c, size_t pattern, size_t k,
                                   koksma__row_coherence *out)
 {
-    return koksma__image_coherence(study, c->image, c->scene, c->variant, pattern, c->image->spp.at[k], out);
+    return koksma__image_coherence(study, c->image, c->scene, c->variant, c->patterns->at[pattern], c->n->at[k], out);
 }
 
 /* The numbers of samples at which a pattern's error is in bands: "4, 16 samples". */
-static koksma_status add_bands(koksma_study *study, koksma__document *d, const columns *c, const char *pattern)
+static koksma_status add_bands(koksma_study *study, koksma__document *d, const subject *c, size_t pattern)
 {
     koksma_status status = KOKSMA_OK;
     char text[512] = "";
     size_t length = 0, known = 0;
-    for (size_t k = 0; !status && k < c->n; k++) {
+    for (size_t k = 0; !status && k < c->n->n; k++) {
         koksma__row_coherence coherence;
         status = coherence_of(study, c, pattern, k, &coherence);
         known += coherence.mean.n > 0;
         if (koksma__in_bands(&coherence) && length < sizeof text) {
-            length += (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "",
-                                       c->image->spp.at[k]);
+            length +=
+                (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "", c->n->at[k]);
         }
     }
     if (length && length < sizeof text) {
@@ -109,15 +183,14 @@ static koksma_status add_bands(koksma_study *study, koksma__document *d, const c
     return status;
 }
 
-/* Says which pattern has the least error in the last column, and, where that is in bands, which has it without. */
-static koksma_status say_best(koksma_study *study, koksma__document *d, const columns *c,
-                              const koksma__texts *patterns, const double *means, const size_t *by)
+/* Says whether the first pattern's error is in visible bands in the last column, and which is the best without. */
+static koksma_status say_bands(koksma_study *study, koksma__document *d, const subject *c, const standing *s)
 {
     koksma_status status = KOKSMA_OK;
     size_t i = 0, known = 0;
-    for (; !status && i < patterns->n && isfinite(means[by[i]]); i++) {
+    for (; !status && i < s->known; i++) {
         koksma__row_coherence coherence;
-        status = coherence_of(study, c, patterns->at[by[i]], c->n - 1, &coherence);
+        status = coherence_of(study, c, s->by[i], c->n->n - 1, &coherence);
         known += coherence.mean.n > 0;
         if (!koksma__in_bands(&coherence)) {
             break;
@@ -126,81 +199,92 @@ static koksma_status say_best(koksma_study *study, koksma__document *d, const co
     if (status || !known) {
         return status;
     }
-    const char *best = patterns->at[by[0]];
-    const long long spp = c->image->spp.at[c->n - 1];
+    const char *first = c->patterns->at[s->by[0]];
     if (i == 0) {
-        koksma__doc_paragraph(d, "With %lld samples %s leaves the least error, and no visible bands.", spp, best);
-    } else if (i < patterns->n && isfinite(means[by[i]])) {
-        koksma__doc_paragraph(d,
-                              "With %lld samples %s leaves the least error, but in visible bands; of the patterns "
-                              "without bands %s leaves the least, %.1f %% more.",
-                              spp, best, patterns->at[by[i]], 100 * (means[by[i]] / means[by[0]] - 1));
+        koksma__doc_say(d, " The error of %s has no visible bands.", first);
+    } else if (i < s->known) {
+        koksma__doc_say(d,
+                        " The error of %s is in visible bands; of the patterns without bands %s leaves the least, "
+                        "%.1f %% more.",
+                        first, c->patterns->at[s->by[i]],
+                        100 * (s->means[s->by[i]].mean / s->means[s->by[0]].mean - 1));
     } else {
-        koksma__doc_paragraph(
-            d, "With %lld samples %s leaves the least error, but in visible bands; so do all others.", spp, best);
+        koksma__doc_say(d, " The errors of all patterns are in visible bands.");
     }
     return status;
 }
 
-static koksma_status add_rows(koksma_study *study, koksma__document *d, const columns *c,
-                              const koksma__texts *patterns, const size_t *by)
+/* ---- Tables ------------------------------------------------------------------------------------------------ */
+
+static koksma_status add_rows(koksma_study *study, koksma__document *d, const subject *c, const standing *s)
 {
     koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < patterns->n; i++) {
+    for (size_t i = 0; !status && i < c->patterns->n; i++) {
         koksma__doc_row(d);
-        koksma__doc_text(d, patterns->at[by[i]]);
-        for (size_t k = 0; !status && k < c->n; k++) {
+        koksma__doc_text(d, c->patterns->at[s->by[i]]);
+        for (size_t k = 0; !status && k < c->n->n; k++) {
             koksma__summary mean = {0};
-            status = cell_of(study, c, patterns->at[by[i]], k, &mean);
+            status = cell_of(study, c, s->by[i], k, &mean);
             koksma__doc_interval(d, koksma__estimate_of(&mean));
         }
         if (!status && c->image) {
-            status = add_bands(study, d, c, patterns->at[by[i]]);
+            status = add_bands(study, d, c, s->by[i]);
         }
     }
     return status;
 }
 
-static koksma_status add_table(koksma_study *study, koksma__document *d, const char *file, const char *title,
-                               const columns *c, const koksma__texts *patterns)
+static koksma_status add_table(koksma_study *study, koksma__document *d, const char *id, size_t number, subject *c)
 {
-    double *means = malloc(patterns->n * sizeof *means);
-    size_t *by = malloc(patterns->n * sizeof *by);
-    koksma_status status = means && by ? order(study, c, patterns, means, by)
-                                       : koksma__fail_memory(patterns->n * (sizeof *means + sizeof *by));
+    const size_t n = c->patterns->n;
+    char file[64], last[64];
+    standing s = {calloc(n, sizeof *s.means), calloc(n, sizeof *s.by), 0};
+    koksma_status status =
+        s.means && s.by ? order(study, c, &s) : koksma__fail_memory(n * (sizeof *s.means + sizeof *s.by));
     if (!status) {
-        koksma__doc_section(d, NULL, title);
-        status = c->image ? koksma__say_reference(study, d, c->image, c->scene, c->variant) : KOKSMA_OK;
-        koksma__doc_table_begin(d, file);
+        snprintf(file, sizeof file, "means-%.32s-%zu", id, number);
+        snprintf(last, sizeof last, c->image ? "%lld samples" : "N = %lld", c->n->at[c->n->n - 1]);
+        c->last = last;
+        koksma__doc_section(d, NULL, c->name);
+        if (s.known > 1) {
+            say_standing(d, c, &s);
+            status = c->image ? say_bands(study, d, c, &s) : KOKSMA_OK;
+            koksma__doc_paragraph_end(d);
+        }
+        status = !status && c->image ? koksma__say_reference(study, d, c->image, c->scene, c->variant) : status;
+        koksma__doc_sorted_table_begin(d, file, last, false, c->larger);
         add_heads(d, c);
-        status = status ? status : add_rows(study, d, c, patterns, by);
+        status = status ? status : add_rows(study, d, c, &s);
         koksma__doc_table_end(d);
-        status = !status && c->image ? say_best(study, d, c, patterns, means, by) : status;
         koksma__doc_end(d);
     }
-    free(means);
-    free(by);
+    free(s.means);
+    free(s.by);
     return status;
 }
 
-/* Means of a block's points, by warp where it has some. */
+/* Means of a block's points, by measure, and by warp where it has some. */
 static koksma_status add_points(koksma_study *study, koksma__document *d, const char *id,
                                 const koksma__discrepancy_block *block, size_t *number)
 {
     koksma_status status = KOKSMA_OK;
-    char file[64], title[96];
-    for (size_t w = 0; !status && w < (block->warps.n ? block->warps.n : 1); w++) {
-        const columns c = {.discrepancy = block,
-                           .warp = block->warps.n ? block->warps.at[w] : "",
-                           .n = block->n.n * block->measures.n};
-        int length = snprintf(title, sizeof title, "Measures of the points");
+    char name[KOKSMA_MAX_SPEC + 64];
+    for (size_t i = 0; !status && i < block->measures.n * (block->warps.n ? block->warps.n : 1); i++) {
+        subject c = {.discrepancy = block,
+                     .measure = block->measures.at[i % block->measures.n],
+                     .warp = block->warps.n ? block->warps.at[i / block->measures.n] : "",
+                     .patterns = &block->patterns,
+                     .n = &block->n,
+                     .name = name};
+        koksma_spec spec;
+        c.larger = !koksma_measure_spec(c.measure, &spec) && spec.measure->larger_is_better;
+        const int length = snprintf(name, sizeof name, "%s", c.measure);
         if (block->dim != 2) {
-            snprintf(title + length, sizeof title - (size_t)length, ", %dD", block->dim);
+            snprintf(name + length, sizeof name - (size_t)length, ", %dD", block->dim);
         } else if (c.warp[0]) {
-            snprintf(title + length, sizeof title - (size_t)length, " through %.40s", c.warp);
+            snprintf(name + length, sizeof name - (size_t)length, " through %.40s", c.warp);
         }
-        snprintf(file, sizeof file, "means-%.32s-%zu", id, ++*number);
-        status = add_table(study, d, file, title, &c, &block->patterns);
+        status = add_table(study, d, id, ++*number, &c);
     }
     return status;
 }
@@ -210,15 +294,16 @@ static koksma_status add_images(koksma_study *study, koksma__document *d, const 
                                 const koksma__image_block *i, size_t *number)
 {
     koksma_status status = KOKSMA_OK;
-    char file[64], title[KOKSMA__VARIANT_TEXT + 64];
+    char name[KOKSMA__VARIANT_TEXT + 64];
     for (size_t k = 0; !status && k < i->scenes.n * i->variants.n; k++) {
-        const columns c = {.image = i,
-                           .scene = i->scenes.at[k / i->variants.n],
-                           .variant = i->variants.at[k % i->variants.n],
-                           .n = i->spp.n};
-        koksma__case_name(c.scene, c.variant, title, sizeof title);
-        snprintf(file, sizeof file, "means-%.32s-%zu", id, ++*number);
-        status = add_table(study, d, file, title, &c, &i->patterns);
+        subject c = {.image = i,
+                     .scene = i->scenes.at[k / i->variants.n],
+                     .variant = i->variants.at[k % i->variants.n],
+                     .patterns = &i->patterns,
+                     .n = &i->spp,
+                     .name = name};
+        koksma__case_name(c.scene, c.variant, name, sizeof name);
+        status = add_table(study, d, id, ++*number, &c);
     }
     return status;
 }

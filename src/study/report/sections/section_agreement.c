@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Counts how many published means agree with ours, by the verdicts of all tables of the study (koksma__table_judge).
-   A table over several numbers of points has one mean in each column, other tables have one in each row. */
+/* Counts how many published means agree with ours, by the verdicts of all tables of the study (koksma__table_judge):
+   those of measures, which are tested statistically, apart from those of images, and of scenes that were fitted to the
+   published numbers. A table over several numbers of points has one mean in each column, others one in each row. */
 #include <string.h>
 
 #include "study/report/published_tables.h"
@@ -28,21 +29,31 @@ static koksma_status count_row(koksma_study *study, const koksma__table *t, cons
     return status;
 }
 
+/* What tables compare. */
+enum { MEASURES, IMAGES, FITTED, GROUPS };
+
 static const char *verb(size_t n)
 {
     return n == 1 ? "differs" : "differ";
 }
 
-static void say_counts(koksma__document *d, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
+/* One sentence for a group of tables that has means to compare. */
+static void say_group(koksma__document *d, int group, const size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1])
 {
-    const size_t agree = counts[KOKSMA_VERDICT_AGREES], fitted = counts[KOKSMA_VERDICT_FITTED],
+    const size_t agree = counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED],
                  explained = counts[KOKSMA_VERDICT_EXPLAINED], unexplained = counts[KOKSMA_VERDICT_UNEXPLAINED];
-    koksma__doc_say(d, "%zu of %zu published means agree", agree, agree + fitted + explained + unexplained);
-    if (fitted) {
-        koksma__doc_say(d,
-                        "; %zu agree within %.0f %% in scenes that were fitted to the published numbers, which "
-                        "confirms nothing",
-                        fitted, 100 * KOKSMA__IMAGE_TOLERANCE);
+    if (!(agree + explained + unexplained)) {
+        return;
+    }
+    koksma__doc_answer_begin(d, true);
+    koksma__doc_say(d, "%zu of %zu published means ", agree, agree + explained + unexplained);
+    if (group == MEASURES) {
+        koksma__doc_say(d, "of measures agree: chance and rounding explain their differences (|z| below %.1f)",
+                        KOKSMA__AGREEMENT_Z);
+    } else {
+        koksma__doc_say(d, "of %s agree within %.0f %%%s",
+                        group == IMAGES ? "images" : "images in scenes that were fitted to them",
+                        100 * KOKSMA__IMAGE_TOLERANCE, group == IMAGES ? "" : ", which confirms nothing");
     }
     if (explained) {
         koksma__doc_say(d, "; %zu %s for a known reason (notes)", explained, verb(explained));
@@ -51,24 +62,25 @@ static void say_counts(koksma__document *d, const size_t counts[KOKSMA_VERDICT_U
         koksma__doc_say(d, "; %zu %s for an unknown reason", unexplained, verb(unexplained));
     }
     koksma__doc_say(d, ".");
+    koksma__doc_paragraph_end(d);
 }
 
 static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
 {
-    size_t counts[KOKSMA_VERDICT_UNEXPLAINED + 1] = {0};
+    size_t counts[GROUPS][KOKSMA_VERDICT_UNEXPLAINED + 1] = {{0}}, waiting = 0;
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < scope->study->plan.n_tables; i++) {
         const koksma__table *t = &scope->study->plan.tables[i];
         for (size_t r = 0; !status && r < t->n_rows; r++) {
-            status = count_row(scope->study, t, &t->rows[r], counts);
+            status = count_row(scope->study, t, &t->rows[r],
+                               counts[!t->scene   ? MEASURES
+                                      : t->fitted ? FITTED
+                                                  : IMAGES]);
         }
     }
-    const size_t waiting = counts[KOKSMA_VERDICT_WAITING];
-    if (counts[KOKSMA_VERDICT_AGREES] + counts[KOKSMA_VERDICT_FITTED] + counts[KOKSMA_VERDICT_EXPLAINED] +
-        counts[KOKSMA_VERDICT_UNEXPLAINED]) {
-        koksma__doc_paragraph_begin(d);
-        say_counts(d, counts);
-        koksma__doc_paragraph_end(d);
+    for (int group = 0; group < GROUPS; group++) {
+        say_group(d, group, counts[group]);
+        waiting += counts[group][KOKSMA_VERDICT_WAITING];
     }
     if (waiting) {
         koksma__doc_paragraph(d, "%zu published mean%s too few trials yet to be compared.", waiting,

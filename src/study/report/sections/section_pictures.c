@@ -28,6 +28,21 @@ static bool is_shown(const koksma__report_scope *scope)
     return scope->study->plan.n_images > 0;
 }
 
+/* Whether the first task's block has pattern p at its number of samples, and which is the first that it has. */
+static bool is_served(const koksma__image_block *block, size_t p)
+{
+    return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);
+}
+
+static size_t first_served(const koksma__image_block *block)
+{
+    size_t p = 0;
+    while (p + 1 < block->patterns.n && !is_served(block, p)) {
+        p++;
+    }
+    return p;
+}
+
 /* The picture of a trial of a task. */
 static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
 {
@@ -89,6 +104,9 @@ static void add_coherence(koksma__document *d, const koksma__task *first, const 
     koksma__doc_head(d, "error");
     for (size_t p = 0; p < n; p++) {
         const koksma_coherence_values *v = &values[p];
+        if (!is_served(first->image, p)) {
+            continue;
+        }
         koksma__doc_row(d);
         koksma__doc_text(d, first->image->patterns.at[p]);
         koksma__doc_interval(d, (koksma__estimate){v->coherence, v->low, v->high});
@@ -117,7 +135,7 @@ static koksma_status add_spectra(koksma__document *d, const koksma__task *first,
     for (size_t p = 0; !status && p < n; p++) {
         koksma__task task = *first;
         task.pattern = patterns->at[p];
-        status = add_spectrum(d, &task, reference, run, &values[p]);
+        status = is_served(first->image, p) ? add_spectrum(d, &task, reference, run, &values[p]) : KOKSMA_OK;
     }
     koksma__doc_end(d);
     if (!status) {
@@ -138,6 +156,9 @@ static koksma_status are_done(koksma_study *study, const koksma__task *first, si
         char name[KOKSMA__REFERENCE_NAME];
         koksma__result *results = NULL;
         size_t found = 0;
+        if (!is_served(first->image, p)) {
+            continue;
+        }
         task.pattern = first->image->patterns.at[p];
         const koksma__series series = koksma__task_series(&task, task.n_series - 1, name);
         status = koksma__series_results(study, &series, trials, &results, &found);
@@ -157,6 +178,9 @@ static koksma_status add_pictures(koksma__document *d, const koksma__task *first
     for (size_t p = 0; !status && p < n; p++) {
         koksma__task task = *first;
         koksma_image image;
+        if (!is_served(first->image, p)) {
+            continue;
+        }
         task.pattern = first->image->patterns.at[p];
         status = render(&task, 0, run, &image);
         if (!status) {
@@ -214,7 +238,7 @@ static koksma_status write(const koksma__report_scope *scope, koksma__document *
     for (size_t i = 0; !status && i < tasks.n; i++) {
         const koksma__task *t = &tasks.at[i];
         const koksma__image_block *block = t->image;
-        if (t->pattern == block->patterns.at[0] && t->variant == block->variants.at[0] &&
+        if (t->pattern == block->patterns.at[first_served(block)] && t->variant == block->variants.at[0] &&
             t->n == block->spp.at[block->spp.n / 2]) {
             status = add_scene(scope, &scenes, t, &used, &left_out);
         }

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Charts of a report: as wide as the page, at most eight lines at once, which the reader chooses; the point under the mouse,
+// or the one that arrow keys choose, is named with its values. Marks without lines, as of a scatter plot, are all shown.
+import { chart } from "../../../../explorer/page/chart.mjs";
+import { element, short, svg } from "../../../../explorer/page/dom.mjs";
+
+const lines = 8, near = 40;
+const drawn = []; // again when the window has another width
+
+export function redraw() {
+  drawn.forEach(draw => draw());
+}
+
+const swatch = (className, mark, line) => svg("svg", { class: "swatch", width: 26, height: 12, "aria-hidden": "true" },
+  svg("g", { class: `series ${className}` }, line ? svg("path", { class: "line", d: "M1 6h24" }) : null,
+    mark === undefined ? null : svg("g", { class: "dots" }, svg("circle", { cx: 13, cy: 6, r: 3.5 }))));
+
+// What is named at a point.
+function tell({ x, y }, { label, hollow }, [px, py, low, high]) {
+  const range = low < high ? ` (${short(low)} to ${short(high)})` : "";
+  return `${label}${hollow ? ", printed" : ""}: ${short(py, 5)}${range} at ${short(px, 6)}; ${y.title} against ${x.title}`;
+}
+
+// The point at the mouse, or of the arrow keys, of what chart() drew last.
+function inspect(stage, tip, block, points) {
+  let at = null;
+  const mark = index => {
+    at = index;
+    const all = points(), point = all[index];
+    stage.classList.toggle("hot", Boolean(point));
+    all.forEach(p => p.group.classList.toggle("hot", p.group === point?.group));
+    tip.textContent = point ? tell(block, point.series, point.values) : "";
+    tip.hidden = !point;
+  };
+  stage.addEventListener("pointermove", event => {
+    const picture = stage.querySelector("svg"), box = picture.getBoundingClientRect(), scale = picture.viewBox.baseVal.width / box.width;
+    const x = (event.clientX - box.left) * scale, y = (event.clientY - box.top) * scale;
+    const distances = points().map(p => Math.hypot(p.x - x, p.y - y)), least = Math.min(...distances);
+    mark(least < near ? distances.indexOf(least) : null);
+  });
+  stage.addEventListener("pointerleave", () => mark(null));
+  stage.addEventListener("blur", () => mark(null));
+  stage.addEventListener("focus", () => { if (at === null && points().length) mark(0); });
+  stage.addEventListener("keydown", event => {
+    const all = points(), step = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -1, ArrowDown: 1 }[event.key];
+    if (event.key === "Escape") mark(null);
+    if (!step || !all.length) return;
+    event.preventDefault();
+    const now = all[at ?? 0], along = event.key === "ArrowLeft" || event.key === "ArrowRight";
+    const groups = [...new Set(all.map(p => p.group))], group = along ? now.group : groups.at((groups.indexOf(now.group) + step) % groups.length);
+    const mine = all.filter(p => p.group === group);
+    const next = along ? mine[Math.min(mine.length - 1, Math.max(0, mine.indexOf(now) + step))]
+      : mine.reduce((best, p) => Math.abs(p.x - now.x) < Math.abs(best.x - now.x) ? p : best);
+    mark(all.indexOf(next));
+  });
+}
+
+export function chartFigure(block) {
+  const named = block.series.filter(s => s.style !== "theory" && s.points.length), labels = [...new Set(named.map(s => s.label))];
+  const limited = named.some(s => s.style === "line"), slots = new Map(); // label: its colour and mark
+  labels.slice(0, limited ? lines : labels.length).forEach((label, i) => slots.set(label, i));
+  const plot = element("div", { class: "plot" }), tip = element("output", { class: "tip", hidden: true }), legend = element("ul", { class: "legend" });
+  const stage = element("div", { class: "stage", tabindex: 0, role: "group", "aria-label": `${block.title}: arrow keys name its points` }, plot, tip);
+  const choice = element("div", { class: "boxes" }), count = element("summary", {}), boxes = new Map();
+  let points = [];
+  const draw = () => {
+    const series = block.series.filter(s => s.style === "theory" || slots.has(s.label)).map(({ label, style, points: values }) => {
+      const theory = style === "theory", hollow = style === "hollow", slot = slots.get(label);
+      return { label, hollow, points: values.map(p => p.map(v => v ?? NaN)), className: theory ? "theory" : `${hollow ? "hollow " : ""}s${slot % lines}`,
+        line: style === "line" || theory, marks: theory ? undefined : slot };
+    });
+    points = chart(plot, { title: block.title, x: block.x, y: block.y, series, height: 400, most: 1400 });
+    legend.replaceChildren(...series.filter(s => !s.hollow).map(s => element("li", {}, swatch(s.className, s.marks, s.line), s.label)));
+    count.textContent = `Choose lines: ${slots.size} of ${labels.length} are shown, ${lines} at most`;
+    boxes.forEach((box, label) => { box.disabled = !slots.has(label) && slots.size >= lines; });
+  };
+  for (const label of limited ? labels : []) {
+    const box = element("input", { type: "checkbox", checked: slots.has(label) });
+    box.addEventListener("change", () => {
+      const taken = new Set(slots.values());
+      if (box.checked) slots.set(label, [...Array(lines).keys()].find(i => !taken.has(i)));
+      else slots.delete(label);
+      draw();
+    });
+    boxes.set(label, box);
+    choice.append(element("label", {}, box, " ", label));
+  }
+  inspect(stage, tip, block, () => points);
+  drawn.push(draw);
+  return element("figure", { class: "chart-figure" }, element("figcaption", {}, block.title), stage, legend,
+    labels.length > 1 && limited ? element("details", { class: "choice" }, count, choice) : null);
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The head of a report: what was asked, what came out and how sure that is, which are its paragraphs marked as answers, each
+// below its question; then the contents, and a field that chooses rows of all tables.
+import { element } from "../../../../explorer/page/dom.mjs";
+import { filterTables, plain, unique, words } from "./tables.mjs";
+
+const mostAnswers = 8, levels = 3;
+
+// Every section gets the id of its heading.
+export function addAnchors(content) {
+  for (const block of content.filter(b => b.kind === "section")) {
+    block.anchor = unique(block.id ?? "part");
+    addAnchors(block.content);
+  }
+}
+
+// The question of an answer: the section that holds it; of the list of questions the one below that, or below its plan.
+function questionOf(path) {
+  if (path[0]?.id !== "questions") return path.at(-1);
+  return path[plain(path[1]?.heading ?? []).startsWith("Results:") ? 2 : 1] ?? path[0];
+}
+
+function answersIn(content, path = []) {
+  return content.flatMap(block => block.kind === "section" ? answersIn(block.content, [...path, block])
+    : block.answer ? [{ block, question: questionOf(path) }] : []);
+}
+
+function verdict(answers) {
+  const questions = [...new Set(answers.map(a => a.question))], list = element("dl", {});
+  for (const question of questions) {
+    const mine = answers.filter(a => a.question === question), link = element("a", { href: `#${question.anchor}` }, plain(question.heading));
+    list.append(element("dt", {}, link), ...mine.slice(0, mostAnswers).map(({ block }) =>
+      element("dd", { class: block.answer }, element("span", { class: "mark" }, block.answer === "decided" ? "✓" : "?"), " ", ...words(block.text))));
+    if (mine.length > mostAnswers) list.append(element("dd", {}, element("a", { href: `#${question.anchor}` }, `${mine.length - mostAnswers} more`)));
+  }
+  const decided = answers.filter(a => a.block.answer === "decided").length;
+  const sure = `The data decide ${decided} of ${answers.length} answers; intervals, and what is told apart, are at 95 %.`;
+  return element("section", { id: "verdict", "aria-label": "What came out" }, element("h2", {}, "What came out"), list, element("p", {}, sure));
+}
+
+function contents(blocks, level = 1) {
+  const items = blocks.filter(b => b.kind === "section" && !b.collapsed).map(b => {
+    const below = level < levels ? contents(b.content, level + 1) : null;
+    return element("li", {}, element("a", { href: `#${b.anchor}` }, plain(b.heading)), below);
+  });
+  return items.length ? element("ul", {}, ...items) : null;
+}
+
+export function overview(report) {
+  const answers = answersIn(report.content), field = element("input", { type: "search" }), reproduces = report.content.some(b => b.id === "agreement");
+  field.addEventListener("input", () => filterTables(field.value.trim().toLowerCase()));
+  return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : `A study by koksma ${report.koksma}: ${report.plan}`),
+    element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers) : null,
+    element("nav", { "aria-label": "contents" }, element("details", { open: true }, element("summary", {}, "Contents"), contents(report.content)),
+      element("label", { class: "search" }, "Show rows of all tables with ", field)));
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers, words and tables of a report. A table is sorted by the column that its data name, or by one whose head is
+// clicked: by its values up and down, by the widths of its intervals, then as the data are. What is typed into its field, or
+// into the one of the whole page, chooses rows.
+import { element } from "../../../../explorer/page/dom.mjs";
+
+const dash = "–", fewRows = 8, manyIntervals = 5, manyColumns = 8; // intervals then stand below their values
+
+// ---- Numbers and words
+
+// As C's %.<digits>g.
+function general(value, digits) {
+  if (value === 0) return "0";
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e").map((part, i) => i ? +part : part);
+  const trimmed = text => text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+  if (exponent >= -4 && exponent < digits) return trimmed(value.toFixed(digits - 1 - exponent));
+  return `${trimmed(mantissa)}e${exponent < 0 ? "-" : "+"}${String(Math.abs(exponent)).padStart(2, "0")}`;
+}
+
+const shown = (value, column) =>
+  column.decimals === undefined ? general(value, column.digits ?? 4) : value.toFixed(column.decimals);
+
+export const words = runs => runs.map(run => {
+  if (typeof run === "string") return run;
+  return run.style ? element(run.style, {}, run.text) : run.text;
+});
+
+export const plain = runs => runs.map(run => run.text ?? run).join("");
+
+const taken = new Map(); // ids, which studies of several plans may repeat
+export function unique(id) {
+  if (!id) return null;
+  const number = (taken.get(id) ?? 0) + 1;
+  taken.set(id, number);
+  return number === 1 ? id : `${id}-${number}`;
+}
+
+// ---- Tables
+
+const small = text => element("span", { class: "pm" }, text);
+
+// What stands behind a value: its interval, or its standard deviation.
+function spread({ value, low, high, sd }, column) {
+  const half = h => column.decimals === undefined || h < 0.5 * 10 ** -column.decimals ? general(h, 2) : h.toFixed(column.decimals);
+  if (typeof sd === "number") return [" ", small(`± ${general(sd, 2)}`)];
+  if (low === high && typeof low === "number") return [];
+  if (typeof low !== "number" || typeof high !== "number") return column.type === "interval" ? [" ", small("± ?")] : [];
+  if (Math.abs(high - value - (value - low)) < 1e-6 * (high - low)) return [" ", small(`± ${half(high - value)}`)];
+  return [" ", small(`${half(low)} … ${half(high)}`)];
+}
+
+// Verdicts have a mark, and z, or the change, behind it or in its tooltip.
+function verdictMark(cell, withNumber) {
+  if (cell.verdict === "new" || cell.verdict === "waiting") return cell.verdict === "new" ? "new" : "not yet";
+  const signed = (v, digits) => /[1-9]/.test(v.toFixed(digits)) ? `${v < 0 ? "" : "+"}${v.toFixed(digits)}` : (0).toFixed(digits); // no -0.0
+  const number = cell.z === undefined ? `${signed(100 * cell.change, 0)} %` : `z = ${signed(cell.z, 1)}`;
+  const mark = cell.verdict === "explained" ? `note ${cell.note}` : cell.verdict === "unexplained" ? "✗" : "✓";
+  const name = { explained: "note", unexplained: "bad" }[cell.verdict] ?? "good";
+  return element("span", { class: name, title: number }, withNumber ? `${mark} ${number}` : mark);
+}
+
+// What a cell shows: a text, a number, [value, low, high], or an object with more than that.
+function cellContent(cell, column) {
+  if (typeof cell === "string") return [cell];
+  if (typeof cell === "number") return [shown(cell, column)];
+  const data = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell ?? {};
+  if (column.type === "verdict") return [verdictMark(data, true)];
+  const content = [];
+  if (data.text !== undefined) content.push(data.text);
+  else if (typeof data.value === "number") content.push(shown(data.value, column), ...spread(data, column));
+  else content.push(dash);
+  if (data.sets) content.push(" ", small(`(${data.sets} set${data.sets > 1 ? "s" : ""})`));
+  if (data.verdict) content.push(" ", verdictMark(data, false));
+  else if (data.note) content.push(element("sup", { class: "note" }, data.note));
+  return content;
+}
+
+// How many rows from this one on have the same cell in a merged column; 0: the one above stands for it.
+function span(rows, row, column) {
+  const same = i => rows[i] && rows[i][column] === rows[row][column];
+  if (same(row - 1)) return 0;
+  let n = 1;
+  while (same(row + n)) n++;
+  return n;
+}
+
+function groupHeads(columns) {
+  const heads = [];
+  for (const { group = "" } of columns) {
+    if (heads.length && group && heads.at(-1).group === group) heads.at(-1).n++;
+    else heads.push({ group, n: 1 });
+  }
+  return element("tr", {}, ...heads.map(({ group, n }) => element("th", { colspan: n > 1 ? n : null, scope: group ? "colgroup" : null }, group)));
+}
+
+// A column of the file for each number of a column of the table.
+function csvParts(column) {
+  const numbers = { interval: ["", " low", " high"], spread: ["", " SD"], verdict: ["", " z", " change"] }[column.type] ?? [""];
+  const keys = { interval: ["value", "low", "high"], spread: ["value", "sd"], verdict: ["verdict", "z", "change"] }[column.type] ?? ["value"];
+  return keys.map((key, i) => ({
+    name: column.name + numbers[i],
+    of: cell => Array.isArray(cell) ? cell[i] : cell !== null && typeof cell === "object" ? cell[key] : i === 0 ? cell : null,
+  }));
+}
+
+// RFC 4180.
+function csvOf({ columns, rows }) {
+  const parts = columns.map(csvParts), quote = v => typeof v === "string" ? `"${v.replaceAll('"', '""')}"` : v ?? "";
+  const lines = [parts.flat().map(p => quote(p.name))];
+  for (const row of rows) lines.push(columns.flatMap((_, c) => parts[c].map(p => row[c] === undefined ? "" : quote(p.of(row[c])))));
+  return lines.map(line => `${line.join(",")}\r\n`).join("");
+}
+
+// What a row is sorted by: null where there is nothing.
+function sortKey(cell, by) {
+  if (cell === null || cell === undefined || typeof cell !== "object") return by === "width" ? null : cell ?? null;
+  const { value, low, high } = Array.isArray(cell) ? { value: cell[0], low: cell[1], high: cell[2] } : cell;
+  if (by !== "width") return value ?? null;
+  return typeof low === "number" && typeof high === "number" ? high - low : null;
+}
+
+// Rows in the order of a column; those without a value come last, equal ones stay.
+function sorted(rows, { c, by, descending }) {
+  const sign = descending ? -1 : 1, keys = new Map(rows.map(r => [r, sortKey(r.row[c], by)]));
+  return [...rows].sort((r, s) => {
+    const [a, b] = [keys.get(r), keys.get(s)];
+    if (a === null || b === null) return (a === null) - (b === null);
+    return sign * (typeof a === "string" || typeof b === "string" ? String(a).localeCompare(String(b)) : a - b);
+  });
+}
+
+// What a click on the head of a column does to the order.
+function nextOrder(order, column) {
+  const steps = [{ by: "value" }, { by: "value", descending: true }, ...(column.type === "interval" ? [{ by: "width" }] : []), null];
+  const at = order?.c === column.c ? steps.findIndex(s => s && s.by === order.by && Boolean(s.descending) === Boolean(order.descending)) : -1;
+  const step = steps[at + 1];
+  return step && { c: column.c, ...step };
+}
+
+const says = (order, columns) => `Sorted by ${order.by === "width" ? "the width of the intervals of " : ""}${
+  columns.find(column => column.c === order.c).title ?? columns.find(column => column.c === order.c).name}, ${order.descending ? "largest" : "smallest"} first`;
+
+const filters = []; // of all tables, by the field of the page
+
+export function filterTables(text) {
+  filters.forEach(filter => filter(text));
+}
+
+// A row of a table; `rows` are all, whose merged cells span those below.
+function rowNode(rows, r, visible) {
+  return element("tr", {}, ...visible.map((column, i) => {
+    const cell = rows[r][column.c];
+    if (cell === undefined) return null;
+    const spanned = column.merged ? span(rows, r, column.c) : 1, name = column.type === "text" ? "name" : null;
+    if (!spanned) return null;
+    if (column.merged) return element("th", { scope: "rowgroup", rowspan: spanned, class: "name" }, cell);
+    return element(i === 0 && name ? "th" : "td", { class: name, scope: i === 0 && name ? "row" : null }, ...cellContent(cell, column));
+  }));
+}
+
+export function table(block) {
+  const visible = block.columns.map((column, c) => ({ ...column, c })).filter(column => !column.hidden);
+  const rows = block.rows.map((row, r) => ({ row, node: rowNode(block.rows, r, visible), text: row.filter(c => typeof c === "string").join(" ").toLowerCase() }));
+  const body = element("tbody", {}), state = element("output", {}), field = element("input", { type: "search", size: 16 });
+  const moves = rows.length > 2 && !visible.some(column => column.merged);
+  let order = block.sort ? { ...block.sort, c: block.columns.findIndex(column => column.name === block.sort.column) } : null, wanted = "";
+  const heads = visible.map(column => element("th", { scope: "col", class: column.type === "text" ? "name" : null },
+    moves ? element("button", { type: "button" }, column.title ?? column.name) : column.title ?? column.name));
+  const show = () => {
+    const has = [wanted, field.value.trim().toLowerCase()], shown = (order ? sorted(rows, order) : rows).filter(r => has.every(text => r.text.includes(text)));
+    body.replaceChildren(...(moves ? shown : rows).map(r => r.node));
+    state.textContent = moves ? `${order ? `${says(order, visible)}. ` : ""}${shown.length === rows.length ? rows.length : `${shown.length} of ${rows.length}`} rows.` : "";
+    heads.forEach((head, i) => {
+      const mine = order?.c === visible[i].c, name = !mine ? null : order.by === "width" ? "other" : order.descending ? "descending" : "ascending";
+      if (name) head.setAttribute("aria-sort", name);
+      else head.removeAttribute("aria-sort");
+    });
+  };
+  heads.forEach((head, i) => head.firstChild.addEventListener?.("click", () => { order = nextOrder(order, visible[i]); show(); }));
+  field.addEventListener("input", show);
+  if (moves) filters.push(text => { wanted = text; show(); });
+  show();
+  const tools = moves ? element("div", { class: "tools" }, rows.length > fewRows ? element("label", {}, "rows with ", field) : null, state) : null;
+  const grouped = visible.some(column => column.group);
+  const node = element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `table ${block.name}` },
+    element("table", { class: visible.filter(c => c.type === "interval").length > manyIntervals || visible.length > manyColumns ? "many" : null }, element("thead", {}, grouped ? groupHeads(visible) : null, element("tr", {}, ...heads)), body));
+  const link = element("a", { download: `${block.name}.csv`, href: `data:text/csv;charset=utf-8,${encodeURIComponent(csvOf(block))}` }, `${block.name}.csv`);
+  return [tools, node, element("p", { class: "csv" }, link)].filter(Boolean);
+}

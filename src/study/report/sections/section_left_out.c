@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What blocks with `skip` left out: the patterns, their numbers of points or samples, and why they have none. */
+#include <koksma/study.h>
+
+#include "study/report/report.h"
+
+static bool is_shown(const koksma__report_scope *scope)
+{
+    return koksma_study_left_out_at(scope->study, 0) != NULL;
+}
+
+static koksma_status write(const koksma__report_scope *scope, koksma__document *d)
+{
+    const char *line;
+    koksma__doc_list_begin(d, NULL, false);
+    for (size_t i = 0; (line = koksma_study_left_out_at(scope->study, i)); i++) {
+        koksma__doc_item(d);
+        koksma__doc_say(d, "%s", line);
+    }
+    koksma__doc_list_end(d);
+    return KOKSMA_OK;
+}
+
+const koksma__section koksma__section_left_out = {"Left out", false, is_shown, write};
