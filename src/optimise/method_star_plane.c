@@ -15,10 +15,13 @@
  * it, and the work goes on. When nothing is violated, F is the least for p, and the cycle that set it is the critical one.
  *
  * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; one in four is the best
- * set. Moves: two points swap their ranks by y, such that a box of the critical cycle that holds too many points loses
- * one, or one that holds too few gains one: no other swap can help. A move is refused at once if a cycle that was violated
- * before (the last CYCLES are kept) is violated by the new counts at the threshold F. Threshold accepting (Dueck & Scheuer
- * 1990) with a falling threshold. Work is counted in corners looked at.
+ * set. A walk keeps to permutations whose F is below a limit, up to THRESHOLD above the walk's least, its target (Dueck 1993:
+ * record-to-record travel). Moves: two points swap their ranks by y, such that a box of a cycle that is violated at the target
+ * and holds too many points loses one, or one that holds too few gains one: no other swap can help. The last CYCLES cycles
+ * that were violated anywhere are kept, and a walk descends the number of those that are violated at the target: a move that
+ * adds to it, or violates one at the limit, is refused before any constraint is looked at. Only where none is left the least
+ * F is computed, which gives a new target or a new cycle (min-conflicts with constraints generated on demand). Work is
+ * counted in corners looked at.
  *
  * Source: the constraints as in Clement, Doerr, Klamroth & Paquete 2023, who solve them as integer programs.
  */
@@ -32,7 +35,10 @@
 #include "measures/shared/order.h"
 #include "optimise/methods.h"
 
-enum { MAX_N = 4096, PATIENCE = 1500, CYCLES = 128, MAX_EDGES = 16, NONE = UINT32_MAX };
+enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
+
+/* How far a walk may get above its least F, at most. */
+static const double THRESHOLD = 0.02;
 
 /* Corners looked at in one search: some tenths of a second. */
 static double budget_of(size_t n)
@@ -70,8 +76,10 @@ typedef struct plane {
     uint8_t *queued;
     size_t first, waiting; /* of the queue, a ring of 2 side nodes */
     uint32_t stamp;
-    cycle cycles[CYCLES];    /* those that were violated last in front */
-    edge *traced, *critical; /* up to 2 side edges */
+    cycle cycles[CYCLES];     /* those that were violated last in front */
+    cycle guides[GUIDES];     /* of them, some that are violated at a walk's target */
+    size_t guided, conflicts; /* how many guides, and how many are violated at it */
+    edge *traced, *critical;  /* up to 2 side edges */
     size_t n_traced, n_critical;
     double work, budget;
     koksma__stream random;
@@ -358,13 +366,13 @@ static double estimate(plane *s)
     return F;
 }
 
-/* The least F of the permutation, from coordinates without violations at limit. */
-static bool solve(plane *s, double *F, double limit)
+/* The least F of the permutation, looked for from guess on; false if above limit. */
+static bool solve(plane *s, double *F, double guess, double limit)
 {
-    *F = estimate(s);
-    for (double guess = 0.98 * limit; *F < guess; guess *= 0.96) {
-        double least = guess;
-        s->n_critical = 0;
+    for (;; guess *= 0.985) {
+        double least = fmax(estimate(s), guess);
+        const bool known = least > guess;
+        s->n_critical = known ? s->n_critical : 0;
         if (!settle_all(s, &least, limit)) {
             return false;
         }
@@ -373,7 +381,6 @@ static bool solve(plane *s, double *F, double limit)
             return true;
         }
     }
-    return *F <= limit && settle_all(s, F, limit);
 }
 
 /* Whether a rank is within reach of a corner's, above it or up to it. */
@@ -393,10 +400,13 @@ static size_t log_uniform(koksma__stream *random, size_t most)
     return d < most ? d : most;
 }
 
-/* A swap that lowers the count of a corner with too many points of the critical cycle, or raises one with too few. */
+/* A swap that lowers the count of a corner with too many points of a guide, or raises one with too few; where there is no
+   guide, of the critical cycle. */
 static bool draw_swap(plane *s, swap *w)
 {
-    const edge e = s->critical[koksma__next_below(&s->random, s->n_critical)];
+    const cycle *guide = s->guided ? &s->guides[koksma__next_below(&s->random, s->guided)] : NULL;
+    const edge e = guide ? guide->edges[koksma__next_below(&s->random, guide->n)]
+                         : s->critical[koksma__next_below(&s->random, s->n_critical)];
     const size_t n = s->n, i = e.i, j = e.j;
     if (i == 0 || i >= n || j == 0 || j >= n) {
         return false;
@@ -417,16 +427,35 @@ static bool draw_swap(plane *s, swap *w)
     return a > 0 && b <= n && beside(s->rank[a], j, reach, !many) && beside(s->rank[b], j, reach, many);
 }
 
-/* Whether a kept cycle is violated at F after a swap. */
-static bool refused(plane *s, double F, const swap *w)
+/* Whether a swap leaves more kept cycles violated at target than are now (but 1 may be), or one at limit. */
+static bool refused(plane *s, double target, double limit, const swap *w)
 {
+    size_t count = 0;
     for (size_t c = 0; c < CYCLES && s->cycles[c].n; c++) {
-        if (violated(s, s->cycles[c].edges, s->cycles[c].n, F, w)) {
+        const edge *edges = s->cycles[c].edges;
+        const size_t n = s->cycles[c].n;
+        if (violated(s, edges, n, target, w) &&
+            (++count > (s->conflicts ? s->conflicts : 1) || violated(s, edges, n, limit, w))) {
             keep_cycle(s, &s->cycles[c], c);
             return true;
         }
     }
     return false;
+}
+
+/* Counts the kept cycles that are violated at target, and draws the guides among them (reservoir sampling). */
+static void find_conflicts(plane *s, double target)
+{
+    s->guided = s->conflicts = 0;
+    for (size_t c = 0; c < CYCLES && s->cycles[c].n; c++) {
+        if (violated(s, s->cycles[c].edges, s->cycles[c].n, target, NULL)) {
+            const size_t seen = s->conflicts++, at = seen < GUIDES ? seen : koksma__next_below(&s->random, seen + 1);
+            if (at < GUIDES) {
+                s->guides[at] = s->cycles[c];
+            }
+            s->guided += seen < GUIDES;
+        }
+    }
 }
 
 static void round_all(plane *s)
@@ -451,18 +480,19 @@ static void push_violated(plane *s, swap w, double F)
     }
 }
 
-/* One or two swaps, if F does not get above limit; the coordinates then are for limit, as they were before. */
-static bool move(plane *s, double limit)
+/* One or two swaps, if F does not get above limit and no more cycles are violated at target; the coordinates then are for
+   limit, as they were before. */
+static bool move(plane *s, double target, double limit)
 {
     swap w[2];
     const int n = koksma__next_unit(&s->random) < 0.3 ? 2 : 1;
     s->work += 100;
-    if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, limit, &w[0]))) {
+    if (!draw_swap(s, &w[0]) || (n == 1 && refused(s, target, limit, &w[0]))) {
         return false;
     }
     apply(s, w[0]);
     if (n == 2) {
-        if (!draw_swap(s, &w[1]) || refused(s, limit, &w[1])) {
+        if (!draw_swap(s, &w[1]) || refused(s, target, limit, &w[1])) {
             apply(s, w[0]);
             return false;
         }
@@ -496,29 +526,37 @@ static void write_points(const plane *s, koksma_points *points)
     }
 }
 
-/* Threshold accepting from a permutation whose F is known; what is below *best is written to points. */
+/* A walk from a permutation whose F is known; what is below *best is written to points. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
-    const double threshold = F * 0.03 * koksma__next_unit(&s->random);
-    double limit = F + threshold;
+    const double threshold = F * THRESHOLD * koksma__next_unit(&s->random), below = 1 - 1e-7;
+    double target = F * below;
+    find_conflicts(s, target);
     for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
-        if (!move(s, limit)) {
+        const double limit = target / below + threshold;
+        if (!move(s, target, limit)) {
             continue;
         }
-        double to = limit;
-        if (!solve(s, &to, limit)) {
-            return; /* within rounding of the limit */
+        s->work += 500;
+        find_conflicts(s, target);
+        if (s->conflicts) {
+            continue;
         }
-        if (to < F) {
+        double to;
+        if (!solve(s, &to, target, limit)) {
+            break; /* within rounding of the limit */
+        }
+        if (to < target) {
             m = 0;
+            target = to * below;
+            if (to < *best) {
+                *best = to;
+                write_points(s, points);
+            }
         }
-        F = to;
-        if (to < *best) {
-            *best = to;
-            write_points(s, points);
-        }
-        limit = to + threshold * (1 - (double)m / PATIENCE);
+        find_conflicts(s, target);
     }
+    s->guided = 0;
 }
 
 /* Order and coordinates of given points; those of the square's side are 1. */
@@ -594,7 +632,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
         }
         status = take_points(&s, xs, order);
         double limit = (again ? 1 : accepted) * best;
-        if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, limit)) {
+        if (!status && settle_all(&s, &limit, limit) && solve(&s, &F, 0.98 * limit, limit)) {
             if (F < best) {
                 best = F;
                 write_points(&s, points);
@@ -615,7 +653,7 @@ static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep kee
 const koksma_method koksma__method_star_plane = {
     .name = "star-plane",
     .title = "permutations with exact coordinates by difference constraints (star, 2D)",
-    .cite = "clement2023 dueck1990",
+    .cite = "clement2023 dueck1993",
     .serves = serves,
     .search = search,
 };
