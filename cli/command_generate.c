@@ -21,7 +21,7 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
         koksma_spec_text(spec, text);
         int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
         double distance;
-        if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 && !spec->shift &&
+        if (spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 &&
             !koksma_smallest_distance(points, true, run, &distance)) {
             used += snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
         }
@@ -91,7 +91,9 @@ const cli_command cli_command_generate = {
     .summary = "generate the points of a pattern",
     .synopsis = "PATTERN -n N [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
-        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'.\n"
+        "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind "
+        "them\n"
+        "it takes modifiers, as in file:set.txt,shift=1; 'koksma list modifiers' says what each keeps.\n"
         "Equal arguments give equal bits, on any number of threads. These patterns use one thread, because each\n"
         "point depends on those before it: Poisson disks, best candidates, sample elimination, pmj02bn, scan-time,\n"
         "uniform-jittered and most of orthogonal-array.\n",

@@ -95,6 +95,9 @@ static const char *scene_title(const char *name)
 
 LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims), SOURCE))
+LIST(modifiers, "modifier", const koksma_modifier *, (x = koksma_modifier_at(i)), x->name, x->title,
+     (cli_row_text(rows, "keeps", x->keeps), put_claims(rows, x->claims),
+      cli_row_text(rows, "measures", strcmp(x->measures, "*") ? x->measures : "all"), SOURCE))
 LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "cost", x->cost),
       SOURCE))
@@ -194,10 +197,15 @@ static void list_parameters_of(cli_rows *rows, const char *member, const koksma_
 static void list_parameters(cli_rows *rows)
 {
     const koksma_pattern *p;
+    const koksma_modifier *x;
     const koksma_measure *m;
     const koksma_adaptive *a;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         list_parameters_of(rows, p->name, p->params);
+    }
+    for (size_t i = 0; (x = koksma_modifier_at(i)); i++) {
+        const koksma_param one[] = {{x->name, x->title, 0, 0, x->max, NULL, true}, {0}};
+        list_parameters_of(rows, "any pattern", one);
     }
     for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
         list_parameters_of(rows, m->name, m->params);
@@ -211,13 +219,17 @@ static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},     {"measures", list_measures},   {"claims", list_claims},
-    {"properties", list_properties}, {"warps", list_warps},         {"curves", list_curves},
-    {"scenes", list_scenes},         {"materials", list_materials}, {"lights", list_lights},
-    {"shapes", list_shapes},         {"formats", list_formats},     {"integrators", list_integrators},
-    {"pipelines", list_pipelines},   {"filters", list_filters},     {"uses", list_uses},
-    {"adaptive", list_adaptive},     {"methods", list_methods},     {"records", list_records},
-    {"plans", list_plans},           {"questions", list_questions}, {"sections", list_sections},
+    {"patterns", list_patterns},       {"modifiers", list_modifiers},
+    {"measures", list_measures},       {"claims", list_claims},
+    {"properties", list_properties},   {"warps", list_warps},
+    {"curves", list_curves},           {"scenes", list_scenes},
+    {"materials", list_materials},     {"lights", list_lights},
+    {"shapes", list_shapes},           {"formats", list_formats},
+    {"integrators", list_integrators}, {"pipelines", list_pipelines},
+    {"filters", list_filters},         {"uses", list_uses},
+    {"adaptive", list_adaptive},       {"methods", list_methods},
+    {"records", list_records},         {"plans", list_plans},
+    {"questions", list_questions},     {"sections", list_sections},
     {"parameters", list_parameters},
 };
 

@@ -166,7 +166,7 @@ typedef struct koksma_param {
     bool whole;                 /* accepts whole numbers only */
 } koksma_param;
 
-enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_SPEC = 512 };
+enum { KOKSMA_MAX_PARAMS = 8, KOKSMA_MAX_MODIFIERS = 8, KOKSMA_MAX_SPEC = 512 };
 
 /* The arguments of a pattern's or measure's function: its parameters in the order of its table, and how to run. */
 typedef struct koksma_args {
@@ -184,20 +184,20 @@ typedef struct koksma_spec {
     const koksma_pattern *pattern; /* exactly one of pattern and measure is not NULL */
     const koksma_measure *measure;
     double params[KOKSMA_MAX_PARAMS];
-    char path[KOKSMA_MAX_SPEC]; /* of a pattern that reads a file */
-    bool shift;                 /* of a pattern: all points are shifted on the torus by one random vector */
+    char path[KOKSMA_MAX_SPEC];             /* of a pattern that reads a file */
+    double modifiers[KOKSMA_MAX_MODIFIERS]; /* of a pattern, in the order of koksma_modifier_at; 0: not applied */
 } koksma_spec;
 
 /* Parses a spec: "name" or "name:key=value,key=value".
-   Every pattern also accepts shift=1, the random shift on the torus of Cranley & Patterson (1976): one vector,
-   uniform in [0,1)^dim, is added to all points modulo 1. With a file it is the ending ",shift=1". An alias is
-   replaced by the pattern that it stands for.
+   Every pattern also accepts the modifiers, such as shift=1: all points are shifted on the torus by one random vector.
+   With a file they are the ending of its path, as in "file:set.txt,shift=1". An alias is replaced by the pattern that it
+   stands for.
    Errors: ARGUMENT (a parameter; the message names it and what it accepts), UNKNOWN (the name; the message suggests
    the nearest one). */
 KOKSMA_API koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec);
 KOKSMA_API koksma_status koksma_measure_spec(const char *text, koksma_spec *spec);
 
-/* Writes the canonical text of a spec: parameters in table order, without those at their defaults. Results are stored
+/* Writes the canonical text of a spec: parameters and modifiers in table order, without those at their defaults. Results are stored
    under this text.
      text  KOKSMA_MAX_SPEC characters; empty if the spec has neither a pattern nor a measure */
 KOKSMA_API void koksma_spec_text(const koksma_spec *spec, char *text);
@@ -225,6 +225,24 @@ struct koksma_pattern {
     koksma_status (*whole)(uint64_t seed, const koksma_args *args, koksma_points *out);
     int revision; /* 0, and one more with every change of any bit of its points: studies keep it with their rows */
 };
+
+/* A map of the cube to itself that every pattern accepts behind its own parameters. Several are applied in the order of
+   the table. In a renderer each pixel has a seed, so that a random one makes its pixels differ. */
+typedef struct koksma_modifier {
+    const char *name, *title, *cite;
+    double max;             /* its value is a whole number from 0, not applied, to max */
+    bool random;            /* depends on the seed */
+    unsigned claims;        /* what a pattern claims and its points still keep */
+    unsigned claims_binary; /* the same, where n is a power of 2 */
+    unsigned gives;         /* what the points of any pattern keep after it */
+    const char
+        *measures;     /* names with blanks between them: the measures of which it changes no value but by rounding;
+                               "*": all that are exact */
+    const char *keeps; /* the same in words */
+} koksma_modifier;
+
+/* Returns modifier i of the table; NULL if there is none. */
+KOKSMA_API const koksma_modifier *koksma_modifier_at(size_t i);
 
 /* Returns pattern i of the table, or the pattern with this name; NULL if there is none. */
 KOKSMA_API const koksma_pattern *koksma_pattern_at(size_t i);

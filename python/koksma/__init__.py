@@ -19,8 +19,8 @@ from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
 from ._optimise import Optimum, optimise
-from ._points import (Finding, Member, Value, Witness, canonical, generate, measure, measures, patterns, read, verify,
-                      write)
+from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, measure, measures, modifiers, patterns,
+                      read, verify, write)
 from ._plot import Picture, plot, plot_convergence
 from ._rank import Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
@@ -31,9 +31,9 @@ from ._study import Cost, Study, Summary, TableRow, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
-    "MissingError", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
+    "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
     "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "canonical", "compare",
-    "convergence", "generate", "measure", "measures", "optimise", "pair_correlation", "patterns", "plans", "plot",
+    "convergence", "generate", "measure", "measures", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot",
     "plot_convergence", "rank", "read", "read_image", "render", "scenes", "spectrum", "trials", "verify", "version",
     "write",
 ]

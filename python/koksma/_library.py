@@ -96,6 +96,7 @@ def core() -> ctypes.CDLL:
     _declare(library, None, "koksma_spec_text", spec, c_char_p)
     _declare(library, POINTER(s.Pattern), "koksma_pattern_at", c_size_t)
     _declare(library, POINTER(s.Measure), "koksma_measure_at", c_size_t)
+    _declare(library, POINTER(s.Modifier), "koksma_modifier_at", c_size_t)
     _declare(library, c_int, "koksma_generate", spec, c_uint64, run, points)
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
     _declare(library, None, "koksma_points_fini", points)

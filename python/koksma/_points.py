@@ -78,6 +78,17 @@ class Value:
 
 
 @dataclass(frozen=True)
+class Modifier:
+    """What every pattern takes behind its own parameters, as in "file:set.txt,shift=1" (see `koksma list modifiers`)."""
+
+    name: str
+    title: str
+    cite: str
+    keeps: str
+    measures: str
+
+
+@dataclass(frozen=True)
 class Finding:
     """A property of a set of points, and whether they have it (see `koksma verify --help`)."""
 
@@ -103,6 +114,15 @@ def _table(at: object) -> List[Member]:
 def patterns() -> List[Member]:
     """All patterns, in the table's order."""
     return _table(core().koksma_pattern_at)
+
+
+def modifiers() -> List[Modifier]:
+    """All modifiers, in the order in which they are applied."""
+    at, found = core().koksma_modifier_at, []
+    while at(len(found)):
+        m = at(len(found)).contents
+        found.append(Modifier(m.name.decode(), m.title.decode(), m.cite.decode(), m.keeps.decode(), m.measures.decode()))
+    return found
 
 
 def measures() -> List[Member]:

@@ -4,7 +4,7 @@ compiler's."""
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_float, c_int, c_longlong,
                     c_size_t, c_uint, c_uint64, c_void_p, sizeof)
 
-MAX_PARAMS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 512, 16, 8
+MAX_PARAMS, MAX_MODIFIERS, MAX_SPEC, WITNESS_DIM, N_USES = 8, 8, 512, 16, 8
 MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
@@ -33,6 +33,11 @@ class Pattern(Structure):
                 ("alias_of", c_char_p), ("whole", c_void_p), ("revision", c_int)]
 
 
+class Modifier(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("max", c_double), ("random", c_bool),
+                ("claims", c_uint), ("claims_binary", c_uint), ("gives", c_uint), ("measures", c_char_p), ("keeps", c_char_p)]
+
+
 class Measure(Structure):
     _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("cost", c_char_p), ("family", c_int), ("min_dim", c_int),
                 ("max_dim", c_int), ("params", POINTER(Param)), ("eval", c_void_p), ("answer", c_int), ("larger_is_better", c_bool),
@@ -41,7 +46,7 @@ class Measure(Structure):
 
 class Spec(Structure):
     _fields_ = [("pattern", POINTER(Pattern)), ("measure", POINTER(Measure)), ("params", c_double * MAX_PARAMS),
-                ("path", c_char * MAX_SPEC), ("shift", c_bool)]
+                ("path", c_char * MAX_SPEC), ("modifiers", c_double * MAX_MODIFIERS)]
 
 
 class Witness(Structure):
@@ -205,7 +210,7 @@ class Ranking(Structure):
 
 #: Header, C name and value of the limits above.
 CONSTANTS = [
-    ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
+    ("koksma.h", "KOKSMA_MAX_PARAMS", MAX_PARAMS), ("koksma.h", "KOKSMA_MAX_MODIFIERS", MAX_MODIFIERS), ("koksma.h", "KOKSMA_MAX_SPEC", MAX_SPEC),
     ("koksma.h", "KOKSMA_MAX_DIM", MAX_DIM), ("koksma.h", "KOKSMA_MAX_COORDINATES", MAX_COORDINATES),
     ("spectrum.h", "KOKSMA_SPECTRUM_MAX_HALF", MAX_HALF), ("render.h", "KOKSMA_MAX_SPP", MAX_SPP),
     ("render.h", "KOKSMA_N_USES", N_USES), ("render.h", "KOKSMA_MAX_USE_GROUPS", MAX_USE_GROUPS),
@@ -219,7 +224,7 @@ CONSTANTS = [
 LAYOUTS = [
     ("koksma.h", "koksma_points", Points), ("koksma.h", "koksma_param", Param), ("koksma.h", "koksma_run", Run),
     ("koksma.h", "koksma_pattern", Pattern), ("koksma.h", "koksma_measure", Measure),
-    ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
+    ("koksma.h", "koksma_modifier", Modifier), ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
     ("optimise.h", "koksma_optimum", Optimum), ("optimise.h", "koksma_optimise_options", OptimiseOptions),
     ("spectrum.h", "koksma_spectrum", Spectrum),

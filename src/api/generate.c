@@ -1,36 +1,23 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* koksma_generate and koksma_generate_whole: the checks of arguments that every pattern can rely on, the pattern's
-   own function, and the random shift on the torus (Cranley & Patterson 1976) that every pattern takes. */
+   own function, and the modifiers that every pattern takes. */
 #include "api/generate.h"
 
 #include <string.h>
 
+#include "core/modifiers.h"
 #include "core/points_io.h"
-#include "core/random.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
 
-/* x + u on the torus; never 1. */
-static void shift_points(uint64_t seed, koksma_points *out)
+/* What does not depend on the dimension: the path and the modifiers. */
+static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p)
 {
-    double u[KOKSMA_MAX_DIM + 1];
-    for (int k = 0; k < out->dim; k += 2) {
-        koksma__random_pair(seed, KOKSMA__PURPOSE_SHIFT, 0, (uint32_t)k, u + k);
-    }
-    double *x = out->xs;
-    for (size_t i = 0; i < out->n; i++) {
-        for (int k = 0; k < out->dim; k++, x++) {
-            *x += u[k];
-            *x -= *x >= 1;
-        }
-    }
-}
-
-static koksma_status check_path(const koksma_spec *spec)
-{
+    koksma__all_params modifiers;
+    koksma__all_params_init(&modifiers, NULL);
     return memchr(spec->path, '\0', sizeof spec->path)
-               ? KOKSMA_OK
+               ? koksma__params_check(p->name, modifiers.params, spec->modifiers)
                : koksma__fail(KOKSMA_ARGUMENT, "the path of a spec is longer than %d characters",
                               KOKSMA_MAX_SPEC - 1);
 }
@@ -38,7 +25,7 @@ static koksma_status check_path(const koksma_spec *spec)
 static koksma_status check_generate(const koksma_spec *spec, const koksma_pattern *p, int dim)
 {
     koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
-    status = status ? status : check_path(spec);
+    status = status ? status : check_spec(spec, p);
     return status ? status : koksma__params_check(p->name, p->params, spec->params);
 }
 
@@ -50,7 +37,7 @@ static const koksma_pattern *pattern_of(const koksma_spec *spec)
 bool koksma__spec_is_deterministic(const koksma_spec *spec)
 {
     const koksma_pattern *p = pattern_of(spec);
-    bool deterministic = !spec->shift && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
+    bool deterministic = !koksma__modifiers_are_random(spec->modifiers) && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
                          !(p->takes_path && koksma__file_has(spec->path, "{seed}"));
     for (int k = 0; p->params && p->params[k].name; k++) {
         if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
@@ -75,8 +62,8 @@ koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koks
     if (!status) {
         status = p->generate(seed, &args, out);
     }
-    if (!status && spec->shift) {
-        shift_points(seed, out);
+    if (!status) {
+        koksma__modify(spec->modifiers, seed, out);
     }
     return status;
 }
@@ -94,7 +81,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
-    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : check_path(spec);
+    koksma_status status = dim || !p->takes_path ? check_generate(spec, p, dim) : check_spec(spec, p);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
         out->dim = dim;
@@ -103,8 +90,8 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     if (status) {
         *out = (koksma_points){0};
     }
-    if (!status && spec->shift) {
-        shift_points(seed, out);
+    if (!status) {
+        koksma__modify(spec->modifiers, seed, out);
     }
     return status;
 }

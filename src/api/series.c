@@ -17,6 +17,7 @@
 #include <koksma/series.h>
 
 #include "api/evaluate.h"
+#include "core/modifiers.h"
 #include "core/status.h"
 
 koksma_status koksma_evaluate_prefixes(const koksma_spec *measure, const koksma_points *points, const size_t *sizes,
@@ -53,7 +54,9 @@ double koksma_rate(const koksma_spec *pattern, const koksma_measure *measure, in
         return NAN;
     }
     const bool narrow = columns_are_given(pattern);
-    const unsigned claims = pattern->pattern->claims & ~(narrow ? KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_GRID : 0u);
+    const unsigned left = koksma__modifiers_of_digits(pattern->modifiers) ? koksma__claims_left(pattern, 1) : ~0u;
+    const unsigned claims =
+        pattern->pattern->claims & left & ~(narrow ? KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_GRID : 0u);
     const unsigned more = KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_LATTICE;
     const unsigned nets = KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES | KOKSMA_CLAIM_NET_PREFIXES;
     const bool boxes = measure->family == KOKSMA_FAMILY_BOXES, unbiased = claims & KOKSMA_CLAIM_UNBIASED;

@@ -1,46 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* koksma_pattern_spec and koksma_measure_spec: a text becomes a member of the tables of patterns or measures with its
-   parameters. Beside its own, every pattern takes shift=0 or shift=1; an alias becomes the pattern that it names. */
-#include <stdio.h>
+   parameters. Beside its own, every pattern takes the modifiers; an alias becomes the pattern that it names. */
 #include <string.h>
 
 #include "core/lookup.h"
+#include "core/modifiers.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "core/suggestion.h"
-
-/* Copies rest to others without the parameter that all patterns have, "shift=0" or "shift=1". */
-static koksma_status take_shift(const char *name, const char *rest, char *others, bool *shift)
-{
-    size_t used = 0;
-    bool seen = false;
-    if (strlen(rest) >= KOKSMA_MAX_SPEC) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: its parameters are longer than %d characters", name,
-                            KOKSMA_MAX_SPEC - 1);
-    }
-    while (*rest) {
-        const size_t length = strcspn(rest, ",");
-        if (!strncmp(rest, "shift=", 6)) {
-            if (length != 7 || (rest[6] != '0' && rest[6] != '1')) {
-                return koksma__fail(KOKSMA_ARGUMENT, "%s: %.*s: it takes 0 or 1", name, (int)length, rest);
-            }
-            if (seen) {
-                return koksma__fail(KOKSMA_ARGUMENT, "%s: shift is given twice", name);
-            }
-            seen = true;
-            *shift = rest[6] == '1';
-        } else {
-            memcpy(others + used + (used > 0), rest, length);
-            if (used) {
-                others[used++] = ',';
-            }
-            used += length;
-        }
-        rest += length + (rest[length] == ',');
-    }
-    others[used] = '\0';
-    return KOKSMA_OK;
-}
 
 KOKSMA__NAME_AT(koksma_pattern)
 KOKSMA__NAME_AT(koksma_measure)
@@ -61,20 +28,25 @@ koksma_status koksma_pattern_spec(const char *text, koksma_spec *spec)
                                     "'koksma list patterns' names them");
     }
     spec->pattern = pattern = pattern->alias_of ? koksma_pattern_find(pattern->alias_of) : pattern;
-    if (!pattern->takes_path) {
-        char others[KOKSMA_MAX_SPEC];
-        const koksma_status taken = take_shift(name, rest, others, &spec->shift);
-        return taken ? taken : koksma__params_parse(name, pattern->params, others, spec->params);
+    koksma__all_params all;
+    double values[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS] = {0};
+    koksma__all_params_init(&all, pattern->params);
+    if (pattern->takes_path) {
+        const char *end = koksma__modifiers_of_path(rest);
+        const size_t length = (size_t)(end - rest);
+        if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
+            return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a path of 1 to %d characters, as in %s:PATH", name,
+                                KOKSMA_MAX_SPEC - 81, name);
+        }
+        memcpy(spec->path, rest, length);
+        rest = end + (*end == ',');
     }
-    const char *end = strrchr(rest, ',');
-    spec->shift = end && !strcmp(end, ",shift=1");
-    const size_t length = strlen(rest) - (spec->shift ? strlen(",shift=1") : 0);
-    if (length == 0 || length >= KOKSMA_MAX_SPEC - 80) {
-        return koksma__fail(KOKSMA_ARGUMENT, "%s: it takes a path of 1 to %d characters, as in %s:PATH", name,
-                            KOKSMA_MAX_SPEC - 81, name);
+    const koksma_status parsed = koksma__params_parse(name, all.params, rest, values);
+    if (!parsed) {
+        memcpy(spec->params, values, all.own * sizeof *values);
+        memcpy(spec->modifiers, values + all.own, sizeof spec->modifiers);
     }
-    memcpy(spec->path, rest, length);
-    return KOKSMA_OK;
+    return parsed;
 }
 
 koksma_status koksma_measure_spec(const char *text, koksma_spec *spec)

@@ -23,7 +23,11 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_SCRAMBLE, /* scrambling of digits */
     KOKSMA__PURPOSE_SEARCH,   /* a random search of a measure */
     KOKSMA__PURPOSE_TEST,     /* tests and benchmarks */
-    KOKSMA__PURPOSE_AUDIT     /* which rows of a study are drawn */
+    KOKSMA__PURPOSE_AUDIT,    /* which rows of a study are drawn */
+    KOKSMA__PURPOSE_NESTED,   /* the modifiers owen, digital-shift, axes and mirror */
+    KOKSMA__PURPOSE_DIGITS,
+    KOKSMA__PURPOSE_AXES,
+    KOKSMA__PURPOSE_MIRROR
 } koksma__purpose;
 
 typedef struct koksma__words {

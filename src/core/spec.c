@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/modifiers.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "core/suggestion.h"
@@ -144,7 +145,7 @@ static void shortest(double value, char *text, size_t size)
 
 void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size)
 {
-    char separator = ':';
+    char separator = strchr(text, ':') ? ',' : ':';
     for (int i = 0; params && params[i].name; i++) {
         if (values[i] == params[i].fallback) {
             continue;
@@ -168,18 +169,20 @@ void koksma_spec_text(const koksma_spec *spec, char *text)
         return;
     }
     snprintf(text, KOKSMA_MAX_SPEC, "%s", is_pattern ? spec->pattern->name : spec->measure->name);
-    if (is_pattern && spec->pattern->takes_path) {
-        const size_t used = strlen(text);
-        snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s%s", KOKSMA_MAX_SPEC - 80, spec->path,
-                 spec->shift ? ",shift=1" : "");
+    if (!is_pattern) {
+        koksma__params_text(spec->measure->params, spec->params, text, KOKSMA_MAX_SPEC);
         return;
     }
-    koksma__params_text(is_pattern ? spec->pattern->params : spec->measure->params, spec->params, text,
-                        KOKSMA_MAX_SPEC);
-    if (is_pattern && spec->shift) {
+    koksma__all_params all;
+    koksma__all_params_init(&all, spec->pattern->params);
+    double values[KOKSMA_MAX_PARAMS + KOKSMA_MAX_MODIFIERS];
+    memcpy(values, spec->params, all.own * sizeof *values);
+    memcpy(values + all.own, spec->modifiers, sizeof spec->modifiers);
+    if (spec->pattern->takes_path) {
         const size_t used = strlen(text);
-        snprintf(text + used, KOKSMA_MAX_SPEC - used, "%sshift=1", strchr(text, ':') ? "," : ":");
+        snprintf(text + used, KOKSMA_MAX_SPEC - used, ":%.*s", KOKSMA_MAX_SPEC - 80, spec->path);
     }
+    koksma__params_text(all.params, values, text, KOKSMA_MAX_SPEC);
 }
 
 koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* deterministic: the seed does not matter, unless the parameter scramble, shuffle or shift is set. */
+/* deterministic: the seed does not matter, unless the parameter scramble or shuffle or a random modifier is set. */
 #include "claims/claims.h"
 
 void claim_DETERMINISTIC(const koksma_spec *spec, const koksma_points *points, uint64_t seed)

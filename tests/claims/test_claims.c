@@ -221,38 +221,6 @@ static void large_sets_are_equal_on_any_threads(void **state)
     }
 }
 
-static void shift_moves_all_points_alike(void **state)
-{
-    (void)state;
-    const koksma_pattern *p;
-    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
-        koksma_spec spec, shifted;
-        char text[KOKSMA_MAX_SPEC];
-        if (p->takes_path || p->alias_of) {
-            continue;
-        }
-        snprintf(text, sizeof text, "%s:shift=1", p->name);
-        assert_ok(koksma_pattern_spec(p->name, &spec));
-        assert_ok(koksma_pattern_spec(text, &shifted));
-        koksma_spec_text(&shifted, text);
-        assert_non_null(strstr(text, "shift=1"));
-        const int dim = p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? 1 : 2;
-        koksma_points a, b;
-        assert_ok(koksma_points_init(&a, 16, dim));
-        assert_ok(koksma_points_init(&b, 16, dim));
-        if (!koksma_generate(&spec, 3, NULL, &a)) {
-            assert_ok(koksma_generate(&shifted, 3, NULL, &b));
-            for (size_t j = 0; j < 16 * (size_t)dim; j++) {
-                const double u = b.xs[j] - a.xs[j] - (b.xs[j % (size_t)dim] - a.xs[j % (size_t)dim]);
-                assert_true(b.xs[j] >= 0 && b.xs[j] < 1);
-                assert_near(u - floor(u + 0.5), 0, 1e-12);
-            }
-        }
-        koksma_points_fini(&a);
-        koksma_points_fini(&b);
-    }
-}
-
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
@@ -265,8 +233,6 @@ static void wrong_arguments_are_refused(void **state)
             continue;
         }
         snprintf(text, sizeof text, "%s:nosuch=1", p->name);
-        assert_int_equal(koksma_pattern_spec(text, &spec), KOKSMA_ARGUMENT);
-        snprintf(text, sizeof text, "%s:shift=2", p->name);
         assert_int_equal(koksma_pattern_spec(text, &spec), KOKSMA_ARGUMENT);
         assert_ok(koksma_pattern_spec(p->name, &spec));
         const int outside[] = {p->min_dim - 1, p->max_dim + 1};
@@ -315,8 +281,9 @@ static void aliases_are_their_patterns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(patterns_keep_their_claims),   cmocka_unit_test(large_sets_are_equal_on_any_threads),
-        cmocka_unit_test(shift_moves_all_points_alike), cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(patterns_keep_their_claims),
+        cmocka_unit_test(large_sets_are_equal_on_any_threads),
+        cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(aliases_are_their_patterns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

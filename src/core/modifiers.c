@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Modifiers: maps of the cube to itself that any pattern takes after its own parameters. Each is one line of the table
+ * below, with what it keeps; tests/core/test_modifiers.c tests every entry for every pattern.
+ *
+ *     shift          x + u modulo 1, u uniform in [0,1)^dim                         (Cranley & Patterson 1976)
+ *     phase=K        the same with the u that shift has for seed K, whatever the seed
+ *     digital-shift  the binary digits of x_k, xor those of u_k                     (L'Ecuyer & Lemieux 2002)
+ *     owen           digit m of x_k is flipped by a random bit of its own for each value of the digits before it:
+ *                    nested uniform scrambling in base 2                            (Owen 1995)
+ *     axes           x_k becomes x_p(k), p a random permutation
+ *     mirror         x_k becomes 1 - 2^-53 - x_k or stays, with probability 1/2 each
+ *
+ * Digits are the first 53. A random bit of owen is found by its node of the tree of digits: one call of the generator has
+ * the 127 bits of seven levels below a node. The mirror image flips all 53 digits: half-open strata go to half-open ones.
+ */
+#include "core/modifiers.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/random.h"
+
+enum { DIGITS = 53, LEVELS = 7 };
+
+#define ON_TORUS                                                                                                     \
+    (KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |                \
+     KOKSMA_CLAIM_FRACTION | KOKSMA_CLAIM_MAXIMAL | KOKSMA_CLAIM_LATTICE | KOKSMA_CLAIM_BLUE)
+#define OF_DIGITS                                                                                                    \
+    (KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |                \
+     KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES)
+#define OF_CELLS (KOKSMA_CLAIM_LATIN | KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_OA2 | KOKSMA_CLAIM_OA3)
+#define OF_CUBE (ON_TORUS | OF_DIGITS | OF_CELLS | KOKSMA_CLAIM_MIN_DISTANCE | KOKSMA_CLAIM_NET_PREFIXES)
+
+#define TORUS_MEASURES "l2-periodic l2-wraparound diaphony min-distance relative-radius disk l2-disk"
+#define MIRROR_MEASURES                                                                                              \
+    TORUS_MEASURES " l2-extreme l2-centered l2-mixture l2-symmetric extreme edge l2-edge "                           \
+                   "t-value"
+
+static uint64_t digits_of(double x)
+{
+    return (uint64_t)(x * 0x1p53);
+}
+
+static void scramble(uint64_t seed, koksma_points *points)
+{
+    const size_t dim = (size_t)points->dim;
+    for (size_t c = 0; c < points->n * dim; c++) {
+        const uint64_t x = digits_of(points->xs[c]);
+        uint64_t flips = 0;
+        for (int top = 0; top < DIGITS; top += LEVELS) {
+            const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_NESTED,
+                                                   (uint64_t)1 << top | x >> (DIGITS - top), (uint32_t)(c % dim));
+            for (int level = top; level < DIGITS && level < top + LEVELS; level++) {
+                const uint64_t one = (uint64_t)1 << (level - top), node = one | (x >> (DIGITS - level) & (one - 1));
+                flips = flips << 1 | (r.w[node / 32] >> node % 32 & 1);
+            }
+        }
+        points->xs[c] = (double)(x ^ flips) * 0x1p-53;
+    }
+}
+
+static void flip_digits(uint64_t seed, koksma_points *points)
+{
+    for (int k = 0; k < points->dim; k++) {
+        const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_DIGITS, 0, (uint32_t)k);
+        const uint64_t u = digits_of(koksma__unit(r.w[0], r.w[1]));
+        for (size_t i = 0; i < points->n; i++) {
+            double *x = points->xs + i * (size_t)points->dim + k;
+            *x = (double)(digits_of(*x) ^ u) * 0x1p-53;
+        }
+    }
+}
+
+static void permute_axes(uint64_t seed, koksma_points *points)
+{
+    uint32_t order[KOKSMA_MAX_DIM];
+    double row[KOKSMA_MAX_DIM];
+    const size_t dim = (size_t)points->dim;
+    koksma__random_permutation(koksma__random_seed(seed, 0, KOKSMA__PURPOSE_AXES), 0, (uint32_t)dim, order);
+    for (size_t i = 0; i < points->n; i++) {
+        double *x = points->xs + i * dim;
+        memcpy(row, x, dim * sizeof *row);
+        for (size_t k = 0; k < dim; k++) {
+            x[k] = row[order[k]];
+        }
+    }
+}
+
+static void mirror(uint64_t seed, koksma_points *points)
+{
+    for (int k = 0; k < points->dim; k++) {
+        const bool turned = koksma__random(seed, KOKSMA__PURPOSE_MIRROR, 0, (uint32_t)k).w[0] & 1;
+        for (size_t i = 0; turned && i < points->n; i++) {
+            double *x = points->xs + i * (size_t)points->dim + k;
+            *x = (double)(((uint64_t)1 << DIGITS) - 1 - digits_of(*x)) * 0x1p-53;
+        }
+    }
+}
+
+/* x + u on the torus; never 1. */
+static void shift(uint64_t seed, koksma_points *points)
+{
+    double u[KOKSMA_MAX_DIM + 1];
+    for (int k = 0; k < points->dim; k += 2) {
+        koksma__random_pair(seed, KOKSMA__PURPOSE_SHIFT, 0, (uint32_t)k, u + k);
+    }
+    double *x = points->xs;
+    for (size_t i = 0; i < points->n; i++) {
+        for (int k = 0; k < points->dim; k++, x++) {
+            *x += u[k];
+            *x -= *x >= 1;
+        }
+    }
+}
+
+static const struct {
+    koksma_modifier modifier;
+    void (*apply)(uint64_t seed, koksma_points *points);
+} rows[] = {
+    {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, true, OF_DIGITS, OF_CELLS,
+      KOKSMA_CLAIM_UNBIASED, "t-value",
+      "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
+     scramble},
+    {{"digital-shift", "xor of the binary digits with those of one random point (1), or none (0)", "lecuyer2002", 1,
+      true, OF_DIGITS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
+      "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
+     flip_digits},
+    {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, true, OF_CUBE, 0, 0, "*",
+      "every measure, and all strata that do not single out a coordinate"},
+     permute_axes},
+    {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, true, OF_CUBE, 0, 0,
+      MIRROR_MEASURES,
+      "strata, distances, and measures that do not single out the corner 0: not star, l2-star and l2-modified"},
+     mirror},
+    {{"phase", "shifted on the torus by the vector that shift has for this seed (1 or more), or not (0)",
+      "cranley1976", UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
+      "distances and measures on the torus (l2-periodic, diaphony, disk), lattices; the same for every seed"},
+     shift},
+    {{"shift", "shifted on the torus by one random vector (1), or not (0)", "cranley1976", 1, true, ON_TORUS, 0,
+      KOKSMA_CLAIM_UNBIASED, TORUS_MEASURES,
+      "distances and measures on the torus (l2-periodic, diaphony, disk), lattices"},
+     shift},
+};
+
+enum { COUNT = sizeof rows / sizeof *rows };
+
+_Static_assert((int)COUNT <= (int)KOKSMA_MAX_MODIFIERS, "koksma_spec has room for all of them");
+
+const koksma_modifier *koksma_modifier_at(size_t i)
+{
+    return i < COUNT ? &rows[i].modifier : NULL;
+}
+
+void koksma__modify(const double *values, uint64_t seed, koksma_points *points)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        if (values[i] > 0) {
+            rows[i].apply(rows[i].modifier.random ? seed : (uint64_t)values[i], points);
+        }
+    }
+}
+
+bool koksma__modifiers_are_random(const double *values)
+{
+    bool random = false;
+    for (size_t i = 0; i < COUNT; i++) {
+        random = random || (values[i] > 0 && rows[i].modifier.random);
+    }
+    return random;
+}
+
+bool koksma__modifiers_of_digits(const double *values)
+{
+    bool digits = false;
+    for (size_t i = 0; i < COUNT; i++) {
+        digits = digits || (values[i] > 0 && rows[i].modifier.claims_binary);
+    }
+    return digits;
+}
+
+unsigned koksma__claims_left(const koksma_spec *spec, size_t n)
+{
+    unsigned claims = spec->pattern->claims;
+    for (size_t i = 0; i < COUNT; i++) {
+        if (spec->modifiers[i] > 0) {
+            claims &= rows[i].modifier.claims | (n & (n - 1) ? 0 : rows[i].modifier.claims_binary);
+            claims |= rows[i].modifier.gives;
+        }
+    }
+    return claims;
+}
+
+void koksma__all_params_init(koksma__all_params *all, const koksma_param *own)
+{
+    *all = (koksma__all_params){.own = 0};
+    for (; own && own[all->own].name; all->own++) {
+        all->params[all->own] = own[all->own];
+    }
+    for (size_t i = 0; i < COUNT; i++) {
+        all->params[all->own + i] =
+            (koksma_param){rows[i].modifier.name, rows[i].modifier.title, 0, 0, rows[i].modifier.max, NULL, true};
+    }
+}
+
+const char *koksma__modifiers_of_path(const char *text)
+{
+    const char *end = text + strlen(text);
+    for (const char *at = end; at > text; at--) {
+        const char *key = at + 1;
+        bool found = false;
+        for (size_t i = 0; *at == ',' && i < COUNT && key + strcspn(key, "./") >= end; i++) {
+            const size_t length = strlen(rows[i].modifier.name);
+            found = found || (!strncmp(key, rows[i].modifier.name, length) && key[length] == '=');
+        }
+        if (*at == ',' && !found) {
+            break;
+        }
+        end = found ? at : end;
+    }
+    return end;
+}

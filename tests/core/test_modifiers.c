@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Walks the table of modifiers: each behind every pattern keeps the claims and the values of measures that its line says
+   it keeps, and no other measure's; and each is the map of its definition. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "claims/claims.h"
+#include "core/modifiers.h"
+#include "core/random.h"
+#include "test.h"
+
+static const struct {
+    unsigned claim;
+    claim_check *check;
+} claims[] = {
+#define KOKSMA_CLAIM(id, bit, name, meaning) {KOKSMA_CLAIM_##id, claim_##id},
+#include <koksma/claims.def>
+#undef KOKSMA_CLAIM
+};
+
+static const size_t counts[] = {4, 8, 9, 16, 27};
+enum { N_COUNTS = sizeof counts / sizeof *counts };
+
+static const koksma_modifier *modifier(const char *name, size_t *at)
+{
+    for (size_t i = 0; koksma_modifier_at(i); i++) {
+        if (!strcmp(koksma_modifier_at(i)->name, name)) {
+            *at = i;
+            return koksma_modifier_at(i);
+        }
+    }
+    fail_msg("no modifier %s", name);
+    return NULL;
+}
+
+/* Pattern i in 2D or, if it has none there, the nearest; false: it makes no n points, or reads a file. */
+static bool make(size_t i, size_t n, uint64_t seed, koksma_spec *spec, koksma_points *points)
+{
+    const koksma_pattern *p = koksma_pattern_at(i);
+    if (p->takes_path || p->alias_of) {
+        return false;
+    }
+    assert_ok(koksma_pattern_spec(!strcmp(p->name, "mask-offset") ? "mask-offset:width=8" : p->name, spec));
+    assert_ok(koksma_points_init(points, n, p->min_dim > 2 ? p->min_dim : p->max_dim < 2 ? p->max_dim : 2));
+    const bool made = !koksma_generate(spec, seed, NULL, points);
+    if (!made) {
+        koksma_points_fini(points);
+    }
+    return made;
+}
+
+static void check_claims(const koksma_modifier *m, size_t at, koksma_spec spec, size_t n, int dim)
+{
+    koksma_points points;
+    spec.modifiers[at] = 1;
+    const unsigned left = koksma__claims_left(&spec, n);
+    const bool power = !(n & (n - 1));
+    assert_int_equal(left, (spec.pattern->claims & (m->claims | (power ? m->claims_binary : 0))) | m->gives);
+    assert_ok(koksma_points_init(&points, n, dim));
+    assert_ok(koksma_generate(&spec, 3, NULL, &points));
+    for (size_t c = 0; c < n * (size_t)dim; c++) {
+        if (!(points.xs[c] >= 0 && points.xs[c] < 1)) {
+            fail_claim(&spec, &points, "coordinate %.17g", points.xs[c]);
+        }
+    }
+    for (size_t c = 0; c < sizeof claims / sizeof *claims; c++) {
+        if (left & claims[c].claim) {
+            claims[c].check(&spec, &points, 3);
+        }
+    }
+    if (left & KOKSMA_CLAIM_UNBIASED && n == 16) {
+        claim_UNBIASED(&spec, &points, 0); /* seed 0 alone is looked at */
+    }
+    koksma_points_fini(&points);
+}
+
+static void claims_are_kept(void **state)
+{
+    (void)state;
+    const koksma_modifier *m;
+    for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
+        size_t looked_at = 0;
+        for (size_t i = 0; koksma_pattern_at(i); i++) {
+            for (size_t c = 0; c < N_COUNTS; c++) {
+                koksma_spec spec;
+                koksma_points points;
+                if (make(i, counts[c], 3, &spec, &points)) {
+                    check_claims(m, at, spec, counts[c], points.dim);
+                    looked_at++;
+                    koksma_points_fini(&points);
+                }
+            }
+        }
+        assert_true(looked_at > 60);
+    }
+}
+
+static bool keeps(const koksma_modifier *m, const char *measure)
+{
+    const size_t length = strlen(measure);
+    for (const char *at = m->measures; (at = strstr(at, measure)); at += length) {
+        if ((at == m->measures || at[-1] == ' ') && (at[length] == ' ' || !at[length])) {
+            return true;
+        }
+    }
+    return !strcmp(m->measures, "*");
+}
+
+enum { MEASURES = 64 };
+
+/* The exact measures of one pattern's 16 points with and without a modifier: kept where the table says so. */
+static void compare_measures(const koksma_modifier *m, koksma_spec *spec, const koksma_points *a,
+                             const koksma_points *b, bool changed[MEASURES])
+{
+    const koksma_measure *measure;
+    for (size_t j = 0; (measure = koksma_measure_at(j)); j++) {
+        koksma_spec what;
+        koksma_value before, after;
+        assert_true(j < MEASURES);
+        assert_ok(koksma_measure_spec(measure->name, &what));
+        if (measure->answer != KOKSMA_ANSWER_EXACT || koksma_evaluate(&what, a, NULL, &before)) {
+            continue;
+        }
+        assert_ok(koksma_evaluate(&what, b, NULL, &after));
+        const bool equal = fabs(after.value - before.value) <= 1e-9 * fmax(1, fabs(before.value)) ||
+                           (isinf(before.value) && isinf(after.value));
+        if (!equal && keeps(m, measure->name)) {
+            fail_claim(spec, b, "%s: %.17g, without it %.17g", measure->name, after.value, before.value);
+        }
+        changed[j] = changed[j] || !equal;
+    }
+}
+
+/* Where the table does not say that a value is kept, some pattern's changes: the lists are complete. */
+static void measures_are_kept(void **state)
+{
+    (void)state;
+    const koksma_modifier *m;
+    const koksma_measure *measure;
+    for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
+        bool changed[MEASURES] = {false};
+        for (size_t i = 0; koksma_pattern_at(i); i++) {
+            koksma_spec spec;
+            koksma_points a, b;
+            if (make(i, 16, 5, &spec, &a)) {
+                spec.modifiers[at] = m->max;
+                assert_ok(koksma_points_init(&b, 16, a.dim));
+                assert_ok(koksma_generate(&spec, 5, NULL, &b));
+                compare_measures(m, &spec, &a, &b, changed);
+                koksma_points_fini(&a);
+                koksma_points_fini(&b);
+            }
+        }
+        for (size_t j = 0; (measure = koksma_measure_at(j)); j++) {
+            if (measure->answer == KOKSMA_ANSWER_EXACT && !changed[j] && !keeps(m, measure->name)) {
+                fail_msg("%s changes no value of %s, and does not say so", m->name, measure->name);
+            }
+        }
+    }
+}
+
+/* x and y under a modifier, in one dimension, for a seed. */
+static void pair_under(size_t at, uint64_t seed, double x, double y, double out[2])
+{
+    koksma_points points = {2, 1, out};
+    double values[KOKSMA_MAX_MODIFIERS] = {0};
+    out[0] = x;
+    out[1] = y;
+    values[at] = 1;
+    koksma__modify(values, seed, &points);
+}
+
+/* Owen's definition: images of x and y agree in as many leading digits as x and y do; the first digit at which they
+   differ is flipped in half of the cases, and what follows is independent. A digital shift flips the same in both. */
+static void digits_are_scrambled_by_definition(void **state)
+{
+    (void)state;
+    enum { SEEDS = 4000, TOP = 12 };
+    size_t owen = 0, digital = 0;
+    modifier("owen", &owen);
+    modifier("digital-shift", &digital);
+    for (int common = 0; common < TOP; common++) {
+        const double x = 0x0.5bp0, y = x + (((int)floor(ldexp(x, common + 1)) & 1) ? -1 : 1) * ldexp(1, -common - 1);
+        size_t flipped = 0, agree = 0;
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
+            double u[2], v[2];
+            pair_under(owen, seed, x, y, u);
+            pair_under(digital, seed, x, y, v);
+            const uint64_t a = (uint64_t)(u[0] * 0x1p53), b = (uint64_t)(u[1] * 0x1p53), differ = a ^ b;
+            assert_int_equal(differ >> (53 - common), 0);
+            assert_int_equal(differ >> (52 - common) & 1, 1);
+            flipped += (a >> (52 - common) & 1) != ((uint64_t)(x * 0x1p53) >> (52 - common) & 1);
+            agree += differ >> (51 - common) & 1;
+            assert_int_equal((uint64_t)(v[0] * 0x1p53) ^ (uint64_t)(v[1] * 0x1p53),
+                             (uint64_t)(x * 0x1p53) ^ (uint64_t)(y * 0x1p53));
+        }
+        const double bound = 4.5 * sqrt(SEEDS / 4.0);
+        assert_near((double)flipped, SEEDS / 2.0, bound);
+        assert_near((double)agree, SEEDS / 2.0, bound);
+    }
+}
+
+/* shift adds the same vector to all points; phase=K is shift with seed K. */
+static void shifts_move_all_points_alike(void **state)
+{
+    (void)state;
+    size_t at = 0, phase = 0;
+    modifier("shift", &at);
+    modifier("phase", &phase);
+    for (size_t i = 0; koksma_pattern_at(i); i++) {
+        koksma_spec spec;
+        koksma_points a, b;
+        if (!make(i, 16, 3, &spec, &a)) {
+            continue;
+        }
+        const size_t dim = (size_t)a.dim;
+        assert_ok(koksma_points_init(&b, 16, a.dim));
+        spec.modifiers[at] = 1;
+        assert_ok(koksma_generate(&spec, 3, NULL, &b));
+        for (size_t j = 0; j < 16 * dim; j++) {
+            const double u = b.xs[j] - a.xs[j] - (b.xs[j % dim] - a.xs[j % dim]);
+            assert_near(u - floor(u + 0.5), 0, 1e-12);
+        }
+        spec.modifiers[at] = 0;
+        spec.modifiers[phase] = 3;
+        assert_ok(koksma_generate(&spec, 3, NULL, &a));
+        assert_memory_equal(a.xs, b.xs, 16 * dim * sizeof *a.xs);
+        koksma_points_fini(&a);
+        koksma_points_fini(&b);
+    }
+}
+
+/* Texts: every modifier behind every pattern, none is also a pattern's parameter, and a path ends before them. */
+static void texts_are_read_and_printed(void **state)
+{
+    (void)state;
+    const koksma_modifier *m;
+    const koksma_pattern *p;
+    char text[KOKSMA_MAX_SPEC], wrong[KOKSMA_MAX_SPEC], all[KOKSMA_MAX_SPEC] = "";
+    koksma_spec spec;
+    for (size_t at = 0; (m = koksma_modifier_at(at)); at++) {
+        snprintf(all + strlen(all), sizeof all - strlen(all), ",%s=%.0f", m->name, m->max);
+        for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+            for (int k = 0; p->params && p->params[k].name; k++) {
+                assert_string_not_equal(p->params[k].name, m->name);
+            }
+            snprintf(text, sizeof text, "%s:%s%s=1", p->name, p->takes_path ? "a,b=c/d," : "", m->name);
+            assert_ok(koksma_pattern_spec(text, &spec));
+            assert_true(spec.modifiers[at] > 0);
+            koksma_spec_text(&spec, wrong);
+            assert_string_equal(strchr(wrong, ':'), strchr(text, ':'));
+            static const char *const values[] = {"-1", "x", "1e10", "", "0.5"};
+            for (size_t v = 0; v < sizeof values / sizeof *values - p->takes_path; v++) {
+                snprintf(wrong, sizeof wrong, "%s:%s%s=%s", p->name, p->takes_path ? "a," : "", m->name, values[v]);
+                assert_int_equal(koksma_pattern_spec(wrong, &spec), KOKSMA_ARGUMENT);
+                assert_non_null(strstr(koksma_error_text(), m->name));
+            }
+            koksma_points points;
+            assert_ok(koksma_pattern_spec(text, &spec));
+            assert_ok(koksma_points_init(&points, 4, p->min_dim));
+            spec.modifiers[at] = NAN;
+            assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
+            koksma_points_fini(&points);
+        }
+    }
+    snprintf(text, sizeof text, "file:x,shift=2.txt%s", all);
+    assert_ok(koksma_pattern_spec(text, &spec));
+    assert_string_equal(spec.path, "x,shift=2.txt");
+    koksma_spec_text(&spec, wrong);
+    assert_string_equal(wrong, text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(claims_are_kept),
+        cmocka_unit_test(measures_are_kept),
+        cmocka_unit_test(digits_are_scrambled_by_definition),
+        cmocka_unit_test(shifts_move_all_points_alike),
+        cmocka_unit_test(texts_are_read_and_printed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
