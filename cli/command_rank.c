@@ -34,6 +34,9 @@ typedef struct patterns {
 static int parse_patterns(const cli_arguments *arguments, patterns *p)
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
+    if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
+        return cli_usage_error(arguments, "--with takes --patterns, names of samplers that the command knows");
+    }
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
     while (cli_list_item(list, p->n, item, sizeof item)) {
@@ -43,11 +46,13 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
             return cli_usage_error(arguments, "--patterns: more than %d", MAX_PATTERNS);
         }
         koksma_status status = koksma_pattern_spec("n-rooks", &options.pattern); /* unless the text names another */
-        status = status ? status : koksma_render_patterns(item, &options);
-        if (status) {
+        if (cli_text(arguments, "with", NULL)) {
+            memcpy(text, item, sizeof item);
+        } else if (status || (status = koksma_render_patterns(item, &options))) {
             return cli_fail(arguments, status);
+        } else {
+            koksma_render_patterns_text(&options, text);
         }
-        koksma_render_patterns_text(&options, text);
         if (strlen(text) >= sizeof p->texts[p->n]) {
             return cli_usage_error(arguments, "--patterns %.40s...: longer than %zu characters", text,
                                    sizeof p->texts[p->n] - 1);
@@ -92,8 +97,12 @@ static void put_check(cli_rows *rows, const koksma_rank_options *options, const 
 static void put_ranking(cli_rows *rows, const koksma_rank_options *options, const koksma_ranking *ranking,
                         size_t advised)
 {
-    cli_row_text(rows, "integrator", options->integrator->name);
-    cli_row_text(rows, "filter", options->filter->name);
+    if (options->render) {
+        cli_row_text(rows, "with", options->render_context);
+    } else {
+        cli_row_text(rows, "integrator", options->integrator->name);
+        cli_row_text(rows, "filter", options->filter->name);
+    }
     cli_row_number(rows, "reference_error", ranking->reference_error);
     cli_row_flag(rows, "settled", ranking->settled);
     cli_row_flag(rows, "complete", ranking->complete);
@@ -201,7 +210,13 @@ static int run(const cli_arguments *arguments)
     uint64_t max_trials;
     const koksma_integrator *integrator = koksma_integrator_find("distribution");
     const koksma_filter *filter = koksma_filter_find("box");
-    const char *list = cli_text(arguments, "spp", "4,16,64");
+    const char *list = cli_text(arguments, "spp", "4,16,64"), *command = cli_text(arguments, "with", NULL);
+    if (command && !strcmp(command, "mitsuba")) {
+        command = "python3 -m koksma.mitsuba {scene} {pattern} {spp} {seed} {width} {height} {out}";
+    }
+    if (!command && cli_text(arguments, "reference", NULL)) {
+        return cli_usage_error(arguments, "--reference takes --with: Koksma's own references are jittered");
+    }
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
@@ -235,7 +250,10 @@ static int run(const cli_arguments *arguments)
                                              .filter = filter,
                                              .time_limit_s = left_s / (double)(n_spp - i),
                                              .max_trials = (long long)max_trials,
-                                             .one_size = cli_flag(arguments, "one-size")};
+                                             .one_size = cli_flag(arguments, "one-size"),
+                                             .render = command ? koksma_rank_by_command : NULL,
+                                             .render_context = (void *)command,
+                                             .reference = cli_text(arguments, "reference", NULL)};
         status = rank_at(arguments, &options, &work, rows, &settled);
         all_settled &= settled;
     }
@@ -249,6 +267,8 @@ static const cli_option options[] = {
     {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
     {'p', "patterns", "PATTERN,..|thesis|later", "patterns to rank (default: thesis)"},
     {0, "size", "WxH", "pixels (default: the scene's, halved until at most 19,200)"},
+    {0, "with", "COMMAND|mitsuba", "a shell command that renders, with {scene}, {pattern}, {spp}, {seed}, {out}"},
+    {0, "reference", "PATTERN", "with --with: the sampler of the reference (default: the first)"},
     {0, "one-size", NULL, "do not check the best patterns at half and twice the size"},
     CLI_INTEGRATOR_OPTION,
     CLI_FILTER_OPTION,
@@ -263,7 +283,8 @@ const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
     .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size] "
-                "[--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--json]",
+                "[--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--with COMMAND "
+                "[--reference PATTERN]] [--json]",
     .details =
         "Renders the scene many times with every pattern and ranks the patterns by the mean absolute error of the\n"
         "image. Patterns are compared as they are used, including random shifts.\n"
@@ -290,11 +311,20 @@ const cli_command cli_command_rank = {
         "PATTERN may set patterns of single uses or groups of uses, such as 'random;pixel+time=scan-time'.\n"
         "thesis: the seven patterns of Shirley 1991. later: these and ten newer ones.\n"
         "\n"
+        "--with ranks the samplers of another renderer: COMMAND is run by the shell for every image, with texts in\n"
+        "place of {scene}, {pattern}, {spp}, {seed} (0 to 2^31 - 1), {width}, {height} and {out}, the EXR file to\n"
+        "write; {out.pfm} and {out.png} ask for other formats. SCENE and PATTERN are then any texts. Without --size\n"
+        "images have the renderer's own size, and other sizes are not checked. The reference is the mean of 16\n"
+        "images of 16 times as many samples by the sampler --reference, which must be unbiased and follow the seed.\n"
+        "Only this option runs commands. '--with mitsuba' ranks samplers of Mitsuba 3 and patterns of Koksma in a\n"
+        "scene of Mitsuba, by the Python package; koksma.mitsuba.rank in Python starts Mitsuba once and is faster.\n"
+        "\n"
         "Exit codes: 0 the best pattern is decided for every number of samples; 1 it is undecided for at least "
         "one.\n",
     .examples = "koksma rank ball --spp 16\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
-                "koksma rank cornell --integrator path --time-limit 300\n",
+                "koksma rank cornell --integrator path --time-limit 300\n"
+                "koksma rank scene.xml --with './render.sh {scene} {pattern} {spp} {seed} {out}' -p halton,zsobol\n",
     .options = options,
     .run = run,
 };

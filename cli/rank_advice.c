@@ -263,8 +263,12 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     } else {
         advise_undecided(options, rows, ranking);
     }
-    fprintf(stderr, ".\n  %lld trial%s (%s, %s filter) in ", ranking->trials, ranking->trials == 1 ? "" : "s",
-            options->integrator->name, options->filter->name);
+    fprintf(stderr, ".\n  %lld trial%s (", ranking->trials, ranking->trials == 1 ? "" : "s");
+    if (options->render) {
+        fprintf(stderr, "by the command) in ");
+    } else {
+        fprintf(stderr, "%s, %s filter) in ", options->integrator->name, options->filter->name);
+    }
     print_seconds(ranking->seconds);
     if (isfinite(ranking->reference_error)) {
         fprintf(stderr, "; the reference's own error is %.1g", ranking->reference_error);
@@ -273,7 +277,7 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
             ranking->complete    ? ""
             : ranking->cut_short ? "; the time was up before every pair was decided"
                                  : "; the trials were too few to decide every pair");
-    if (ranking->settled && ranking->n > 1 && !options->one_size) {
+    if (ranking->settled && ranking->n > 1 && !options->one_size && (!options->render || options->width)) {
         advise_sizes(options, rows, ranking);
     }
 }

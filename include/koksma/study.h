@@ -221,6 +221,28 @@ KOKSMA_API koksma_status koksma_study_images(const char *places, const char *ref
 
 enum { KOKSMA_MAX_RANK_TRIALS = 65536, KOKSMA_RANK_CHECKS = 2, KOKSMA_RANK_REASON = 256 };
 
+/* A picture that a ranking asks of another renderer. */
+typedef struct koksma_rank_picture {
+    const char *scene, *pattern; /* as in the options: what they mean is the renderer's affair */
+    int spp;
+    int width, height; /* 0: the renderer's own */
+    uint64_t seed;     /* 0 to 2^31 - 1. Pictures of different seeds are independent; of equal seeds they are equal */
+} koksma_rank_picture;
+
+/* Another renderer: allocates *image with linear light. May be called by run->threads threads at once. A failure with
+   MEMORY, IO, SYSTEM or INTERRUPTED ends the ranking, any other one takes the pattern out of it. */
+typedef koksma_status (*koksma_rank_renderer)(void *context, const koksma_rank_picture *picture,
+                                              const koksma_run *run, koksma_image *image);
+
+/* Renders by a command line, the context: a text that /bin/sh runs for every picture, after putting quoted texts for
+   {scene}, {pattern}, {spp}, {seed}, {width}, {height} and {out}, the name of the file to write, which ends in .exr;
+   {out.pfm} and {out.png} are names with other endings. It runs in the current folder; files lie in a folder of their
+   own below $TMPDIR or /tmp, which is removed. It is stopped by a signal to its process group.
+   Errors: ARGUMENT (unknown words in {}, no {out}), IMPOSSIBLE (it fails, or writes no readable picture; with the last
+   line that it printed), SYSTEM, INTERRUPTED. */
+KOKSMA_API koksma_status koksma_rank_by_command(void *context, const koksma_rank_picture *picture,
+                                                const koksma_run *run, koksma_image *image);
+
 /* What to rank. */
 typedef struct koksma_rank_options {
     const char *scene;           /* as for koksma_scene_open */
@@ -230,9 +252,15 @@ typedef struct koksma_rank_options {
     int width, height;                   /* of the image; 0: the scene's, halved until it has at most 19,200 pixels */
     const koksma_integrator *integrator; /* NULL: distribution */
     const koksma_filter *filter;         /* NULL: box */
-    double time_limit_s;  /* seconds; 0: none. It ends the sequence of work early and changes nothing else */
-    long long max_trials; /* for each pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
-    bool one_size;        /* leave out the checks at half and twice the size */
+    double time_limit_s;         /* seconds; 0: none. It ends the sequence of work early and changes nothing else */
+    long long max_trials;        /* for each pattern, 8 to KOKSMA_MAX_RANK_TRIALS; 0: 4096 */
+    bool one_size;               /* leave out the checks at half and twice the size */
+    koksma_rank_renderer render; /* makes all pictures; NULL: this library. With it scenes and patterns are any texts,
+                                    integrator and filter are not used, and width 0 is the size of a first picture,
+                                    without checks at other sizes */
+    void *render_context;
+    const char *reference; /* with `render`: the pattern of the reference, whose pictures have the true mean and
+                              depend on their seed; NULL: the first pattern */
 } koksma_rank_options;
 
 /* Whether a pattern was ranked. */

@@ -22,7 +22,7 @@ from ._optimise import Optimum, optimise
 from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, measure, measures, modifiers, patterns,
                       read, verify, write)
 from ._plot import Picture, plot, plot_convergence
-from ._rank import Ranked, Ranking, SizeCheck, rank
+from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
@@ -30,7 +30,7 @@ from ._study import Cost, Study, Summary, TableRow, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
+    "ArgumentError", "Asked", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
     "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
     "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "canonical", "compare",
     "convergence", "generate", "measure", "measures", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot",

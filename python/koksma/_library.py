@@ -159,6 +159,7 @@ def lab() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_plot_colours", POINTER(c_char_p), c_size_t, POINTER(c_size_t))
     _declare(library, c_int, "koksma_plot_format_of", c_char_p, POINTER(c_int))
     _declare(library, c_int, "koksma_plot_write", c_char_p, c_char_p, c_size_t)
+    _declare(library, c_int, "koksma_image_init", image, c_int, c_int, c_int)
     _declare(library, None, "koksma_image_fini", image)
     _declare(library, c_int, "koksma_image_read", c_char_p, image)
     _declare(library, c_int, "koksma_image_write", c_char_p, image, c_char_p)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from ctypes import byref, c_char_p
+from ctypes import byref, c_char_p, memmove
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, SupportsIndex, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, SupportsIndex, Tuple, Union
+
+import numpy.typing as npt
 
 from . import _structs as s
+from ._compare import _as_image
 from ._library import ArgumentError, call, lab, text, whole
 from ._points import canonical
 from ._render import _found
@@ -85,19 +88,68 @@ class Ranking:
         return self.rows[0].pattern if self.settled else None
 
 
+@dataclass(frozen=True)
+class Asked:
+    """A picture that a ranking asks of another renderer."""
+    scene: str
+    pattern: str
+    spp: int
+    size: Optional[Tuple[int, int]]  #: width, height; None: the renderer's own
+    seed: int  #: 0 to 2**31 - 1; pictures of different seeds are independent, those of equal seeds are equal
+
+
+class _Renderer:
+    """Another renderer as the library calls it. No exception passes through C: a ValueError takes its pattern out of the
+    ranking, any other exception ends it."""
+
+    _ARGUMENT, _SYSTEM = 1, 10  # KOKSMA_ARGUMENT, KOKSMA_SYSTEM
+
+    def __init__(self, renderer: Callable[[Asked], npt.ArrayLike]) -> None:
+        self.renderer, self.raised, self.reasons = renderer, [], {}  # type: Any, List[BaseException], Dict[str, str]
+        self.callback = s.RankRenderer(self._render)
+
+    def _render(self, _context: Any, picture: Any, _run: Any, image: Any) -> int:
+        p = picture.contents
+        asked = Asked(os.fsdecode(p.scene), os.fsdecode(p.pattern), p.spp, (p.width, p.height) if p.width else None, p.seed)
+        try:
+            pixels = _as_image(self.renderer(asked))
+            height, width, channels = pixels.shape
+            status = lab().koksma_image_init(image, width, height, channels)
+            if status == 0:
+                memmove(image.contents.pixels, pixels.ctypes.data, pixels.nbytes)
+            return int(status)
+        except ValueError as error:
+            self.reasons.setdefault(asked.pattern, str(error))
+            return self._ARGUMENT
+        except BaseException as error:  # noqa: BLE001
+            self.raised.append(error)
+            return self._SYSTEM
+
+
 def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS, spp: SupportsIndex = 16, *,
          size: Optional[Tuple[SupportsIndex, SupportsIndex]] = None, integrator: Optional[str] = None,
          filter: Optional[str] = None, time_limit: Optional[float] = 60, max_trials: SupportsIndex = 4096,
-         one_size: bool = False, threads: SupportsIndex = 0) -> Ranking:
+         one_size: bool = False, threads: SupportsIndex = 0, renderer: Optional[Callable[[Asked], npt.ArrayLike]] = None,
+         reference: Optional[str] = None) -> Ranking:
     """Ranks patterns by the mean absolute error of the pictures that they make of a scene, as `koksma rank` does.
 
     size: (width, height); without it the scene's own, halved until it has 19,200 pixels at most. time_limit: seconds, None
     for none; it cuts the work short and changes nothing else, so that a longer one names the same best pattern, or one
     where there was none. one_size: leave out the checks at half and twice the size.
+
+    renderer: another renderer, a function of an Asked that returns linear light as koksma.compare takes it. Scene and
+    patterns are then any texts that it knows, and it is called on one thread unless `threads` says more. Without size,
+    the pictures' own is taken, and other sizes are not checked. reference: with renderer, the pattern of the reference
+    (the first one when left out): the mean of 16 pictures of 16 times as many samples a pixel, which must depend on the
+    seed. A ValueError of the renderer leaves its pattern out of the ranking, another exception ends it.
+    koksma.mitsuba.renderer() is one of Mitsuba 3.
     """
+    if renderer is None and reference is not None:
+        raise ArgumentError("reference takes renderer: Koksma's own references are jittered")
     if time_limit is not None and not time_limit > 0:
         raise ArgumentError(f"time_limit {time_limit}: it takes seconds, more than 0")
-    names = [canonical(pattern) for pattern in patterns]
+    other = _Renderer(renderer) if renderer is not None else None
+    names = [canonical(pattern) if other is None else pattern for pattern in patterns]
     if not names or len(set(names)) < len(names):
         raise ArgumentError("patterns: it takes one or more, each once")
     array = (c_char_p * len(names))(*[text(name) for name in names])
@@ -111,12 +163,22 @@ def rank(scene: Union[str, "os.PathLike[str]"], patterns: Sequence[str] = THESIS
         width, height = size
         options.width = whole("width", width, 1, s.MAX_IMAGE_SIDE)
         options.height = whole("height", height, 1, s.MAX_IMAGE_SIDE)
+    if other is not None:
+        options.render, threads = other.callback, threads or 1
+        options.reference = None if reference is None else text(reference)
     rows, out = (s.RankRow * len(names))(), s.Ranking()
-    call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
+    try:
+        call(lab().koksma_rank_patterns, byref(options), rows, byref(out), threads=threads, run_at=1)
+    except Exception:
+        if other is not None and other.raised:
+            raise other.raised[0] from None
+        raise
+    reasons = {} if other is None else other.reasons
     undecided = not out.settled
     return Ranking(
         rows=[Ranked(names[r.pattern], r.position or None, _STATES[r.state], _DECISIONS[r.decision], r.trials, r.mean,
-                     (r.low, r.high), r.behind, (r.behind_low, r.behind_high), r.reason.decode(errors="replace"),
+                     (r.low, r.high), r.behind, (r.behind_low, r.behind_high),
+                     reasons.get(names[r.pattern], r.reason.decode(errors="replace")),
                      r.coherence.coherence, (r.coherence.low, r.coherence.high), r.coherence.noise_high,
                      r.coherence.p, r.coherence.coherent)
               for r in rows],

@@ -177,10 +177,19 @@ class RenderOptions(Structure):
                 ("depth", c_int), ("filter", c_void_p), ("splat", c_bool)]
 
 
+class RankPicture(Structure):
+    _fields_ = [("scene", c_char_p), ("pattern", c_char_p), ("spp", c_int), ("width", c_int), ("height", c_int),
+                ("seed", c_uint64)]
+
+
+RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), POINTER(Image))
+
+
 class RankOptions(Structure):
     _fields_ = [("scene", c_char_p), ("patterns", POINTER(c_char_p)), ("n_patterns", c_size_t), ("spp", c_int),
                 ("width", c_int), ("height", c_int), ("integrator", c_void_p), ("filter", c_void_p),
-                ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool)]
+                ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool), ("render", RankRenderer),
+                ("render_context", c_void_p), ("reference", c_char_p)]
 
 
 class RankRow(Structure):

@@ -322,6 +322,13 @@ static void *a_sequence(void)
     return a_copy(&sequence, sizeof sequence);
 }
 
+static koksma_rank_picture *a_rank_picture(void)
+{
+    koksma_rank_picture *picture = a_zero(sizeof *picture);
+    *picture = (koksma_rank_picture){.scene = "ball", .pattern = "jittered", .spp = 4, .width = 1, .height = 1};
+    return picture;
+}
+
 static void *rank_options(void)
 {
     const char *const patterns[] = {"random", "jittered"};

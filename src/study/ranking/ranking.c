@@ -16,8 +16,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/clock.h"
+#include "core/hash.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "study/ranking/ranking_contest.h"
@@ -340,6 +342,12 @@ static koksma_status nobody_can_serve(const koksma__contest *c)
     return koksma__fail(KOKSMA_ARGUMENT, "no pattern can serve: %s", c->contestants[c->n - 1].reason);
 }
 
+/* Another renderer that was not given a size may have one only. */
+static bool check_sizes(const koksma_rank_options *options)
+{
+    return !options->one_size && (!options->render || options->width);
+}
+
 static koksma_status do_sequence(ranking *r, koksma_ranking *out)
 {
     koksma__contest *c = &r->contest;
@@ -348,7 +356,7 @@ static koksma_status do_sequence(ranking *r, koksma_ranking *out)
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_LEADER);
     status = status ? status : koksma__contest_run(c, KOKSMA__RANK_FIND_ADVISED);
     status = status ? status : nobody_can_serve(c);
-    for (int i = 0; !status && !r->options->one_size && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
+    for (int i = 0; !status && check_sizes(r->options) && checked(c) != NOBODY && i < KOKSMA_RANK_CHECKS; i++) {
         status = check_size(r, &out->checks[i]);
     }
     return status ? status : koksma__contest_run(c, KOKSMA__RANK_ORDER_ALL);
@@ -380,8 +388,8 @@ static koksma_status rank_scene(ranking *r, koksma_rank_row *rows, koksma_rankin
     return status;
 }
 
-/* The sizes are part of the question: of the contest and the checks. */
-static void set_sizes(const koksma_rank_options *options, koksma__study_scene *scene, koksma_ranking *out)
+/* The size of this library's pictures. */
+static void choose_size(const koksma_rank_options *options, koksma__study_scene *scene)
 {
     koksma_render_options defaults;
     koksma_render_options_init(&defaults, scene->scene);
@@ -391,6 +399,47 @@ static void set_sizes(const koksma_rank_options *options, koksma__study_scene *s
         scene->width = (scene->width + 1) / 2;
         scene->height = (scene->height + 1) / 2;
     }
+}
+
+/* The size of another renderer's pictures. */
+static koksma_status ask_size(const koksma_rank_options *options, koksma__run_control *control,
+                              koksma__study_scene *scene)
+{
+    const koksma__picture picture = {.pattern = options->patterns[0], .spp = 1};
+    koksma_image image;
+    scene->width = options->width;
+    scene->height = options->height;
+    const koksma_status status =
+        options->width ? KOKSMA_OK : koksma__study_render(scene, &picture, &control->run, &image);
+    if (!status && !options->width) {
+        scene->width = image.width;
+        scene->height = image.height;
+        koksma_image_fini(&image);
+    }
+    return status == KOKSMA_INTERRUPTED && koksma__run_control_time_is_up(control)
+               ? koksma__fail(KOKSMA_ARGUMENT, "one picture with 1 sample a pixel takes longer than the time limit")
+               : status;
+}
+
+static koksma_status open_scene(const koksma_rank_options *options, koksma__run_control *control,
+                                koksma__study_scene *scene)
+{
+    if (options->render) {
+        const uint64_t hash = koksma__hash(scene->name, strlen(scene->name));
+        snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)hash);
+        return ask_size(options, control, scene);
+    }
+    const koksma_status status = koksma_scene_open(options->scene, &scene->scene);
+    if (!status) {
+        snprintf(scene->hash, sizeof scene->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene->scene));
+        choose_size(options, scene);
+    }
+    return status;
+}
+
+/* The sizes are part of the question: of the contest and the checks. */
+static void set_sizes(const koksma__study_scene *scene, koksma_ranking *out)
+{
     out->width = scene->width;
     out->height = scene->height;
     out->checks[0] = (koksma_rank_check){.width = scene->width / 2, .height = scene->height / 2};
@@ -429,17 +478,19 @@ koksma_status koksma_rank_patterns(const koksma_rank_options *options, const kok
     KOKSMA__REQUIRE(options->scene, options->patterns);
     KOKSMA__REQUIRE_RUN(run);
     KOKSMA__TRY(check(options));
-    ranking r = {.options = options, .scene = {.name = options->scene}, .start_s = koksma__now_s()};
+    ranking r = {
+        .options = options,
+        .scene = {.name = options->scene, .render = options->render, .render_context = options->render_context},
+        .start_s = koksma__now_s()};
     koksma__run_control_begin(run, options->time_limit_s, &r.control);
     *out = (koksma_ranking){.reference_error = NAN};
     koksma__variant_text(options->integrator, options->filter, r.variant);
-    koksma_status status = koksma_scene_open(options->scene, &r.scene.scene);
+    koksma_status status = open_scene(options, &r.control, &r.scene);
     if (!status) {
-        set_sizes(options, &r.scene, out);
-        snprintf(r.scene.hash, sizeof r.scene.hash, "%016llx", (unsigned long long)koksma_scene_hash(r.scene.scene));
+        set_sizes(&r.scene, out);
         status = rank_scene(&r, rows, out);
-        koksma_scene_close(r.scene.scene);
     }
+    koksma_scene_close(r.scene.scene);
     out->seconds = koksma__now_s() - r.start_s;
     if (status) {
         *out = (koksma_ranking){0};

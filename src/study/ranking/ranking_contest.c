@@ -305,13 +305,19 @@ static void set_share(koksma__contest *c, double part)
             : 0;
 }
 
+static const char *reference_pattern(const koksma_rank_options *options)
+{
+    return !options->render ? "jittered" : options->reference ? options->reference : options->patterns[0];
+}
+
 koksma_status koksma__contest_run(koksma__contest *c, koksma__rank_goal goal)
 {
     koksma_status status = KOKSMA_OK;
     size_t *active = malloc(c->n * sizeof *active), n_active;
     KOKSMA__REQUIRE_MEMORY(active, c->n * sizeof *active);
     if (!c->reference.pixels) {
-        status = koksma__rank_reference_init(&c->reference, &c->scene, c->variant, c->options->spp, &c->control->run);
+        status = koksma__rank_reference_init(&c->reference, &c->scene, reference_pattern(c->options), c->variant,
+                                             c->options->spp, &c->control->run);
         set_share(c, 1);
     }
     while (!status && !koksma__rank_reached(&c->table, goal)) {
@@ -336,8 +342,10 @@ koksma_status koksma__contest_try_patterns(koksma__contest *c)
         timed work = {.contest = c, .contestant = &c->contestants[i], .start_s = koksma__now_s()};
         const koksma_run run = run_in_share(&work);
         char text[KOKSMA_MAX_SPEC];
-        status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
-        if (!status) {
+        if (!c->options->render) {
+            status = koksma__image_pattern_text(c->options->patterns[work.contestant->pattern], text);
+        }
+        if (!status && !c->options->render) {
             status = take_out(&work, 0, koksma__image_pattern_try(text, (size_t)c->options->spp, &run));
         }
         c->table.entrants[i].out = atomic_load(&work.contestant->refused);

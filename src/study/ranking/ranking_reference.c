@@ -54,7 +54,7 @@ static void finish(koksma__rank_reference *reference, const double *squares)
 }
 
 koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma__study_scene *scene,
-                                          const char *variant, int spp, const koksma_run *run)
+                                          const char *pattern, const char *variant, int spp, const koksma_run *run)
 {
     const size_t pixels = (size_t)scene->width * (size_t)scene->height;
     double *squares = calloc(pixels, sizeof *squares);
@@ -66,7 +66,7 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
                                : koksma__fail_memory(pixels * (REPLICATES + 2) * sizeof *squares);
     while (!status && reference->made < REPLICATES) {
         koksma_image image;
-        const koksma__picture picture = {.pattern = "jittered",
+        const koksma__picture picture = {.pattern = pattern,
                                          .variant = variant,
                                          .spp = koksma__rank_reference_spp(spp),
                                          .width = scene->width,
@@ -85,6 +85,12 @@ koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, con
     }
     if (!status) {
         finish(reference, squares);
+        status = scene->render && reference->error == 0
+                     ? koksma__fail(KOKSMA_IMPOSSIBLE,
+                                    "%s: pictures by %s are equal for all seeds: a reference takes a pattern that "
+                                    "depends on the seed",
+                                    scene->name, pattern)
+                     : KOKSMA_OK;
     }
     free(squares);
     return status;

@@ -22,9 +22,10 @@ typedef struct koksma__rank_reference {
 long long koksma__rank_reference_spp(int spp);
 
 /* Renders the replicates; the scene's width and height are those of the picture. Errors: those of rendering,
-   IMPOSSIBLE (a pixel is not a finite number), MEMORY, INTERRUPTED. fini takes zeros and what a failed init left. */
+   IMPOSSIBLE (a pixel is not a finite number; another renderer makes equal pictures for all seeds), MEMORY,
+   INTERRUPTED. fini takes zeros and what a failed init left. */
 koksma_status koksma__rank_reference_init(koksma__rank_reference *reference, const koksma__study_scene *scene,
-                                          const char *variant, int spp, const koksma_run *run);
+                                          const char *pattern, const char *variant, int spp, const koksma_run *run);
 void koksma__rank_reference_fini(koksma__rank_reference *reference);
 
 /* The image's mean absolute error against the reference, and then without each replicate. */

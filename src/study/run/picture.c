@@ -9,6 +9,7 @@
 
 #include "core/c_locale.h"
 #include "core/hash.h"
+#include "core/status.h"
 #include "study/plan/image_patterns.h"
 
 enum { LONGEST_KEY = 8192 }; /* a path, a pattern, options */
@@ -45,9 +46,29 @@ koksma_status koksma__picture_set(const koksma__study_scene *scene, const koksma
     return status;
 }
 
+static koksma_status render_elsewhere(const koksma__study_scene *scene, const koksma__picture *picture,
+                                      const koksma_run *run, koksma_image *out)
+{
+    const koksma_rank_picture asked = {scene->name,    picture->pattern, (int)picture->spp,
+                                       picture->width, picture->height,  picture->seed >> 33};
+    *out = (koksma_image){0};
+    koksma_status status = scene->render(scene->render_context, &asked, run, out);
+    if (!status && picture->width && (out->width != picture->width || out->height != picture->height)) {
+        status = koksma__fail(KOKSMA_IMPOSSIBLE, "%s: a picture has %d x %d pixels; asked for were %d x %d",
+                              picture->pattern, out->width, out->height, picture->width, picture->height);
+    }
+    if (status) {
+        koksma_image_fini(out);
+    }
+    return status;
+}
+
 koksma_status koksma__study_render(const koksma__study_scene *scene, const koksma__picture *picture,
                                    const koksma_run *run, koksma_image *out)
 {
+    if (scene->render) {
+        return render_elsewhere(scene, picture, run, out);
+    }
     koksma__variant variant;
     const koksma_status status = koksma__picture_set(scene, picture, &variant);
     return status ? status : koksma__variant_render(scene->scene, &variant, run, out);

@@ -5,6 +5,7 @@
 
 #include <koksma/image.h>
 #include <koksma/render.h>
+#include <koksma/study.h>
 
 #include "study/plan/plan.h"
 #include "study/plan/variants.h"
@@ -15,6 +16,8 @@ typedef struct koksma__study_scene {
     koksma_scene *scene;
     char hash[24];
     int width, height;
+    koksma_rank_renderer render; /* another renderer, or NULL */
+    void *render_context;
 } koksma__study_scene;
 
 /* The pixels of an image block's pictures of a scene: the block's, or the scene's own. */

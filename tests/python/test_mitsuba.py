@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Koksma's samplers in Mitsuba 3: the bits of <koksma/sampler.h>, pictures without bias, variance that falls as in our
+own renderer, rankings. Exit code 77: Mitsuba is not installed (scripts/try_mitsuba installs it and runs this).
+KOKSMA_MITSUBA_VARIANT: another variant than scalar_rgb, such as llvm_ad_rgb."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import mitsuba as mi
+except ModuleNotFoundError:
+    print("skipped: Mitsuba is not installed")
+    sys.exit(77)
+
+import drjit as dr
+import numpy as np
+
+VARIANT = os.environ.get("KOKSMA_MITSUBA_VARIANT", "scalar_rgb")
+mi.set_variant(VARIANT)
+
+import koksma  # noqa: E402
+import koksma.mitsuba as km  # noqa: E402
+
+JIT = dr.is_jit_v(mi.Float)
+SIDE = 32 if JIT else 4
+
+
+def cornell(pattern, spp, side=SIDE, **more):
+    """Mitsuba's Cornell box with a sampler and a box filter."""
+    scene = mi.cornell_box()
+    scene["sensor"]["film"].update(width=side, height=side, rfilter={"type": "box"})
+    own = pattern in km.OWN
+    scene["sensor"]["sampler"] = {"type": pattern if own else "koksma", "sample_count": spp, **more}
+    if not own:
+        scene["sensor"]["sampler"]["pattern"] = pattern
+    return scene
+
+
+def checker(pattern, spp):
+    """A diffuse plane with a checkerboard under a white sky."""
+    scene = cornell(pattern, spp)
+    for name in [name for name in scene if name not in ("type", "sensor", "integrator")]:
+        del scene[name]
+    scene["integrator"] = {"type": "direct"}
+    scene["light"] = {"type": "constant", "radiance": 1.0}
+    scene["plane"] = {"type": "rectangle", "bsdf": {"type": "diffuse", "reflectance": {
+        "type": "checkerboard", "to_uv": mi.ScalarTransform4f().scale(6)}}}
+    return scene
+
+
+class Samplers(unittest.TestCase):
+    def setUp(self):
+        km.register()
+
+    def test_bits(self):
+        """koksma_sobol_2d equals sobol:scramble=hash-owen,shuffle=1 with the domain's key as the seed."""
+        for key in (0, 1, 0x123456789ABCDEF0, (1 << 64) - 1):
+            words = key & 0xFFFFFFFF, key >> 32
+            if JIT:
+                x, y = km._sobol_2d(tuple(mi.UInt32(w) for w in words), dr.arange(mi.UInt32, 256))
+                got = np.stack([np.array(x), np.array(y)], 1)
+            else:
+                got = np.array([km._sobol_2d(words, i) for i in range(256)])
+            np.testing.assert_array_equal(got / 2.0 ** 32, koksma.generate(km.OWEN_SOBOL, 256, 2, key))
+
+    def test_sets_are_koksma_s(self):
+        """The points that one pixel's use draws are a set of the pattern, whole: one in each cell for jittered."""
+        sampler = mi.load_dict({"type": "koksma", "pattern": "jittered", "sample_count": 16})
+        cells = set()
+        if JIT:
+            sampler.seed(3, 16 * 8)
+            sampler.next_2d()
+            p = np.array(sampler.next_2d()).T
+            for pixel in range(8):
+                cells = {tuple(c) for c in np.floor(p[16 * pixel:16 * pixel + 16] * 4).astype(int)}
+                self.assertEqual(len(cells), 16)
+        else:
+            sampler.seed(3)
+            for _ in range(16):
+                sampler.next_2d()
+                cells.add(tuple(np.floor(np.array(sampler.next_2d()) * 4).astype(int)))
+                sampler.advance()
+            self.assertEqual(len(cells), 16)
+
+    def test_no_bias(self):
+        """Means of the Cornell box, whose paths take a symbolic loop, agree with Mitsuba's independent sampler."""
+        spp, runs = (256, 8) if JIT else (16, 4)
+        means = {}
+        for pattern in ("independent", km.OWEN_SOBOL, "jittered", "n-rooks"):
+            scene = mi.load_dict(cornell(pattern, spp))
+            values = [float(np.array(mi.render(scene, spp=spp, seed=seed)).mean()) for seed in range(runs)]
+            means[pattern] = np.mean(values), np.std(values, ddof=1) / np.sqrt(runs)
+        mean, error = means.pop("independent")
+        for pattern, (other, other_error) in means.items():
+            with self.subTest(pattern=pattern):
+                self.assertLess(abs(other - mean), 5 * np.hypot(error, other_error))
+
+    def test_less_error_than_independent(self):
+        """On a slowly varying integrand jittered samples have much less variance than random ones."""
+        errors = {}
+        for pattern in ("random", "jittered", km.OWEN_SOBOL):
+            scene = mi.load_dict(checker(pattern, 16))
+            pictures = np.array([np.array(mi.render(scene, spp=16, seed=seed)) for seed in range(12)])
+            errors[pattern] = pictures.std(0, ddof=1).mean()
+        self.assertLess(errors["jittered"], .8 * errors["random"])
+        self.assertLess(errors[km.OWEN_SOBOL], .8 * errors["random"])
+
+    def test_equal_seeds(self):
+        scene = mi.load_dict(cornell("jittered", 4))
+        a, b, c = (np.array(mi.render(scene, spp=4, seed=seed)) for seed in (5, 5, 6))
+        np.testing.assert_array_equal(a, b)
+        self.assertTrue((a != c).any())
+
+    def test_refusals(self):
+        for wrong, reason in (({"pattern": "nothing"}, "nothing"), ({"sets": 0}, "sets 0")):
+            with self.assertRaisesRegex(Exception, reason):
+                mi.load_dict({"type": "koksma", "sample_count": 4, **wrong})
+
+    @unittest.skipUnless(JIT, "scalar variants have no passes")
+    def test_passes_are_refused(self):
+        scene = cornell("jittered", 16)
+        scene["integrator"]["samples_per_pass"] = 4
+        with self.assertRaises(RuntimeError) as caught:
+            mi.render(mi.load_dict(scene), spp=16)
+        self.assertIn("several passes", str(caught.exception.__cause__.__cause__ or caught.exception.__cause__))
+
+
+class Rankings(unittest.TestCase):
+    def test_rank(self):
+        names = ["independent", "jittered", "random"]
+        ranking = km.rank(checker("independent", 16), names, 16, size=(8, 8), time_limit=None, max_trials=8)
+        by = {row.pattern: row for row in ranking.rows}
+        self.assertEqual(ranking.size, (8, 8))
+        self.assertLess(by["jittered"].error, by["random"].error)
+
+    def test_left_out(self):
+        """A pattern that cannot make so many samples is named with the reason, and the others are ranked."""
+        ranking = km.rank(checker("independent", 5), ["independent", "regular"], 5, size=(4, 4), time_limit=None, max_trials=8)
+        self.assertEqual([row.state for row in ranking.rows], ["ranked", "refused"])
+        self.assertIn("5", ranking.rows[1].reason)
+
+    def test_xml_and_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, out = os.path.join(folder, "scene.xml"), os.path.join(folder, "out.exr")
+            config = mi.parser.ParserConfig(mi.variant())
+            mi.parser.write_file(mi.parser.parse_dict(config, checker("independent", 4)), scene)
+            subprocess.run([sys.executable, "-m", "koksma.mitsuba", scene, "jittered", "4", "1", "6", "5", out], check=True,
+                           env={**os.environ, "KOKSMA_MITSUBA_VARIANT": VARIANT})
+            picture = koksma.read_image(out)
+            self.assertEqual(picture.shape, (5, 6, 3))
+            np.testing.assert_allclose(picture, km.Renderer(scene)(koksma.Asked(scene, "jittered", 4, (6, 5), 1)), rtol=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""koksma.rank with another renderer: errors that follow from the noise that it adds, exceptions, sizes."""
+import math
+import sys
+import unittest
+
+import numpy as np
+
+import koksma
+
+DEVIATIONS = {"fine": .1, "coarse": .2}
+
+
+def renderer(asked):
+    """A ramp and normal noise of a known deviation."""
+    if asked.pattern == "square" and math.isqrt(asked.spp) ** 2 != asked.spp:
+        raise ValueError(f"square: spp {asked.spp} is no square number")
+    width, height = asked.size or (40, 30)
+    noise = np.random.default_rng([asked.seed, asked.spp, *asked.pattern.encode()])
+    return .5 + np.linspace(0, .3, width) + DEVIATIONS[asked.pattern] / asked.spp ** .5 * noise.normal(size=(height, width))
+
+
+class Renderers(unittest.TestCase):
+    def test_errors(self):
+        """The mean absolute value of normal noise of deviation s is s sqrt(2 / pi)."""
+        asked = []
+        ranking = koksma.rank("any text", ["coarse", "fine"], 4, renderer=lambda a: asked.append(a) or renderer(a))
+        self.assertEqual((ranking.best, ranking.advised, ranking.size), ("fine", "fine", (40, 30)))
+        for row in ranking.rows:
+            low, high = row.interval
+            self.assertTrue(low <= DEVIATIONS[row.pattern] / 2 * math.sqrt(2 / math.pi) <= high, row)
+        self.assertEqual({a.scene for a in asked}, {"any text"})
+        self.assertEqual({a.spp for a in asked}, {1, 4, 64}, "a first picture, the trials, the reference")
+        self.assertTrue(all(0 <= a.seed < 1 << 31 for a in asked))
+        self.assertEqual(len({(a.pattern, a.spp, a.seed) for a in asked}), len(asked), "a seed came twice")
+        self.assertEqual([check.state for check in ranking.checks], ["unchecked"] * 2, "a size that nobody set")
+
+    def test_sizes(self):
+        ranking = koksma.rank("any", ["coarse", "fine"], 4, renderer=renderer, size=(48, 32), reference="fine")
+        self.assertEqual([(c.size, c.state) for c in ranking.checks], [((24, 16), "confirmed"), ((96, 64), "confirmed")])
+
+    def test_left_out(self):
+        ranking = koksma.rank("any", ["coarse", "fine", "square"], 5, renderer=renderer)
+        self.assertEqual((ranking.rows[2].pattern, ranking.rows[2].state), ("square", "refused"))
+        self.assertEqual(ranking.rows[2].reason, "square: spp 5 is no square number")
+
+    def test_exceptions(self):
+        def raises(asked):
+            if asked.pattern == "fine" and asked.spp == 4:
+                raise KeyError("mine")
+            return renderer(asked)
+        with self.assertRaisesRegex(KeyError, "mine"):
+            koksma.rank("any", ["coarse", "fine"], 4, renderer=raises)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(ValueError, "equal for all seeds"):
+            koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)))
+        with self.assertRaisesRegex(ValueError, "reference takes renderer"):
+            koksma.rank("ball", ["random"], 4, reference="random")
+        with self.assertRaisesRegex(ValueError, "asked for were 8 x 8"):
+            koksma.rank("any", ["fine"], 4, renderer=lambda asked: np.ones((4, 4)), size=(8, 8))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
