@@ -23,7 +23,7 @@ const char *koksma__modifiers_of_path(const char *text);
 void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
 
 /* Whether one of them depends on the seed. */
-bool koksma__modifiers_are_random(const double *values);
+KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);
 
 /* Whether one of them works on digits: rates of decay that rest on other strata than those in base 2 are lost. */
 bool koksma__modifiers_of_digits(const double *values);

@@ -232,6 +232,8 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
         KOKSMA__FAIL_IF(list->entries[i].x_sampling != 1 || list->entries[i].y_sampling != 1, KOKSMA_MALFORMED,
                         "as an EXR: subsampled channels are not read");
     }
+    KOKSMA__FAIL_IF(storage == EXR_STORAGE_TILED && !tiles_fit(file, &window), KOKSMA_MALFORMED,
+                    "as an EXR: its tiles are larger than the image");
     KOKSMA__FAIL_IF(!chunks_fit(file, storage == EXR_STORAGE_TILED, &window, list), KOKSMA_MALFORMED,
                     "as an EXR: its chunks have more than 256 MiB");
     if (compression >= EXR_COMPRESSION_B44) { /* the last four: B44, B44A, DWAA, DWAB */
