@@ -18,7 +18,7 @@ void cli_fill_use(const char *use, size_t column, size_t indent);
 bool cli_is_heading(const char *line);
 
 /* The next paragraph of a text: its lines as one, up to an empty line or one whose first word is a heading, "word:".
-   Returns what follows; NULL past the end. *apart: an empty line stands before it. */
+   Returns what follows; NULL past the end. *apart: an empty line precedes it. */
 const char *cli_next_paragraph(const char *text, char paragraph[CLI_PARAGRAPH], bool *apart);
 
 #endif

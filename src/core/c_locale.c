@@ -13,8 +13,8 @@
 
 static locale_t c_locale;
 
-/* Kept for ever. libcs have this locale at hand (glibc and musl without allocating); were it refused all the same,
-   uselocale(0) below changes nothing. */
+/* Never freed. glibc and musl make this locale without allocating memory; if a libc refuses it, uselocale(0) below
+   leaves the caller's locale as it is. */
 static void make_c_locale(void)
 {
     c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);

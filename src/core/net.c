@@ -54,7 +54,7 @@ void koksma__net_fini(koksma__net *net)
     *net = (koksma__net){0};
 }
 
-/* A search for intervals of one volume that hold another number of points than `each`. */
+/* A search for intervals, all of one volume, that do not hold `each` points. */
 typedef struct search {
     const koksma__net *net;
     const int *use;

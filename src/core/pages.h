@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* Asks the system for large pages in a fresh block of memory, if it is one of many megabytes: touching it the first
-   time takes as long as filling it several times does, most of it for each page. A wish, which may be ignored. */
+   time takes as long as filling it several times does, most of it for each page. The system may ignore it. */
 void koksma__large_pages(void *memory, size_t bytes);
 
 #endif

@@ -64,10 +64,8 @@ koksma_status koksma__numbers_write(const char *path, const koksma_points *point
                                     const koksma_run *run)
 {
     koksma__atomic_file file;
-    koksma_status status = koksma__atomic_open(NULL, path, &file);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__atomic_open(NULL, path, &file));
+    koksma_status status = KOKSMA_OK;
     if (ends_with(path, ".npy")) {
         status = koksma__points_write_npy(file.stream, points, run);
     } else if (ends_with(path, ".csv")) {

@@ -75,10 +75,8 @@ static koksma_status open_path(const char *path, koksma__file_kind kind, koksma_
     if (stat(path, &info)) {
         return fail_read(path, errno);
     }
-    koksma_status status = check_file(path, &info, kind, by, true);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check_file(path, &info, kind, by, true));
+    koksma_status status = KOKSMA_OK;
     *descriptor = open(path, S_ISFIFO(info.st_mode) ? FLAGS : FLAGS | O_NONBLOCK);
     if (*descriptor < 0 || fstat(*descriptor, &info)) {
         status = fail_read(path, errno);

@@ -23,7 +23,7 @@ KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *v
 /* The name before the colon, of up to 63 letters, and where the parameters begin. Errors: ARGUMENT. */
 koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
-/* What a spec hands to the functions of its member. */
+/* The arguments that the functions of a pattern or measure get from its spec. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);
 
 #endif

@@ -187,15 +187,10 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
                                    const koksma_image *reference)
 {
     KOKSMA__REQUIRE(coherence, image, reference);
-    koksma_status status = check_open(coherence);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check_open(coherence));
     const koksma_image *const both[] = {image, reference};
     for (int i = 0; i < 2; i++) {
-        if ((status = koksma__image_usable(both[i]))) {
-            return status;
-        }
+        KOKSMA__TRY(koksma__image_usable(both[i]));
         KOKSMA__FAIL_IF(both[i]->width != coherence->width || both[i]->height != coherence->height, KOKSMA_ARGUMENT,
                         "%s of %d x %d pixels does not fit a coherence of %d x %d", i ? "a reference" : "an image",
                         both[i]->width, both[i]->height, coherence->width, coherence->height);
@@ -206,7 +201,7 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
     for (size_t i = 0; i < n; i++) {
         errors[i] = koksma__luminance(image, i) - koksma__luminance(reference, i);
     }
-    status = koksma__coherence_add_errors(coherence, errors);
+    const koksma_status status = koksma__coherence_add_errors(coherence, errors);
     free(errors);
     return status;
 }

@@ -5,8 +5,8 @@
 
 #include <stddef.h>
 
-/* Of what the power is the mean: `images` images, of whose squared errors the share `common` is the same in all. Each
-   has `waves` frequencies with a mirror image and `real` ones without (the mean, which is left out, is none). */
+/* The power is a mean over `images` images; the share `common` of their squared errors is the same in all. Each has
+   `waves` frequencies with a mirror image and `real` ones without (the mean, which is left out, is none). */
 typedef struct koksma__coherence_law {
     size_t images, waves, real;
     double common;

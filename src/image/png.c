@@ -186,10 +186,8 @@ static koksma_status read_image(png_structp png, png_infop info, const stream *s
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     stream s = {.in = bytes, .left = size};
-    koksma_status status = check_chunks(bytes, size);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(check_chunks(bytes, size));
+    koksma_status status = KOKSMA_OK;
     png_structp png =
         png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &s, on_error, on_warning, &s, allocate, release);
     png_infop info = png ? png_create_info_struct(png) : NULL;

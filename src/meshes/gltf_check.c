@@ -107,10 +107,7 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f)
     if (status || !koksma__json_has(f, "bufferView")) {
         return status;
     }
-    status = koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number));
     view = koksma__gltf_item(g, KOKSMA__GLTF_VIEWS, (size_t)number);
     status = bytes(&view, "byteLength", true, &room);
     status = status ? status : bytes(&view, "byteStride", false, &stride);

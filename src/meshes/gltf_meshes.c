@@ -29,10 +29,8 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
     if (!koksma__json_has(list, key)) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__gltf_elements_at(g, list, key, out, &number);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__gltf_elements_at(g, list, key, out, &number));
+    koksma_status status = KOKSMA_OK;
     const bool normalised = out->normalised && (out->component == 5121 || out->component == 5123);
     KOKSMA__JSON_FAIL_IF((out->width != width && !(wide && out->width == width + 1)) ||
                              (out->component != 5126 && (floats || !normalised)),

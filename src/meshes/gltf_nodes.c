@@ -65,17 +65,12 @@ static koksma_status walk(graph *s, size_t i, const double parent[12], int depth
     KOKSMA__JSON_FAIL_IF(depth == MAX_DEPTH, &node, "nodes are nested too deeply");
     KOKSMA__JSON_FAIL_IF(s->shown[i], &node, "the scene names this node twice");
     s->shown[i] = true;
-    koksma_status status = own_matrix(&node, own);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(own_matrix(&node, own));
+    koksma_status status = KOKSMA_OK;
     koksma__matrix_multiply(parent, own, s->matrices[i]);
     if (koksma__json_has(&node, "mesh")) {
         koksma__file_placement *to = koksma__list_add(&g->shown, 1, sizeof *to);
-        status = to ? koksma__json_get_whole(&node, "mesh", true, 0, KOKSMA__GLTF_ITEMS, &number) : KOKSMA_MEMORY;
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(to ? koksma__json_get_whole(&node, "mesh", true, 0, KOKSMA__GLTF_ITEMS, &number) : KOKSMA_MEMORY);
         to->mesh = (size_t)number;
         g->mesh_shown[number] = true;
         memcpy(to->matrix, s->matrices[i], sizeof to->matrix);

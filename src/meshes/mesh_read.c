@@ -50,7 +50,7 @@ bool koksma__is_mesh_file(const char *path)
     return find_reader(path) != NULL;
 }
 
-/* PLY and binary glTF begin so; all others are texts. */
+/* PLY and binary glTF begin with "ply" and "glTF"; all other files are text. */
 static koksma_status check_start(const unsigned char *bytes, size_t size)
 {
     const bool binary = size >= 4 && (!memcmp(bytes, "glTF", 4) || !memcmp(bytes, "ply", 3));

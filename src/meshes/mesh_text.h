@@ -42,7 +42,8 @@ size_t koksma__text_rest(koksma__text *t, const char **rest);
 
 /* Takes a decimal number at `*at`: digits with at most one point among them, maybe a sign and an exponent. It is
    rounded once, to the nearest float, whatever the number of digits; beyond the largest float it is infinite. false:
-   there is none. Bytes up to `end` are looked at, and behind it must be something that no number goes on with. */
+   there is none. Reads bytes before `end`; the byte at `end` must be one that can't
+   continue a number. */
 bool koksma__text_float(const char **at, const char *end, float *out);
 
 /* Takes digits; above 2^62 the number is cut to that. false: there is none. */

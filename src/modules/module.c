@@ -11,7 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* From the folder of the object that this function is in; the second is for the programs of a build's folders. */
+/* Where modules are looked for, relative to the folder of the library or program that this code is in. The second is
+   for programs in folders below the build's. */
 static const char *const PLACES[] = {"", "../", "koksma/", "../" KOKSMA_LIBDIR "/koksma/"};
 
 bool koksma__module_path(const char *name, char *path, size_t room)

@@ -63,10 +63,8 @@ static koksma_status whole(uint64_t seed, const koksma_args *args, koksma_points
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     koksma_points all = {.dim = out->dim};
-    koksma_status status = read_set(out->n, seed, args, &all);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(read_set(out->n, seed, args, &all));
+    koksma_status status = KOKSMA_OK;
     if (all.n < out->n) {
         status = koksma__fail(KOKSMA_N, "file:%s: it has %zu points, not %zu; n = %zu or less would do", args->path,
                               all.n, out->n, all.n);

@@ -10,8 +10,9 @@
  *     scramble=owen    Owen's nested uniform scrambling (1995): a permutation for each place and each row of digits
  *                      before it, drawn exactly, by stochastic generation (Helmer, Christensen & Kensler 2021)
  *
- * Source: Halton 1960. Every plain value is the double nearest to its fraction. Scrambled values go in steps: with
- * affine of less than 2^-51, with owen of b^-M, b^M the largest power up to 2^53, but in base 2 of 2^-32.
+ * Source: Halton 1960. Every plain value is the double nearest to its fraction. Scrambled values are
+ * multiples of a step: of less than 2^-51 with affine; with owen of 2^-32 in base 2, and of b^-M in other bases, b^M
+ * being the largest power up to 2^53.
  * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.
  */
 #include "core/random.h"

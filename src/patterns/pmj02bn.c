@@ -23,7 +23,7 @@
  *
  * A single point is not uniform over seeds, because the masks are chosen: over 6,000 sets of 16 the density of points
  * 0, 1, 2, 3 and 15 in 16 bins was off by 7 to 11 % (root mean square). Sets of 4^d points are even in the mean. So
- * it does not claim to be unbiased; for few samples that must be, take pmj02.
+ * it does not claim to be unbiased; where few samples must be unbiased, use pmj02.
  */
 #include <math.h>
 #include <stdlib.h>

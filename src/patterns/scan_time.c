@@ -8,7 +8,8 @@
  * Source: Mitchell 1992, table 2 ("Scan-Time", after his 1991 paper); the distance and the number of candidates are
  * not stated there. With 16 candidates the L2 star discrepancy of 16, 256, 1600 points is about 0.0463, 0.0074,
  * 0.0023, where the paper has 0.0473, 0.00721, 0.00235.
- * A point can only lose to a done one nearer than the best so far; those lie in cells at most that far away.
+ * A candidate is worse than the best so far if a finished point is nearer to it than the best one's distance. Such
+ * points lie in cells at most that far away, so no others are searched.
  */
 #include <math.h>
 

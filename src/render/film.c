@@ -12,7 +12,7 @@
  * keeps constants exactly, whatever signs were drawn, and divides by nothing that is drawn. For independent samples
  * it has no bias; for stratified ones the mean of w errs less than n - 1 supposes, and the bias is at most
  * Cov(w, y) / (n - 1). A single sample has no covariance: it is drawn from the positive part of f. Deterministic
- * patterns of few samples may have none in a lobe and leave it out. Where all w are 1 all v are.
+ * patterns of few samples may have none in a lobe and leave it out. If every w is 1, so is every v.
  *
  * A splatted sample adds to several pixels. Each task keeps sums of its own, which are added in the order of the
  * tasks, so that the image does not depend on threads; a finished task waits only for those before it. A pixel of an

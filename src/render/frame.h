@@ -35,8 +35,8 @@ typedef struct koksma__frame {
     void *cache;                  /* the integrator's own */
 } koksma__frame;
 
-/* Pixels first .. first + count - 1, of one row but where sampling is adaptive, and their samples: pixel first + p
-   has start[p] .. start[p + 1] - 1. */
+/* Pixels first .. first + count - 1, and their samples: pixel first + p has samples start[p] .. start[p + 1] - 1. The
+   pixels are of one row unless sampling is adaptive. */
 typedef struct koksma__group {
     size_t first, count;
     size_t start[KOKSMA__BLOCK + 1];

@@ -211,10 +211,8 @@ static koksma_status find_mesh(builder *build, size_t number, bool mirrored, int
     if (known[mirrored] >= 0) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__scene_add_mesh(scene, &to);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__scene_add_mesh(scene, &to));
+    koksma_status status = KOKSMA_OK;
     if (known[!mirrored] >= 0) {
         status = copy(&scene->meshes[known[!mirrored]], to);
     } else {

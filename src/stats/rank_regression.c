@@ -243,10 +243,8 @@ koksma_status koksma__rank_regression(const koksma__rank_case *cases, size_t n_c
 {
     sums s;
     size_t n_used = 0, most = 0;
-    koksma_status status = sums_init(k, n_scenes, &s);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(sums_init(k, n_scenes, &s));
+    koksma_status status = KOKSMA_OK;
     add_cases(&s, cases, n_cases);
     for (size_t scene = 0; scene < n_scenes; scene++) {
         n_used += s.cases[scene] > 0;

@@ -2,9 +2,9 @@
 /*
  * L2 discrepancies of hundreds of dimensions. With M the larger of c^d and max_i prod_k K(x_ik, x_ik), no term is
  * above M: |K(x, y)|^2 <= K(x, x) K(y, y) and a(x)^2 <= K(x, x) c, K being positive definite (Cauchy and Schwarz).
- * Where M is far from 1 the kernel of one dimension is multiplied by f near M^(-1/d), whose 5 bits keep the table's
- * coefficients exact; the square is then f^d times too large, which the root, whose range is half of the square's,
- * bears longer.
+ * Where M is far from 1 the kernel of one dimension is multiplied by a factor f near M^(-1/d) of 5 bits, so that the
+ * table's coefficients stay exact. The result is f^d times the square. Its root is divided by f^(d/2), and has half
+ * the exponent: it stays a double in more dimensions than the square.
  */
 #include <math.h>
 

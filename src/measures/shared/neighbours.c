@@ -141,10 +141,8 @@ static koksma_status least_of_many(const koksma_points *points, double r, bool t
                                    double *distance)
 {
     koksma__torus_cells g;
-    koksma_status status = open_grid(points, r, &g);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(open_grid(points, r, &g));
+    koksma_status status = KOKSMA_OK;
     const bool spread = is_spread(&g, points->n);
     if (spread) {
         visit v = {.g = &g, .r2 = r * r, .torus = torus, .run = run, .least = HUGE_VAL};

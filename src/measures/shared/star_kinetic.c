@@ -60,7 +60,7 @@ typedef struct walks {
     const double *x, *y;
     const uint32_t *rank;
     const koksma_run *run;
-    pthread_t caller; /* who alone may ask run */
+    pthread_t caller; /* the only thread that may call run->keep_going */
     atomic_bool stopped;
     best_box best[2][PARTS];
 } walks;

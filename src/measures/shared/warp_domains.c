@@ -195,8 +195,8 @@ const koksma__domain koksma__domains[2] = {
     {below_in_triangle, chords_of_triangle, M_SQRT1_2},
 };
 
-/* 2 / perimeter: lines that meet a convex domain measure its perimeter, those between two points twice their
- * distance. */
+/* 2 / perimeter (Crofton's formula): the measure of the lines that meet a convex domain is its perimeter, and that of
+ * the lines that meet a segment is twice the segment's length. */
 static double line_density(koksma__domain_kind kind)
 {
     return kind == KOKSMA__DISK ? 1 / M_PI : 2 / (2 + M_SQRT2);

@@ -19,7 +19,7 @@ static inline double koksma__in_cell(double cell, double u, double m)
         "columns", "2D: cells along x, with n / columns along y; 0: as many as along y", 0, 0, 1 << 28, NULL, true   \
     }
 
-/* The same for patterns that serve every n. */
+/* The same for patterns that make any n. */
 #define KOKSMA__PARAM_DIVISOR                                                                                        \
     {                                                                                                                \
         "columns", "cells along x, a divisor of n; 0: the one nearest to the root of n from below", 0, 0, 1 << 28,   \

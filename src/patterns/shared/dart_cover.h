@@ -46,7 +46,7 @@ enum { KOKSMA__DART_WORDS = 256, KOKSMA__DART_BORDER = 2, KOKSMA__DART_TILE = 12
 typedef struct koksma__disks {
     const koksma__kernel_table *kernels;
     double d;
-    size_t n, room; /* points, and places for them */
+    size_t n, room; /* points, and how many xs has room for */
     double *xs;     /* pairs */
     double *times;  /* of the points of this round, where there are several tiles */
     uint32_t cells; /* a side; none holds two points */

@@ -9,7 +9,7 @@
 typedef struct koksma__torus_rows {
     uint32_t cells;  /* a side, about one point in each */
     uint32_t *start; /* of each cell, row by row, in the sorted points; cells^2 + 1 */
-    uint32_t *order; /* which point was sorted there */
+    uint32_t *order; /* of each sorted point: its number before */
     double *xs, *ys; /* sorted; past the last there are eight that may be read */
 } koksma__torus_rows;
 

@@ -51,9 +51,9 @@ static const koksma__integrator_flags distribution = {
 /*
  * path: all light paths (Kajiya 1986), one direction on from each vertex. Lights are sampled at each vertex and
  * met by reflected rays, the two weighed by the power heuristic (Veach 1997, section 9.2); from the fifth vertex on a
- * path whose weight is below 1 goes on with that probability, which keeps the mean. Without bias but for the end of
- * paths at the depth limit, and for light that a mirror or glass throws on another surface from lights that rays
- * don't meet (points, directional ones, those that aren't `visible`): no path finds it.
+ * path whose weight is below 1 goes on with that probability, which keeps the mean. Unbiased with two exceptions: paths
+ * end at the depth limit; and no path finds the light that reaches a surface by a mirror or glass from lights that
+ * rays can't meet (points, directional lights, lights that are not `visible`).
  */
 static const koksma__integrator_flags path = {.followed =
                                                   KOKSMA__LOBE_SPECULAR | KOKSMA__LOBE_GLOSSY | KOKSMA__LOBE_DIFFUSE,

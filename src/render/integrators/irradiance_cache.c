@@ -244,10 +244,7 @@ koksma_status koksma__irradiance_cache_indirect(const koksma__frame *frame, cons
         uint32_t bits[4];
         memcpy(bits, s->p, sizeof s->p);
         memcpy(bits + 3, &s->n[1], sizeof *bits);
-        status = open_scratch(c, &d);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(open_scratch(c, &d));
         status = compute(c, &d, koksma__hash(bits, sizeof bits), s, time, &r);
         memcpy(light, r.light, sizeof light);
         close_scratch(&d);
@@ -295,10 +292,8 @@ static koksma_status compute_row(void *context, size_t row)
     const grid *g = context;
     cache *c = g->cache;
     record_scratch d;
-    koksma_status status = open_scratch(c, &d);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(open_scratch(c, &d));
+    koksma_status status = KOKSMA_OK;
     for (int column = 0; !status && column < g->columns; column++) {
         record *r = &g->found[row * (size_t)g->columns + (size_t)column];
         const int x = column * g->step, y = (int)row * g->step;

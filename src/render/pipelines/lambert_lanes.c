@@ -153,8 +153,8 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
     }
 }
 
-/* Samples start .. start + n of the group, which hit something in `hits`; the last `copies` of them only fill lanes.
- */
+/* Shades samples start .. start + n - 1 of the group, whose hits are `hits`; the last `copies` of them only fill
+   lanes, and their values are not used. */
 static void shade_block(const koksma__frame *f, const koksma__rays *rays, const koksma__hits *hits, size_t start,
                         int n, int copies, const scratch *r, koksma__values *values)
 {

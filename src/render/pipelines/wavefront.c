@@ -337,10 +337,7 @@ static koksma_status trace_block(const koksma__trace *trace, const koksma__path 
         v.lit[i] = hits.primitive[i] >= 0 && hits.material[i] >= 0;
         if (v.lit[i]) {
             set_surface(frame, path, &hits, i, &v.surfaces[i]);
-            const koksma_status status = add_local(frame, path, &v.surfaces[i], sum);
-            if (status) {
-                return status;
-            }
+            KOKSMA__TRY(add_local(frame, path, &v.surfaces[i], sum));
         } else if (hits.primitive[i] >= 0) {
             add_emission(frame, path, &hits, i, sum);
         } else {

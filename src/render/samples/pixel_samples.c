@@ -3,8 +3,8 @@
  * A pattern afresh in every pixel. Distribution ray tracing needs a point in as many dimensions as there are uses.
  * Cook (1986) and Shirley (1991, section 5.5.4) build it from 2D sets, one a use, whose strata are matched by random
  * permutations ("uncorrelated jitter"): each use alone is as well spread as its pattern, and no use knows of another.
- * A native pattern has all the dimensions itself; that of a group of uses has theirs, and all of them are permuted as
- * one.
+ * A native pattern has all the dimensions itself, and the pattern of a group of uses has those of the group; a point
+ * of either is moved as a whole.
  */
 #include <stdlib.h>
 
@@ -16,7 +16,7 @@
 #include "patterns/shared/file_names.h"
 #include "render/samples/sampler.h"
 
-enum { LANE_PAIRING = 1 << 20 }; /* above the uses: keys of the permutations' random numbers */
+enum { LANE_PAIRING = 1 << 20 }; /* keys the random numbers of permutations; above the keys of uses */
 
 #define MAX_KEPT ((size_t)1 << 27) /* numbers that a thread keeps of a native pattern, or of groups of uses */
 

@@ -92,12 +92,9 @@ static koksma_status parse_mesh(const char *scene_name, const field *f, koksma_s
                          sizeof mesh->name - 1);
     KOKSMA__JSON_FAIL_IF(find_mesh(scene, name) >= 0, f, "a second mesh '%s'", name);
     KOKSMA__JSON_FAIL_IF(!koksma__path_beside(scene_name, file, path), f, "the path is too long");
-    koksma_status status = koksma__scene_add_mesh(scene, &mesh);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__scene_add_mesh(scene, &mesh));
     strcpy(mesh->name, name);
-    status = koksma__mesh_read(path, mesh);
+    koksma_status status = koksma__mesh_read(path, mesh);
     if (status) {
         koksma__json_fail(f, "%s%s", koksma_error_text(), status == KOKSMA_MISSING ? koksma__package_hint(path) : "");
         return status;

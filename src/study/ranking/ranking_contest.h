@@ -37,8 +37,8 @@ typedef struct koksma__contest {
     koksma__study_scene scene; /* width and height: of this contest */
     const char *variant;
     koksma__run_control *control;
-    /* NULL, or the contest at the size asked for, whose contestants are all patterns in their order: those whose error is
-       coherent there are not advised here either. */
+    /* NULL, or the contest at the size that the caller asked for, with all patterns in the same order: a pattern whose
+       error is coherent there is not recommended here either. */
     const struct koksma__contest *asked;
     int max_rounds;
     size_t n;

@@ -248,7 +248,7 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
     return status ? status : r->name && r->pattern ? KOKSMA_OK : koksma__fail_memory(strlen(pattern));
 }
 
-/* By all of their keys, an image before its coherence. */
+/* Orders images by all of their keys, an image before its coherence. */
 static int compare_images(const void *a, const void *b)
 {
     koksma__series s = (*(koksma__audit_series *const *)a)->key, t = (*(koksma__audit_series *const *)b)->key;

@@ -11,7 +11,7 @@
 typedef struct koksma__mpi {
     int size, rank;
     const koksma__transport *mpi;
-    bool released; /* of rank 0: the others know that there is no more to do */
+    bool released; /* set on rank 0 when all other ranks know that no work is left */
 } koksma__mpi;
 
 /* Finds out at the first call, which loads MPI if mpirun started this process. */

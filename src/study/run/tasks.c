@@ -390,10 +390,8 @@ static koksma_status do_image(const koksma_study *study, const koksma__task *t, 
                                      .width = t->width,
                                      .height = t->height,
                                      .seed = seed};
-    koksma_status status = koksma__study_render(t->scene, &picture, run, &image);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(koksma__study_render(t->scene, &picture, run, &image));
+    koksma_status status = KOKSMA_OK;
     const size_t last = t->n_series - 1;
     for (size_t r = 0; !status && r < last; r++) {
         koksma_image_error error = {0};

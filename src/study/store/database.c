@@ -8,8 +8,8 @@
  *
  * To read, the file is locked as SQLite's readers do, by a handle that only locks. Then it can't change, and is opened
  * as an immutable file: without locks, without a log of its own, from a folder that can't be written. Where a killed
- * run has left a write-ahead log, this needs an index: in memory, which SQLite does in exclusive mode, for which it
- * would lock the file to write; it doesn't, as the VFS "unix-none" has no locks, and ours holds.
+ * run has left a write-ahead log, SQLite needs an index of it, and keeps that in memory in exclusive mode. It would
+ * then lock the file for writing; the VFS "unix-none", which has no locks, prevents that, and our own lock holds.
  */
 #include "study/store/database.h"
 

@@ -10,7 +10,7 @@
 typedef struct koksma__database koksma__database;
 typedef struct sqlite3_stmt koksma__statement;
 
-/* What a file says of itself in its first 100 bytes, before SQLite has looked at it. */
+/* The first 100 bytes of a file, read before SQLite opens it. */
 typedef struct koksma__database_header {
     bool exists, is_empty, has_journal; /* journal: another program was killed at work on it */
     uint32_t application_id, version;   /* PRAGMA application_id and user_version */

@@ -172,7 +172,8 @@ static void bind_reference(koksma__store *store, koksma__statement *s, int *colu
                            koksma__series *key)
 {
     koksma__store_bind_key(store, series, key);
-    key->made_by = key->measured_by; /* what is said of a reference beside an image is said of the image here */
+    /* A series of image errors names in measured_by what made the reference; here the reference is the image. */
+    key->made_by = key->measured_by;
     koksma__bind_text(s, column, key->scene);
     koksma__bind_text(s, column, key->scene_hash);
     koksma__bind_text(s, column, key->options);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Making and opening a store; and its statements. What is there is first looked at without a byte being written
+/* Making and opening a store; and its statements. An existing file is first checked without a byte being written
    (database.h), and refused if it is not a store; a new store, or an old one's copy, is made under a name of its own
    and renamed when it is whole. */
 #include <errno.h>
@@ -146,7 +146,7 @@ static koksma_status upgrade_file(const char *path, int schema)
 
 /* ---- Those that are there ------------------------------------------------------------------------------ */
 
-/* The plan by whose name the file goes; a new file is told. */
+/* Checks the name of the plan that the file belongs to; writes the name into a new file. */
 static koksma_status check_plan(koksma__store *store, const char *name)
 {
     char *found;
@@ -232,7 +232,7 @@ static void pass(void *context, long long series, long long trial)
     (void)trial;
 }
 
-/* One run at a time: a second one on the same folder is told so instead of doing the same work. */
+/* One run at a time: a second one on the same folder fails instead of doing the same work. */
 static koksma_status open_to_write(const char *path, const char *plan_name, koksma__store **out)
 {
     koksma__database *database;
@@ -260,7 +260,7 @@ static koksma_status open_to_write(const char *path, const char *plan_name, koks
     status = status ? status : koksma__schema_of(database, &header, &schema);
     status = status ? status : open_queries(*out);
     status = status ? status : koksma__seal_read(*out);
-    if (!status) {                      /* damage is told before a byte is written */
+    if (!status) {                      /* damage is reported before a byte is written */
         (*out)->in_transaction = false; /* which the scan would end */
         status = koksma__store_scan(*out, pass, NULL);
         (*out)->in_transaction = true;

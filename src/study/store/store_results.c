@@ -46,8 +46,8 @@ static void see_end(void *context, long long series, long long trial)
     k->count++;
 }
 
-/* Trials are made in their order, but for what was in hand when a run ended, so that a number far above the others is
-   damage; looking up all below it would take hours. */
+/* Trials are made in their order, but for jobs that were running when a run ended, so that a number far above the
+   others is damage; looking up all below it would take hours. */
 static const long long MOST_HOLES = 100000;
 
 /* How far the trials of every series go. */

@@ -74,8 +74,8 @@ static koksma_status put_one(koksma__store *store, const koksma__row *from)
     return koksma__statement_run(store->database, store->queries[KOKSMA__PUT_ROW]);
 }
 
-/* Writes up to ROWS_AT_ONCE rows; *done: how many. A row that exists may have room for what others of its group have:
-   that is seldom, ends the statement there, and is looked at by itself. */
+/* Writes up to ROWS_AT_ONCE rows; *done: how many. A row that exists ends the statement there, which is rare:
+   put_one merges it, as its group may have values that the row lacks. */
 static koksma_status put_many(koksma__store *store, const koksma__row *from, size_t *done)
 {
     koksma__statement *s = store->queries[KOKSMA__PUT_ROWS];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Which tables a file may have. The text of every table and view in it, as SQLite keeps it, is compared with the
    statements of schema.sql (of schema_past.sql for a file from before schema 6), without comments and with one blank
-   for white space: each statement stands there once, and there is nothing else. So a stranger's file has no triggers,
+   for white space: each statement is there once, and nothing else is. So a stranger's file has no triggers,
    no views of its own, no virtual or foreign tables, no computed columns. */
 #include <ctype.h>
 #include <stdio.h>

@@ -107,10 +107,8 @@ koksma_status koksma__store_know_series(koksma__store *store)
     if (store->known) {
         return KOKSMA_OK;
     }
-    koksma_status status = last_series(store, &last);
-    if (status) {
-        return status;
-    }
+    KOKSMA__TRY(last_series(store, &last));
+    koksma_status status = KOKSMA_OK;
     store->n_known = (size_t)last + 1;
     store->known = calloc(store->n_known, sizeof *store->known);
     KOKSMA__REQUIRE_MEMORY(store->known, store->n_known * sizeof *store->known);

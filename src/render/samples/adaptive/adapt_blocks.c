@@ -7,7 +7,7 @@
  *
  * A block stops when e is below the threshold; below 256 times the threshold it is cut across its longer side, where
  * the errors of the two parts are nearest, while parts of `side` pixels are possible. Without a threshold every block
- * is cut after each round in which it was served, and the budget goes to those with the largest error a pixel.
+ * is cut after each round in which it was selected, and the budget goes to those with the largest error a pixel.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -114,9 +114,9 @@ static void ask_for(koksma__adaptive *run, const block *b, double score)
     for (int y = b->y; y < b->y + b->height; y++) {
         for (int x = b->x; x < b->x + b->width; x++) {
             const size_t pixel = pixel_at(run, x, y);
-            run->asks[pixel] = (koksma__ask){0};
+            run->demands[pixel] = (koksma__sample_demand){0};
             if (!b->stopped && score > 0) {
-                koksma__sets_ask(run, pixel, 1, score, &run->asks[pixel]);
+                koksma__sets_demand(run, pixel, 1, score, &run->demands[pixel]);
             }
         }
     }
@@ -132,9 +132,9 @@ static void plan(koksma__adaptive *run)
         const double pixels = (double)b->width * b->height;
         const double total = b->stopped ? 0 : sum_errors(run, b->x, b->y, b->width, b->height);
         const double error = sqrt(pixels / (double)run->pixels) * total / pixels;
-        const bool served = koksma__sets_of(run, pixel_at(run, b->x, b->y))->sets > b->sets;
+        const bool selected = koksma__sets_of(run, pixel_at(run, b->x, b->y))->sets > b->sets;
         b->stopped |= !(error > threshold);
-        if (!b->stopped && served && (threshold == 0 || error < 256 * threshold)) {
+        if (!b->stopped && selected && (threshold == 0 || error < 256 * threshold)) {
             cut(run, i, total);
         }
     }
@@ -145,12 +145,12 @@ static void plan(koksma__adaptive *run)
     }
 }
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     (void)run; /* plan does */
     (void)pixel;
     (void)scratch;
-    (void)ask;
+    (void)demand;
 }
 
 static const koksma__adaptive_method method = {.open = open,

@@ -17,7 +17,7 @@
 #include "stats/quantiles.h"
 
 enum { TEST = KOKSMA__SETS_THRESHOLD + 1, LEVEL };
-enum { FACTORS = 1024 }; /* for 1 .. FACTORS sets; beyond, where they hardly change, the last one serves */
+enum { FACTORS = 1024 }; /* for 1 .. FACTORS sets; beyond, where they hardly change, the last one is used */
 
 static const char *const tests[] = {"t", "chi2", NULL};
 static const koksma_param params[] = {
@@ -38,7 +38,7 @@ static double factor(const koksma__adaptive *run, double n)
     return koksma__student_quantile(0.5 * (1 + level), n - 1);
 }
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
     const double n = (double)p->sets * (double)koksma__set_size(run);
@@ -47,14 +47,14 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     const double *factors = run->extra;
     const double doubt = error * factors[p->sets < FACTORS ? p->sets : FACTORS];
     if (doubt > run->options->params[KOKSMA__SETS_THRESHOLD]) {
-        koksma__sets_ask(run, pixel, 1, doubt, ask);
+        koksma__sets_demand(run, pixel, 1, doubt, demand);
     }
 }
 
 static koksma_status open(koksma__adaptive *run)
 {
     const koksma_status status = koksma__sets_open(run);
-    KOKSMA__FAIL_IF(!status && run->asks[0].now < 2, KOKSMA_N,
+    KOKSMA__FAIL_IF(!status && run->demands[0].now < 2, KOKSMA_N,
                     "confidence: 2 samples are needed at first: a larger spp, or first=2");
     double *factors = status ? NULL : malloc((FACTORS + 1) * sizeof *factors);
     run->extra = factors;

@@ -20,7 +20,7 @@ static const koksma_param params[] = {
     {0},
 };
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     static const double bounds[3] = {0.4, 0.3, 0.6};
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
@@ -33,7 +33,7 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
     }
     if (score > run->options->params[KOKSMA__SETS_THRESHOLD]) {
         /* those with fewer samples first, so that a budget spreads */
-        koksma__sets_ask(run, pixel, 1, score / p->sets, ask);
+        koksma__sets_demand(run, pixel, 1, score / p->sets, demand);
     }
 }
 

@@ -34,7 +34,7 @@ static koksma_status open(koksma__adaptive *run)
 
 static const koksma__adaptive_method method = {.open = open,
                                                .close = koksma__strata_close,
-                                               .serve = koksma__strata_serve,
+                                               .prepare = koksma__strata_prepare,
                                                .draw = koksma__strata_draw,
                                                .take = koksma__strata_take,
                                                .decide = koksma__strata_decide,

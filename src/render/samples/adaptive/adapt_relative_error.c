@@ -19,14 +19,14 @@ static const koksma_param params[] = {
     {0},
 };
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     const koksma__pixel_sets *p = koksma__sets_of(run, pixel);
     const double *values = run->options->params;
     const double error = koksma__sets_standard_error(run, p) / (fmax(koksma__sets_mean(run, p), 0) + values[FLOOR]);
     (void)scratch;
     if (error > values[KOKSMA__SETS_THRESHOLD]) {
-        koksma__sets_ask(run, pixel, 1, error, ask);
+        koksma__sets_demand(run, pixel, 1, error, demand);
     }
 }
 

@@ -99,7 +99,7 @@ static bool find_base(koksma__adaptive *run, size_t pixel, uint32_t *permutation
     return found;
 }
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     const koksma__strata *s = run->state;
     const uint32_t n = s->m * s->m;
@@ -109,13 +109,13 @@ static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__a
         tree->carried = find_base(run, pixel, scratch, (float *)((uint32_t *)scratch + n));
     }
     if (tree->carried) {
-        koksma__strata_decide(run, pixel, scratch, ask);
+        koksma__strata_decide(run, pixel, scratch, demand);
     }
 }
 
 static const koksma__adaptive_method method = {.open = open,
                                                .close = koksma__strata_close,
-                                               .serve = koksma__strata_serve,
+                                               .prepare = koksma__strata_prepare,
                                                .draw = koksma__strata_draw,
                                                .take = koksma__strata_take,
                                                .decide = decide,

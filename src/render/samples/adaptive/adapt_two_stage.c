@@ -28,12 +28,12 @@ static const koksma_param params[] = {
     {0},
 };
 
-static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+static void decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     (void)run;
     (void)pixel;
     (void)scratch;
-    (void)ask;
+    (void)demand;
 }
 
 /* The squared relative error of one set, from the pilot alone. */
@@ -126,7 +126,8 @@ static void last(koksma__adaptive *run)
     const double scale = find_scale(run);
     for (size_t p = 0; p < run->pixels; p++) {
         const double n = sets_for(run, p, scale);
-        run->asks[p] = (koksma__ask){.now = (uint32_t)(n * (double)koksma__set_size(run)), .served = true};
+        run->demands[p] =
+            (koksma__sample_demand){.now = (uint32_t)(n * (double)koksma__set_size(run)), .selected = true};
     }
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * One picture in rounds. In a round some pixels are served: their samples are drawn, traced and taken. After it each
- * served pixel asks for more samples or is done, by its own values. adaptive_choose.c then selects the pixels that
- * are served next: all that ask, or, under a budget, those with the highest scores. All of it is a function of pixel
- * and round, never of threads.
+ * One picture in rounds. In a round the samples of the selected pixels are drawn, traced and added. After it each
+ * selected pixel demands more samples or is done, by its own values. adaptive_choose.c then selects the pixels of the
+ * next round: all that demand samples, or, under a budget, those with the highest scores. All of it is a function of
+ * pixel and round, never of threads.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
 #define KOKSMA_RENDER_SAMPLES_ADAPTIVE_ADAPTIVE_H
@@ -12,13 +12,13 @@
 
 #include "render/frame.h"
 
-/* What a pixel wants next. */
-typedef struct koksma__ask {
+/* How many more samples a pixel demands. */
+typedef struct koksma__sample_demand {
     uint32_t now;   /* samples in the next round; 0: the pixel is done */
     uint32_t later; /* samples of the last round that these bring about */
-    float score;    /* who comes first under a budget */
-    bool served;    /* chosen for the next round */
-} koksma__ask;
+    float score;    /* under a budget the highest come first */
+    bool selected;  /* for the next round */
+} koksma__sample_demand;
 
 typedef struct koksma__adaptive koksma__adaptive;
 
@@ -26,21 +26,22 @@ typedef struct koksma__adaptive koksma__adaptive;
 typedef struct koksma__adaptive_method {
     bool fresh; /* sets that are independent of each other, also of patterns that could be continued */
     bool pilot; /* the first sets only decide */
-    koksma_status (*open)(koksma__adaptive *run); /* also the asks of the first round, which are all served */
+    koksma_status (*open)(
+        koksma__adaptive *run); /* also sets the demands of the first round, which selects all pixels */
     void (*close)(koksma__adaptive *run);
-    /* NULL, or what is done before a served pixel is drawn. Errors: MEMORY. */
-    koksma_status (*serve)(koksma__adaptive *run, size_t pixel);
+    /* NULL, or what is done before the samples of a selected pixel are drawn. Errors: MEMORY. */
+    koksma_status (*prepare)(koksma__adaptive *run, size_t pixel);
     /* The pairs of this round's samples of a pixel. */
     koksma_status (*draw)(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                           koksma__sample_scratch *room, float *pairs);
-    /* Their values, as many as it asked for, and their weights as drawn from the filter (filters.h; NULL: all 1).
+    /* The values of the samples that the pixel demanded, and their weights as drawn from the filter (filters.h; NULL: all 1).
        Methods decide by the values as they are; in the result weights count as film.c says. */
     void (*take)(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
-    /* What it wants next; ask is zero. scratch has run->scratch bytes. */
-    void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
-    void (*plan)(koksma__adaptive *run); /* NULL, or between rounds: looks at the whole image, may change asks */
-    void (*last)(koksma__adaptive *run); /* NULL, or when no one is served any more: asks of one more round */
-    /* NULL, or the number of probes that a served pixel's splits take; draw and take then serve those. */
+    /* What the pixel demands next; *demand is zero before. scratch has run->scratch bytes. */
+    void (*decide)(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
+    void (*plan)(koksma__adaptive *run); /* NULL, or between rounds: looks at the whole image, may change demands */
+    void (*last)(koksma__adaptive *run); /* NULL, or when no pixel is selected any more: demands of one more round */
+    /* NULL, or the number of probes that a selected pixel's splits take; draw and take are then called for those. */
     size_t (*probes)(const koksma__adaptive *run, size_t pixel);
     double (*result)(const koksma__adaptive *run, size_t pixel, double rgb[3]); /* returns the variance */
     /* NULL, or a pixel's strata for a picture. Errors: MEMORY. */
@@ -54,7 +55,7 @@ struct koksma__adaptive {
     size_t pixels, scratch;
     uint64_t budget, spent; /* samples; budget UINT64_MAX: none */
     koksma__sampler base;   /* draws sets of the pattern */
-    koksma__ask *asks;
+    koksma__sample_demand *demands;
     uint32_t *taken; /* samples of a pixel so far */
     bool probing;    /* this round is for probes only */
     void *state;     /* the method's: koksma__pixel_sets of every pixel, or koksma__strata */
@@ -62,8 +63,8 @@ struct koksma__adaptive {
     koksma_adaptive_report report;
 };
 
-/* Sets who is served next, and how many they are. Errors: MEMORY. */
-koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *served);
+/* Selects the pixels of the next round; *selected: how many. Errors: MEMORY. */
+koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *selected);
 
 /* ---- Methods whose samples are sets of the pattern ------------------------------------------------------- */
 
@@ -101,8 +102,9 @@ double koksma__sets_result(const koksma__adaptive *run, size_t pixel, double rgb
 koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);
 size_t koksma__set_size(const koksma__adaptive *run);
 
-/* Fills an ask for `sets` more, as many as the pixel may still have. */
-void koksma__sets_ask(const koksma__adaptive *run, size_t pixel, double sets, double score, koksma__ask *ask);
+/* Sets *demand to `sets` more sets, or to as many as the pixel may still have. */
+void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
+                         koksma__sample_demand *demand);
 
 /* Of the samples' luminance: its mean, and the variance of a sample as if they were independent. */
 double koksma__sets_mean(const koksma__adaptive *run, const koksma__pixel_sets *p);

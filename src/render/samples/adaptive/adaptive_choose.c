@@ -23,44 +23,44 @@ static int by_score(const void *a, const void *b)
     return p->pixel * 2654435761u < q->pixel * 2654435761u ? -1 : 1;
 }
 
-/* Under a budget a round serves a quarter of those who ask, the highest scores first, so that later rounds know more;
-   those for whom too little is left wait. */
-static void serve_best(koksma__adaptive *run, candidate *list, size_t n, size_t *served)
+/* Under a budget a round selects a quarter of the pixels that demand samples, the highest scores first: later rounds
+   then choose by more samples. A pixel that demands more than is left of the budget is passed over. */
+static void select_best(koksma__adaptive *run, candidate *list, size_t n, size_t *selected)
 {
     qsort(list, n, sizeof *list, by_score);
     const size_t most = (n + GREEDY - 1) / GREEDY;
-    for (size_t i = 0; i < n && *served < most; i++) {
-        koksma__ask *ask = &run->asks[list[i].pixel];
-        const uint64_t cost = (uint64_t)ask->now + ask->later;
+    for (size_t i = 0; i < n && *selected < most; i++) {
+        koksma__sample_demand *demand = &run->demands[list[i].pixel];
+        const uint64_t cost = (uint64_t)demand->now + demand->later;
         if (cost <= run->budget - run->spent) {
             run->spent += cost;
-            ask->served = true;
-            ++*served;
+            demand->selected = true;
+            ++*selected;
         }
     }
 }
 
-koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *served)
+koksma_status koksma__adaptive_choose(koksma__adaptive *run, size_t *selected)
 {
     size_t n = 0;
-    *served = 0;
+    *selected = 0;
     for (size_t p = 0; p < run->pixels; p++) {
-        n += run->asks[p].now > 0;
-        run->asks[p].served = run->asks[p].now > 0 && run->budget == UINT64_MAX;
+        n += run->demands[p].now > 0;
+        run->demands[p].selected = run->demands[p].now > 0 && run->budget == UINT64_MAX;
     }
     if (run->budget == UINT64_MAX || !n) {
-        *served = n;
+        *selected = n;
         return KOKSMA_OK;
     }
     candidate *list = malloc(n * sizeof *list);
     KOKSMA__REQUIRE_MEMORY(list, n * sizeof *list);
     n = 0;
     for (size_t p = 0; p < run->pixels; p++) {
-        if (run->asks[p].now) {
-            list[n++] = (candidate){run->asks[p].score, (uint32_t)p};
+        if (run->demands[p].now) {
+            list[n++] = (candidate){run->demands[p].score, (uint32_t)p};
         }
     }
-    serve_best(run, list, n, served);
+    select_best(run, list, n, selected);
     free(list);
     return KOKSMA_OK;
 }

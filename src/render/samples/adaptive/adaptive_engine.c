@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rounds: who is served, their samples through the pipeline, their values to the method, and the picture. */
+/* The rounds: draws the samples of the selected pixels, sends them through the pipeline, gives their values to the
+   method, and makes the picture. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -32,10 +33,10 @@ typedef struct room {
 static size_t count(const koksma__sampler *sampler, uint64_t pixel)
 {
     const koksma__adaptive *run = sampler->made;
-    if (!run->asks[pixel].served) {
+    if (!run->demands[pixel].selected) {
         return 0;
     }
-    return run->probing ? run->method->probes(run, pixel) : run->asks[pixel].now;
+    return run->probing ? run->method->probes(run, pixel) : run->demands[pixel].now;
 }
 
 static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32_t use, const float offset[2],
@@ -72,7 +73,7 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
     koksma__adaptive *run = j->run;
     const size_t pixel = group->first + p, first = group->start[p], end = group->start[p + 1];
     const size_t channels = (size_t)j->frame.channels;
-    koksma__ask ask = {0};
+    koksma__sample_demand demand = {0};
     const float *weights = j->frame.filter ? r->pixels.values.weights + first : NULL;
     run->method->take(run, pixel, r->pixels.values.rgb + channels * first, weights);
     if (run->probing) {
@@ -82,8 +83,8 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
         keep_layers(j, &r->pixels.values, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
-    run->method->decide(run, pixel, r->scratch, &ask);
-    run->asks[pixel] = ask;
+    run->method->decide(run, pixel, r->scratch, &demand);
+    run->demands[pixel] = demand;
 }
 
 static koksma_status render_group(const job *j, room *r, const koksma__group *group)
@@ -113,14 +114,14 @@ static koksma_status render_task(void *context, size_t task)
     const size_t first = task * PIXELS_A_TASK;
     const size_t end = first + PIXELS_A_TASK < run->pixels ? first + PIXELS_A_TASK : run->pixels;
     koksma_status status = KOKSMA_OK;
-    size_t served = 0;
+    size_t selected = 0;
     for (size_t pixel = first; !status && pixel < end; pixel++) {
-        served += run->asks[pixel].served;
-        if (run->asks[pixel].served && !run->probing && run->method->serve) {
-            status = run->method->serve(run, pixel);
+        selected += run->demands[pixel].selected;
+        if (run->demands[pixel].selected && !run->probing && run->method->prepare) {
+            status = run->method->prepare(run, pixel);
         }
     }
-    if (status || !served) {
+    if (status || !selected) {
         return status;
     }
     room r = {.scratch = malloc(run->scratch + 1)};
@@ -148,7 +149,7 @@ static koksma_status render_round(job *j, const koksma_run *how)
     koksma__adaptive *run = j->run;
     size_t most = (size_t)j->frame.options->spp;
     for (size_t p = 0; p < run->pixels; p++) {
-        const size_t n = run->asks[p].served ? run->taken[p] + count(&j->frame.sampler, p) : 0;
+        const size_t n = run->demands[p].selected ? run->taken[p] + count(&j->frame.sampler, p) : 0;
         most = n > most ? n : most; /* a continued sequence is drawn from its start */
     }
     j->frame.sampler.most = most;
@@ -159,7 +160,7 @@ static koksma_status render_round(job *j, const koksma_run *how)
 static koksma_status render_rounds(job *j, const koksma_run *how)
 {
     koksma__adaptive *run = j->run;
-    size_t served = 0;
+    size_t selected = 0;
     bool last = false;
     j->first = true;
     koksma_status status = render_round(j, how);
@@ -168,11 +169,11 @@ static koksma_status render_rounds(job *j, const koksma_run *how)
         if (run->method->plan && !last) {
             run->method->plan(run);
         }
-        status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &served);
-        if (status || (!served && (last || !run->method->last))) {
+        status = last ? KOKSMA_OK : koksma__adaptive_choose(run, &selected);
+        if (status || (!selected && (last || !run->method->last))) {
             return status;
         }
-        if (!served) {
+        if (!selected) {
             last = true;
             run->method->last(run);
         }
@@ -254,16 +255,16 @@ static koksma_status check(const koksma_render_options *options, const koksma_ad
 /* What the first round costs is spent whatever the budget is; the budget must have it. */
 static koksma_status open_run(koksma__adaptive *run)
 {
-    run->asks = calloc(run->pixels, sizeof *run->asks);
+    run->demands = calloc(run->pixels, sizeof *run->demands);
     run->taken = calloc(run->pixels, sizeof *run->taken);
-    if (!run->asks || !run->taken) {
-        return koksma__fail_memory(run->pixels * sizeof *run->asks);
+    if (!run->demands || !run->taken) {
+        return koksma__fail_memory(run->pixels * sizeof *run->demands);
     }
     const koksma_status status = run->method->open(run);
     for (size_t p = 0; !status && p < run->pixels; p++) {
-        run->asks[p].served = true;
-        run->spent += (uint64_t)run->asks[p].now + run->asks[p].later;
-        run->report.first += run->asks[p].now;
+        run->demands[p].selected = true;
+        run->spent += (uint64_t)run->demands[p].now + run->demands[p].later;
+        run->report.first += run->demands[p].now;
     }
     KOKSMA__FAIL_IF(!status && run->spent > run->budget, KOKSMA_ARGUMENT,
                     "%s: a budget of %.9g samples a pixel: the first round takes %.9g", run->options->method->name,
@@ -278,7 +279,7 @@ uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const kok
     const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
     const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
     const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
-    return pixels * (sizeof(koksma__ask) + sizeof(uint32_t) + state);
+    return pixels * (sizeof(koksma__sample_demand) + sizeof(uint32_t) + state);
 }
 
 static koksma_status open_layers(const koksma__frame *frame, koksma_layers *out)
@@ -328,7 +329,7 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
     }
     koksma__frame_close(&j.frame);
     free(run.extra);
-    free(run.asks);
+    free(run.demands);
     free(run.taken);
     if (status && status != KOKSMA_INTERRUPTED) {
         koksma_layers_fini(out);

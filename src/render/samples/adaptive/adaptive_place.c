@@ -4,9 +4,9 @@
  * use and the other use together. Every random number is a hash of (seed, pixel, use, node), a node being a stratum
  * that is or was; so nothing has to be remembered.
  *
- * With `kept` a node's sample is that of its parent when it is the part k where the parent's sample lies in the base
- * use, k = b; in another use that sample lies in quarter c, and so part k gets quarter k ^ b ^ c there: kept for the
- * kept, and one to one for the others. Shuffled, the other three change places at random.
+ * With `kept` a stratum that is split into four hands its sample on to the part that contains it: part b in the base
+ * use, and quarter c in another use. There part k gets quarter k ^ b ^ c: part b gets c, and the other three parts get
+ * the other three quarters. Shuffled, those three change places at random.
  *
  * With `fresh` the samples of the last stage must be independent of those by which strata were split. k ^ b ^ c
  * would always pair the quarters (b, c) again, where the sample lay that caused the split. So in the last stage part

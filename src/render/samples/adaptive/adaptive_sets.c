@@ -86,7 +86,8 @@ koksma_status koksma__sets_open(koksma__adaptive *run)
     KOKSMA__REQUIRE_MEMORY(run->state, run->pixels * sizeof(koksma__pixel_sets));
     for (size_t p = 0; p < run->pixels; p++) {
         const uint32_t n = (uint32_t)(first * run->frame->options->spp);
-        run->asks[p] = (koksma__ask){.now = n, .later = run->method->pilot ? (uint32_t)run->frame->options->spp : 0};
+        run->demands[p] =
+            (koksma__sample_demand){.now = n, .later = run->method->pilot ? (uint32_t)run->frame->options->spp : 0};
     }
     return KOKSMA_OK;
 }
@@ -135,7 +136,7 @@ static koksma_status draw_blocks(const koksma__adaptive *run, size_t pixel, uint
 koksma_status koksma__sets_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                 koksma__sample_scratch *room, float *pairs)
 {
-    const size_t n = koksma__set_size(run), samples = run->asks[pixel].now;
+    const size_t n = koksma__set_size(run), samples = run->demands[pixel].now;
     const size_t first = koksma__sets_of(run, pixel)->drawn;
     koksma_status status = KOKSMA_OK;
     if (!continues(run, koksma__use_index(use))) {
@@ -194,16 +195,17 @@ static void take_set(koksma__pixel_sets *p, size_t n, size_t channels, const flo
 void koksma__sets_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights)
 {
     const size_t n = koksma__set_size(run), channels = (size_t)run->frame->channels;
-    for (size_t k = 0; k < run->asks[pixel].now / n; k++) {
+    for (size_t k = 0; k < run->demands[pixel].now / n; k++) {
         take_set(koksma__sets_of(run, pixel), n, channels, rgb + k * n * channels, weights ? weights + k * n : NULL);
     }
 }
 
-void koksma__sets_ask(const koksma__adaptive *run, size_t pixel, double sets, double score, koksma__ask *ask)
+void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
+                         koksma__sample_demand *demand)
 {
     const double left = run->options->params[KOKSMA__SETS_MOST] - koksma__sets_of(run, pixel)->sets;
     const double more = sets < left ? sets : left;
-    *ask = (koksma__ask){.now = (uint32_t)(more * (double)koksma__set_size(run)), .score = (float)score};
+    *demand = (koksma__sample_demand){.now = (uint32_t)(more * (double)koksma__set_size(run)), .score = (float)score};
 }
 
 /* ---- What they say ---------------------------------------------------------------------------------------- */

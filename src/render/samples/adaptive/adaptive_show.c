@@ -2,7 +2,7 @@
 /*
  * The strata of a pixel as the square of each use has them, for figures such as 5.35 and 5.36 of Shirley 1991, and
  * which of the splits that made them were needless. A split is found again from the strata: of all the parts of a
- * stratum that was split `level` times one has only zeros as its further digits, and stands for it.
+ * stratum that was split `level` times one has only zeros as its further digits, and represents it.
  */
 #include <math.h>
 #include <stdio.h>

@@ -40,7 +40,7 @@ static koksma_status open_trees(koksma__adaptive *run, koksma__strata *s)
         for (uint32_t i = 0; i < n; i++) {
             tree->strata[i] = (koksma__stratum){.number = i, .pending = true};
         }
-        run->asks[p] = (koksma__ask){.now = n, .later = s->reuse == KOKSMA__REUSE_FRESH ? n : 0};
+        run->demands[p] = (koksma__sample_demand){.now = n, .later = s->reuse == KOKSMA__REUSE_FRESH ? n : 0};
     }
     return KOKSMA_OK;
 }
@@ -136,7 +136,7 @@ static void compare_all(const koksma__strata *s, const koksma__tree *tree, const
 
 /* Under a budget the order is by the variance that a pixel may lose a sample: the sum of (volume x difference)^2 over
    the strata to be split, over the samples that it takes. */
-void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask)
+void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
@@ -161,13 +161,13 @@ void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, k
         tree->marked += stratum->marked;
         gain += stratum->marked ? part * part : 0;
     }
-    ask->now = tree->marked * (s->reuse == KOKSMA__REUSE_RENEWED ? 4 : 3);
-    ask->later = s->reuse == KOKSMA__REUSE_FRESH ? tree->marked * 3 : 0;
-    ask->score = tree->marked ? (float)(gain / ask->now) : 0;
+    demand->now = tree->marked * (s->reuse == KOKSMA__REUSE_RENEWED ? 4 : 3);
+    demand->later = s->reuse == KOKSMA__REUSE_FRESH ? tree->marked * 3 : 0;
+    demand->score = tree->marked ? (float)(gain / demand->now) : 0;
 }
 
 /* Puts four parts in the place of each marked stratum. */
-koksma_status koksma__strata_serve(koksma__adaptive *run, size_t pixel)
+koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel)
 {
     koksma__strata *s = run->state;
     koksma__tree *tree = &s->trees[pixel];
@@ -289,7 +289,7 @@ void koksma__strata_last(koksma__adaptive *run)
         }
         tree->marked = 0;
         tree->stage = KOKSMA__STAGE_LAST;
-        run->asks[p] = (koksma__ask){.now = tree->n, .served = true};
+        run->demands[p] = (koksma__sample_demand){.now = tree->n, .selected = true};
     }
 }
 

@@ -108,11 +108,11 @@ extern const char *const koksma__reuse_names[];
 
 koksma_status koksma__strata_open(koksma__adaptive *run);
 void koksma__strata_close(koksma__adaptive *run);
-koksma_status koksma__strata_serve(koksma__adaptive *run, size_t pixel);
+koksma_status koksma__strata_prepare(koksma__adaptive *run, size_t pixel);
 koksma_status koksma__strata_draw(const koksma__adaptive *run, size_t pixel, uint32_t use, const float offset[2],
                                   koksma__sample_scratch *room, float *pairs);
 void koksma__strata_take(koksma__adaptive *run, size_t pixel, const float *rgb, const float *weights);
-void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__ask *ask);
+void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
 void koksma__strata_last(koksma__adaptive *run);
 size_t koksma__strata_probes(const koksma__adaptive *run, size_t pixel);
 koksma_status koksma__strata_show(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
