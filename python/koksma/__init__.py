@@ -26,14 +26,14 @@ from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
 from ._series import Convergence, Trials, convergence, trials
 from ._spectrum import PairCorrelation, Spectrum, pair_correlation, spectrum
-from ._study import Cost, Study, Summary, TableRow, plans
+from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Asked", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
-    "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
-    "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "canonical", "compare",
-    "convergence", "generate", "measure", "measures", "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot",
-    "plot_convergence", "rank", "read", "read_image", "render", "scenes", "spectrum", "trials", "verify", "version",
-    "write",
+    "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding",
+    "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
+    "Ranked", "Ranking", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
+    "Witness", "audit", "canonical", "compare", "convergence", "generate", "measure", "measures", "modifiers",
+    "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_convergence", "rank", "read", "read_image",
+    "render", "scenes", "spectrum", "trials", "verify", "version", "write",
 ]

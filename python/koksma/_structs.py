@@ -167,6 +167,19 @@ class StudyRow(Structure):
                 ("trials", c_size_t), ("verdict", c_int)]
 
 
+Differs = CFUNCTYPE(None, c_void_p, c_char_p)
+
+
+class AuditOptions(Structure):
+    _fields_ = [("folder", c_char_p), ("rows", c_longlong), ("seed", c_uint64), ("differs", Differs), ("context", c_void_p)]
+
+
+class Audit(Structure):
+    _fields_ = [("rows", c_longlong), ("other_rows", c_longlong), ("drawn", c_longlong), ("agree", c_longlong),
+                ("bound", c_double), ("references", c_size_t), ("references_agree", c_size_t),
+                ("references_missing", c_size_t), ("differences", c_size_t), ("other", c_char * 128)]
+
+
 class UseGroup(Structure):
     _fields_ = [("pattern", Spec), ("n_uses", c_int), ("uses", c_int * N_USES)]
 
@@ -246,7 +259,8 @@ LAYOUTS = [
     ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("plot.h", "koksma_cell", Cell),
     ("plot.h", "koksma_figure", Figure), ("study.h", "koksma_study_options", StudyOptions),
     ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
-    ("study.h", "koksma_study_row", StudyRow),
+    ("study.h", "koksma_study_row", StudyRow), ("study.h", "koksma_audit_options", AuditOptions),
+    ("study.h", "koksma_audit", Audit),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),

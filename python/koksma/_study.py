@@ -59,6 +59,32 @@ class TableRow:
     verdict: str
 
 
+@dataclass(frozen=True)
+class Audit:
+    """What an audit of a study's folder found; true if nothing differs.
+
+    Of `rows`, which the generators of this version made, `drawn` were made again and `agree` were equal, bit for bit. With
+    95 % confidence a smaller part of `rows` than `bound` is wrong (Clopper & Pearson 1934); if all were drawn, it is the part
+    that differs. `other_rows` are of other versions and cannot be compared; `other` names one. Of `references`, the
+    reference images, `references_agree` were equal, and `references_missing` have no file. `differences` is a line for
+    each thing that differs.
+    """
+
+    rows: int
+    other_rows: int
+    drawn: int
+    agree: int
+    bound: float
+    references: int
+    references_agree: int
+    references_missing: int
+    differences: tuple[str, ...]
+    other: str
+
+    def __bool__(self) -> bool:
+        return not self.differences
+
+
 class Study:
     """A study that is open; also a context manager.
 
@@ -197,6 +223,48 @@ class Study:
             self.close()
         except Exception:  # noqa: BLE001  nobody is there to be told
             pass
+
+
+def audit(folder: Union[str, "os.PathLike[str]"], rows: Optional[SupportsIndex] = 200, *, seed: SupportsIndex = 1,
+          threads: SupportsIndex = 0, progress: Optional[Callable[[float], object]] = None) -> Audit:
+    """Makes rows of a study again from their keys, and all its reference images, and compares them bit for bit.
+
+    Parameters
+    ----------
+    folder : path
+        A study's folder, which is only read. No run may use it meanwhile; close a `Study` first.
+    rows : int or None
+        How many rows are drawn at random; None: all.
+    seed : int
+        Of the draw. The rows that are drawn depend on it and the folder alone.
+    threads, progress
+        As in `Study.run`. Ctrl-C ends the audit without a result.
+
+    Returns
+    -------
+    Audit
+        True if nothing differs. What differs is no error.
+
+    Raises
+    ------
+    MissingError, MalformedError
+        The folder has no results of a study, or they are damaged beyond reading.
+
+    Examples
+    --------
+    >>> import koksma
+    >>> found = koksma.audit("results", rows=200)  # doctest: +SKIP
+    >>> found.agree, found.drawn, found.bound      # doctest: +SKIP
+    (200, 200, 0.0149)
+    """
+    lines: List[str] = []
+    differs = s.Differs(lambda _context, line: lines.append(line.decode(errors="replace")))
+    options = s.AuditOptions(text(os.fspath(folder)), 0 if rows is None else whole("rows", rows, 1, (1 << 63) - 1),
+                             whole("seed", seed, 0, s.MAX_SEED), differs, None)
+    raw = s.Audit()
+    call(lab().koksma_study_audit, byref(options), byref(raw), threads=threads, run_at=1, progress=progress)
+    return Audit(raw.rows, raw.other_rows, raw.drawn, raw.agree, raw.bound, raw.references, raw.references_agree,
+                 raw.references_missing, tuple(lines), raw.other.decode(errors="replace"))
 
 
 def plans() -> List[str]:

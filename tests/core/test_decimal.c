@@ -3,6 +3,7 @@
    neighbours of powers of ten, ties, random numbers of every kind of pattern, and what the quick road refuses. */
 #include "core/decimal.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/c_locale.h"

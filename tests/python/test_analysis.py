@@ -13,7 +13,9 @@ import os
 import pathlib
 import pkgutil
 import re
+import sqlite3
 import subprocess
+import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
@@ -202,6 +204,49 @@ class Studies(unittest.TestCase):
             self.assertEqual(table[0].published[0], float(table[0].published[0]))
             with self.assertRaises(ValueError):
                 study.table("no such")
+
+    def test_audit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with koksma.Study(PLAN, folder) as study:
+                study.run()
+            done = []
+            found = koksma.audit(folder, rows=20, seed=3, threads=1, progress=done.append)
+            (theirs,) = rows("study", "audit", folder, "--rows", "20", "--seed", "3")
+            self.assertTrue(found)
+            self.assertEqual((found.rows, found.drawn, found.agree, found.other_rows, found.differences), (60, 20, 20, 0, ()))
+            self.assertEqual([found.rows, found.drawn, found.agree, found.bound],
+                             [theirs[key] for key in ("rows", "drawn", "agree", "wrong_below")])
+            self.assertTrue(0.05 < found.bound < 1 - 0.05 ** (1 / 20) + 1e-12)  # of draws with replacement at most that
+            self.assertTrue(done and all(0 <= f <= 1 for f in done))
+            everything = koksma.audit(folder, rows=None)
+            self.assertEqual((everything.drawn, everything.bound), (60, 0))
+
+    def test_audit_finds_what_was_changed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with koksma.Study(PLAN, folder) as study:
+                study.run()
+            store = sqlite3.connect(os.path.join(folder, "results.sqlite"))
+            store.execute("UPDATE result SET v0 = v0 / 2 WHERE id = (SELECT max(id) FROM result)")
+            store.commit()
+            store.close()
+            with self.assertRaises(koksma.MalformedError):  # its seal is broken
+                with koksma.Study((), folder) as study:
+                    study.rows()
+            reseal = pathlib.Path(__file__).parent.parent / "study" / "reseal.py"
+            subprocess.run([sys.executable, str(reseal), folder], check=True)
+            found = koksma.audit(folder, rows=None)
+            self.assertFalse(found)
+            self.assertEqual((found.rows - found.agree, len(found.differences)), (1, 1))
+            self.assertEqual(found.bound, 1 / 60)
+            self.assertIn("sobol", found.differences[0])
+
+    def test_audit_of_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(koksma.MissingError):
+                koksma.audit(folder)
+            for wrong in ({"rows": 0}, {"rows": -1}, {"seed": -1}, {"threads": -1}):
+                with self.assertRaises(koksma.ArgumentError):
+                    koksma.audit(folder, **wrong)
 
     def test_wrong(self):
         for plan in ({"name": "x"}, "nosuch", {**PLAN, "colour": 1}):

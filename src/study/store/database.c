@@ -246,7 +246,7 @@ static koksma_status open_as(koksma__database *database, koksma__database_mode m
     static const char *const settings[] = {
         [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
         [KOKSMA__DATABASE_WRITE] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; "
-                                   "PRAGMA synchronous=NORMAL; PRAGMA cache_size=-32768",
+                                   "PRAGMA synchronous=FULL; PRAGMA cache_size=-32768",
         [KOKSMA__DATABASE_LOCK] = "PRAGMA locking_mode=EXCLUSIVE; BEGIN EXCLUSIVE; COMMIT; "
                                   "PRAGMA wal_checkpoint(TRUNCATE)",
         [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=FULL"};
