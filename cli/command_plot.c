@@ -86,8 +86,9 @@ static const cli_option options[] = {
     {0, "local-discrepancy", NULL,
      "points: colour the square by the share of the points in the box from the origin, less its area"},
     {0, "white", "P", "power: the power that is drawn white (default: 2; random points have 1)"},
-    {'m', "measure", "MEASURE", "convergence: of this measure (default: l2-star)"},
-    {0, "sizes", "N,..", "convergence: at these n, as in 16,64,256 (default: powers of 4 up to the source's)"},
+    {'m', "measure", "MEASURE", "convergence, compare: of this measure (default: l2-star)"},
+    {0, "sizes", "N,..",
+     "convergence, compare: at these n, as in 16,64,256 (default: the powers of 4 up to the source's that it has)"},
     CLI_CURVE_OPTIONS("chart", "2 sqrt(n)"),
     CLI_RUN_OPTIONS,
     {0},
@@ -108,10 +109,9 @@ const cli_command cli_command_plot = {
                 "koksma plot pattern:jittered@64 --warp polar-disk --grid 8 -o disk.png\n"
                 "koksma plot --curve power pattern:jittered@256 --trials 10 -o power.svg\n"
                 "koksma plot --curve radial pattern:random@256 pattern:jittered@256 -o r.pdf\n"
-                "koksma plot --curve pairs pattern:poisson-disk-maximal@256 -o pairs.svg\n"
+                "koksma plot --curve pairs pattern:jittered@256 -o pairs.svg --size 400x300\n"
                 "koksma plot --curve anisotropy pattern:regular@256 -o a.svg --theme dark\n"
-                "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 \\\n"
-                "  -o c.svg --size 400\n"
+                "koksma plot --curve convergence pattern:random@256 pattern:sobol@256 -o c.svg\n"
                 "koksma plot --curve filter-response box tent mitchell -o response.svg\n",
     .options = options,
     .run = run,

@@ -10,7 +10,6 @@ smaller ones. The explorer is put in where make explorer has built it.
 import argparse
 import html
 import json
-import os
 import re
 import sys
 from pathlib import Path
@@ -99,19 +98,10 @@ def number(row):
 
 
 def projections(site, row, n):
-    """Pictures of pairs of coordinates of points that are not plane."""
-    name, figures = row["pattern"], []
-    out, error = site.program.try_run("generate", name, "-n", str(n), "--dim", row["dim"], "-q", "-o", "-")
-    if error:
-        raise SystemExit(f"{name}: {error}")
-    points = [line.split() for line in out.splitlines() if line and not line.startswith("#")]
-    for a, b in ((0, 1), (0, 2), (1, 2)):
-        file = f"{name}-{'xyt'[a]}{'xyt'[b]}"
-        (site.program.folder / f"{file}.txt").write_text("".join(f"{p[a]} {p[b]}\n" for p in points), encoding="utf-8")
-        figures.append(site.program.picture(f"{file}.svg", "plot", f"{file}.txt", "--size", "280",
-                                            alt=f"coordinates {'xyt'[a]} and {'xyt'[b]} of {n} points"))
-    os.replace(site.program.folder / f"{name}-xt.svg", site.program.folder / f"{name}.svg")
-    return "<div class='row'>" + "".join(figures).replace(f"{name}-xt.svg", f"{name}.svg") + "</div>"
+    """A scatter matrix of points that are not plane."""
+    name, dim = row["pattern"], row["dim"]
+    return "<div class='row'>" + site.program.picture(f"{name}.svg", "plot", f"pattern:{name}@{n}@{dim}", "--size", "560",
+                                                      alt=f"the projections of {n} points of {dim} dimensions") + "</div>"
 
 
 def pattern_pictures(site, row):

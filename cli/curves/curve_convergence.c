@@ -16,13 +16,28 @@
 
 enum { MAX_SIZES = CLI_MAX_SIZES, PER_SOURCE = 3 };
 
-/* --sizes, or powers of four from 16 (squares: patterns with cells have them) up to the source's n. */
-static bool choose_sizes(const cli_curves *c, size_t n, size_t *sizes, size_t *count)
+/* A file has prefixes of all sizes. */
+static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
+{
+    koksma_points points = {0};
+    const bool has = !source->is_pattern || (!koksma_points_init(&points, n, source->dim) &&
+                                             !koksma_generate(&source->spec, c->seed, &c->work.run, &points));
+    koksma_points_fini(&points);
+    return has;
+}
+
+/* --sizes, or those of the powers of four from 16 (squares: patterns with cells have them) up to the source's n that it
+   has, or else this n. */
+static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n, size_t *sizes, size_t *count)
 {
     const char *text = cli_text(c->arguments, "sizes", NULL);
     *count = 0;
     for (size_t k = 16; !text && k <= n; k *= 4) {
-        sizes[(*count)++] = k;
+        sizes[*count] = k;
+        *count += has_size(c, source, k);
+    }
+    if (!text && *count == 0) {
+        sizes[(*count)++] = n;
     }
     while (text && *text) {
         char *end;
@@ -125,7 +140,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
     if (!code && !source.is_pattern) {
         code = cli_source_points(c->arguments, text, 0, &c->work.run, &file);
     }
-    if (!code && !choose_sizes(c, source.is_pattern ? source.n : file.n, v->sizes, &v->count)) {
+    if (!code && !choose_sizes(c, &source, source.is_pattern ? source.n : file.n, v->sizes, &v->count)) {
         code = CLI_USAGE;
     }
     code = code ? code : tally_sizes(c, measure, &source, source.is_pattern ? NULL : &file, v);

@@ -128,7 +128,7 @@ typedef struct koksma_figure {
     double width,
         height; /* points or pixels; width 0: what the cells have alone. height 0: as the width demands; else
                              squares and axes become smaller, or axes higher */
-    bool wrap;  /* rows become several lines where a cell would be less than 110 (charts 300) wide */
+    bool wrap;  /* rows become several lines where a cell would be less than 128 (charts 300) wide */
     bool dark;  /* light on dark */
 } koksma_figure;
 

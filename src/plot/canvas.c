@@ -190,6 +190,14 @@ void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double heig
     canvas->draw->text(canvas, x, y, height, anchor, shown, colour);
 }
 
+/* Whether a line may end before text[at]: after a sign inside of a word, or a blank that is not of "n = 16". */
+static bool may_break(const char *text, size_t at)
+{
+    const char last = text[at - 1], before = at > 1 ? text[at - 2] : ' ';
+    return last == ' ' ? before != '=' && text[at] != '='
+                       : strchr(",:;@/_-=", last) && before != ' ' && text[at] != ' ';
+}
+
 /* The bytes of the first line: up to the last blank or sign that fits, or as many characters as do, one at least. */
 static size_t line_length(const char *text, double width, double height)
 {
@@ -205,9 +213,7 @@ static size_t line_length(const char *text, double width, double height)
             return best > 0 ? best : fits;
         }
         fits += step;
-        const bool equals = strchr(" =", text[fits - 1]) &&
-                            (text[fits] == '=' || text[fits - 1] == '=' || (fits > 1 && text[fits - 2] == '='));
-        best = strchr(" ,:;@/_", text[fits - 1]) && !equals ? fits : best; /* "n = 16" stays whole */
+        best = may_break(text, fits) ? fits : best;
     }
     return fits;
 }

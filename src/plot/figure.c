@@ -15,13 +15,13 @@
 #include "plot/chart.h"
 #include "plot/scatter.h"
 
-enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 110, MIN_CHART = 300, LEAST_CHART = 112, WIDE = 960 };
+enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, LEAST_CHART = 112, WIDE = 960 };
 
 static const double aspect = 0.5; /* of a chart's axes: the height to the width of the chart */
 
 /* Cells that stand side by side. */
 typedef struct line {
-    size_t first, n;
+    size_t first, n, columns;
     double title, texts, flexible; /* heights: of titles, of all texts, of the squares or axes */
     bool charts;                   /* one at least: these can grow in height */
 } line;
@@ -33,8 +33,8 @@ typedef struct layout {
     line *lines;
 } layout;
 
-/* The cells of a row from `first` on that fit beside each other. */
-static line find_line(const koksma_figure *f, size_t first, double width)
+/* The cells of a row from `first` on that fit beside each other; in columns as those before. */
+static line find_line(const koksma_figure *f, size_t first, double width, const line *before)
 {
     line l = {.first = first};
     double least = 0;
@@ -45,7 +45,10 @@ static line find_line(const koksma_figure *f, size_t first, double width)
     }
     const size_t in_row = row - first, most = least > 0 && width > least ? (size_t)(width / least) : 1;
     const size_t n_lines = (in_row + most - 1) / most;
-    l.n = f->wrap ? (in_row + n_lines - 1) / n_lines : in_row;
+    l.columns = before && f->cells[before->first].row == f->cells[first].row ? before->columns
+                : f->wrap                                                    ? (in_row + n_lines - 1) / n_lines
+                                                                             : in_row;
+    l.n = in_row < l.columns ? in_row : l.columns;
     return l;
 }
 
@@ -73,8 +76,8 @@ static void lay_out(layout *a, const koksma_figure *f, double width)
     a->fixed = a->title + (a->title > 0 ? TOP : 0);
     for (size_t i = 0; i < f->n_cells; i += a->lines[a->n - 1].n) {
         line *l = &a->lines[a->n++];
-        *l = find_line(f, i, width);
-        measure_line(f, l, width / (double)l->n);
+        *l = find_line(f, i, width, i ? l - 1 : NULL);
+        measure_line(f, l, width / (double)l->columns);
         a->fixed += l->texts;
         a->flexible += l->flexible;
         a->growing += l->charts ? l->flexible : 0;
@@ -99,7 +102,7 @@ static koksma_status fit_height(layout *a, double asked)
 static koksma_status draw_line(koksma__canvas *canvas, const koksma__theme *theme, const layout *a, const line *l,
                                double y)
 {
-    const double width = a->width / (double)l->n;
+    const double width = a->width / (double)l->columns;
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < l->n && !status; i++) {
         const koksma_cell *c = &a->figure->cells[l->first + i];

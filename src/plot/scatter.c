@@ -251,8 +251,13 @@ static void put_note(const koksma_panel *panel, double largest, char text[NOTE])
                          panel->white > 0 ? panel->white : 2, panel->spectrum->half);
     } else if (panel->scatter.local_discrepancy) {
         koksma__snprintf(text, NOTE, "local discrepancy -%.4f (blue) to %.4f (orange)", largest, largest);
-    } else if (panel->points->dim > KOKSMA_PLOT_MAX_DIM) {
-        koksma__snprintf(text, NOTE, "the first %d of %d dimensions", KOKSMA_PLOT_MAX_DIM, panel->points->dim);
+    } else if (panel->points->dim > 2) {
+        koksma__snprintf(text, NOTE, "%s", panel->scatter.witness ? "projections of the region" : "");
+    }
+    if (panel->points && panel->points->dim > KOKSMA_PLOT_MAX_DIM) {
+        const size_t used = strlen(text);
+        koksma__snprintf(text + used, NOTE - used, "%sthe first %d of %d dimensions", used ? "; " : "",
+                         KOKSMA_PLOT_MAX_DIM, panel->points->dim);
     }
 }
 

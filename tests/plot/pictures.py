@@ -42,7 +42,7 @@ def koksma(*arguments):
 
 def examples():
     """The command lines at the end of the help, as lists of arguments."""
-    text = koksma("plot", "--help").split("\nexamples:\n")[1].replace("\\\n", " ")
+    text = koksma("plot", "--help").split("\nexamples:\n")[1]
     return [shlex.split(line)[1:] for line in text.splitlines() if line.strip()]
 
 
