@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * A datasheet while it is made: the samplers, what is measured, and what came out. sheet.c has the order of work,
- * samplers.c the sizes and seeds, the other files a part of the sheet each.
+ * A datasheet while it is made: the samplers, what is measured, what came out, progress, notes and commands.
+ * datasheet.c has the order of work, sheet_samplers.c the sizes and seeds, the other files a part of the sheet each.
  */
 #ifndef KOKSMA_STUDY_SHEET_SHEET_H
 #define KOKSMA_STUDY_SHEET_SHEET_H
@@ -88,16 +88,6 @@ koksma_run koksma__sheet_part(koksma__sheet *sheet, double share);
 /* An item of the list of notes: words, and then the text of this thread's last error. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 
-/* Chooses samplers, sizes, trials and numbers of samples. Errors: koksma_datasheet's of samplers. */
-koksma_status koksma__sheet_choose(koksma__sheet *sheet);
-
-/* The points of a trial. */
-koksma_status koksma__sheet_points(const koksma__sheet_sampler *sampler, size_t n, int dim, size_t trial,
-                                   koksma_points *out);
-
-/* Sets of a sampler that are measured: no more than there are. */
-size_t koksma__sheet_trials(const koksma__sheet_sampler *sampler, size_t wanted);
-
 /* The operand of commands for sets of a sampler, quoted for a shell where it has to be: pattern:SPEC@n, and @dim where
    that is not 2. */
 void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size);
@@ -105,32 +95,6 @@ void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int di
 /* Command lines for a section, "koksma " before each; koksma__sheet_put_commands writes and empties the list. */
 void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...) KOKSMA_PRINTF(2, 3);
 void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d);
-
-/* The largest size up to `most`, or the smallest that there is. */
-size_t koksma__sheet_size(const koksma__sheet *sheet, size_t most);
-
-/* Evaluates values->measures on all sizes and trials; leaves out what has no value, with a note. */
-koksma_status koksma__sheet_evaluate(koksma__sheet *sheet, koksma__sheet_values *values, const koksma_run *run);
-void koksma__sheet_values_fini(koksma__sheet_values *values);
-const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size_t s, size_t m, size_t i);
-
-/* A table of all values, and the commands that give them. */
-void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
-                              koksma__document *d);
-
-/* Whether sampler a is better than b by measure m at size i, in a test at the level 5 % / tests: 1, -1, or 0: not
-   decided. */
-int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);
-
-/* The parts: what they compute, and their sections. */
-koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
-koksma_status koksma__sheet_rank(koksma__sheet *sheet);
-void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d);
-void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *d);
-void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d);
+void koksma__sheet_drop_commands(koksma__sheet *sheet);
 
 #endif

@@ -4,6 +4,8 @@
  * points; anything else is the spec of a pattern. Files decide: a family of files is measured at the sizes and with
  * the seeds that it has, a single file at its own size, everything beside it at the same sizes.
  */
+#include "study/sheet/sheet_samplers.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +17,6 @@
 #include "api/generate.h"
 #include "core/status.h"
 #include "patterns/shared/file_names.h"
-#include "study/sheet/sheet.h"
 
 enum { MOST_POINTS = 4096, MOST_POINTS_QUICK = 1024, MOST_SPP = 256 };
 

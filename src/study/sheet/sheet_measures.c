@@ -8,6 +8,8 @@
  * Comparisons are Welch's (1947) on means over trials, each at 5 % over the number of tests (Bonferroni), so that all
  * that a sheet decides holds together with 95 %. Means of sets that never vary compare exactly.
  */
+#include "study/sheet/sheet_measures.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +18,7 @@
 #include "core/parallel.h"
 #include "core/status.h"
 #include "stats/quantiles.h"
-#include "study/sheet/sheet.h"
+#include "study/sheet/sheet_samplers.h"
 
 /* ---- Evaluation -------------------------------------------------------------------------------------------- */
 

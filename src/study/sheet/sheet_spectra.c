@@ -4,6 +4,8 @@
  * pair correlation, over sets with as many frequencies and rings as `koksma curve` takes by itself, so that the
  * numbers are that command's.
  */
+#include "study/sheet/sheet_spectra.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +15,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "study/sheet/sheet.h"
+#include "study/sheet/sheet_samplers.h"
 
 enum { POINTS = 1024, QUALITY_PER_ROOT = 7, RADIAL_PER_ROOT = 2, BINS = 100, WHITE = 2, SIDE = 200 };
 

@@ -4,11 +4,13 @@
  * won when the sampler is better than every other one at the largest n, as lost when one is better than it, and is not
  * decided otherwise; a scene likewise by the decisions of its ranking at the most samples.
  */
+#include "study/sheet/sheet_verdict.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "study/sheet/sheet.h"
+#include "study/sheet/sheet_measures.h"
 
 /* What came of the comparisons of one measure or scene. */
 typedef enum outcome { OPEN, WON, LOST, EQUAL } outcome;

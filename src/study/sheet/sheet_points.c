@@ -3,13 +3,16 @@
  * What the points are: drawings of the first set of a few sizes, the properties that `koksma verify` finds in it, and
  * in more dimensions the projections on pairs of coordinates with the discrepancies there.
  */
+#include "study/sheet/sheet_points.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include <koksma/verify.h>
 
 #include "core/status.h"
-#include "study/sheet/sheet.h"
+#include "study/sheet/sheet_measures.h"
+#include "study/sheet/sheet_samplers.h"
 
 enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
 

@@ -3,13 +3,14 @@
  * Errors of the samplers in scenes: koksma_rank_patterns at one size without a time limit, so that the numbers depend
  * on nothing but the scene and the samplers.
  */
+#include "study/sheet/sheet_scenes.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/status.h"
-#include "study/sheet/sheet.h"
 
 koksma_status koksma__sheet_rank(koksma__sheet *sheet)
 {

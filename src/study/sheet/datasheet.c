@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Datasheets: the order of work and of the text. What is computed comes first, because the verdict, which is the first
+ * section, rests on all of it. The format is that of a report (docs/report-format.md) with other members before the
+ * content, and the page that shows reports shows it. Nothing depends on the clock but the member "seconds".
+ */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+#include "core/status.h"
+#include "study/report/page.h"
+#include "study/sheet/sheet_measures.h"
+#include "study/sheet/sheet_points.h"
+#include "study/sheet/sheet_samplers.h"
+#include "study/sheet/sheet_scenes.h"
+#include "study/sheet/sheet_spectra.h"
+#include "study/sheet/sheet_verdict.h"
+
+static void put_head(const koksma__sheet *sheet, koksma__document *d)
+{
+    char title[KOKSMA_MAX_SPEC + 32];
+    snprintf(title, sizeof title, "Datasheet of %s", sheet->samplers[0]->text);
+    d->json.in_html = true;
+    koksma__json_begin_object(&d->json, NULL);
+    koksma__json_write_text(&d->json, "format", "koksma-datasheet");
+    koksma__json_write_whole(&d->json, "version", 1);
+    koksma__json_write_text(&d->json, "title", title);
+    koksma__json_write_text(&d->json, "about", "");
+    koksma__json_write_text(&d->json, "koksma", koksma_version());
+    koksma__json_begin_array(&d->json, "samplers");
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma__json_write_text(&d->json, NULL, sheet->samplers[s]->text);
+    }
+    koksma__json_end(&d->json);
+    koksma__json_begin_array(&d->json, "content");
+}
+
+/* What was left out and why, and what made the numbers. */
+static void put_origin(koksma__sheet *sheet, koksma__document *d)
+{
+    koksma__document notes = sheet->notes;
+    sheet->notes = (koksma__document){0};
+    koksma__doc_section(d, "origin", "How this was made");
+    koksma__doc_paragraph(
+        d,
+        "koksma %s. Every number above follows from the commands below it; seeds start at the %s of each command, "
+        "one for each set. Sets of the sampler: up to %zu of each size; images: up to %zu.",
+        koksma_version(), "--seed", sheet->trials, sheet->max_trials);
+    if (sheet->n_notes) {
+        koksma__doc_paragraph(d, "Left out:");
+        koksma__doc_list_end(&notes);
+        koksma__doc_append(d, &notes);
+    }
+    koksma__doc_end(d);
+}
+
+static void note_bounds(koksma__sheet *sheet)
+{
+    for (size_t m = 0; m < sheet->plane.n_measures; m++) {
+        const koksma__sheet_measure *measure = &sheet->plane.measures[m];
+        if (measure->n_bounds && !measure->left_out) {
+            koksma__fail(KOKSMA_ARGUMENT, "%zu values are lower bounds: the search was cut short", measure->n_bounds);
+            koksma__sheet_note_error(sheet, measure->name);
+        }
+    }
+}
+
+static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
+{
+    koksma_status status = koksma__sheet_measure_plane(sheet);
+    status = status ? status : koksma__sheet_rank(sheet);
+    if (status) {
+        return status;
+    }
+    note_bounds(sheet);
+    put_head(sheet, d);
+    koksma__sheet_verdict(sheet, d);
+    status = koksma__sheet_draw_points(sheet, d);
+    if (!status) {
+        koksma__sheet_put_rankings(sheet, d);
+        koksma__sheet_put_measures(sheet, d);
+        status = koksma__sheet_spectra(sheet, d);
+    }
+    status = status ? status : koksma__sheet_verify(sheet, d);
+    status = status ? status : koksma__sheet_projections(sheet, d);
+    put_origin(sheet, d);
+    koksma__json_end(&d->json);
+    return status;
+}
+
+/* A part that was interrupted says so, whatever it returns. */
+static koksma_status check_options(const koksma_datasheet_options *o)
+{
+    if (!o->sampler || !*o->sampler) {
+        return koksma__fail(KOKSMA_ARGUMENT,
+                            "sampler: it takes a pattern's spec, a file of points or my_{n}_{seed}.npy");
+    }
+    if (o->beside && o->n_beside > KOKSMA_MAX_BESIDE) {
+        return koksma__fail(KOKSMA_ARGUMENT, "n_beside: %zu samplers beside; at most %d", o->n_beside,
+                            KOKSMA_MAX_BESIDE);
+    }
+    if (o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES) {
+        return koksma__fail(KOKSMA_ARGUMENT, "n_scenes: %zu scenes; at most %d", o->n_scenes,
+                            KOKSMA_MAX_SHEET_SCENES);
+    }
+    for (size_t i = 0; o->beside && i < o->n_beside; i++) {
+        if (!o->beside[i]) {
+            return koksma__fail(KOKSMA_ARGUMENT, "beside[%zu] is NULL", i);
+        }
+    }
+    for (size_t i = 0; o->scenes && i < o->n_scenes; i++) {
+        if (!o->scenes[i]) {
+            return koksma__fail(KOKSMA_ARGUMENT, "scenes[%zu] is NULL", i);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run, char **json)
+{
+    KOKSMA__REQUIRE(options, json);
+    KOKSMA__REQUIRE_RUN(run);
+    const double start_s = koksma__now_s();
+    koksma__sheet *sheet = calloc(1, sizeof *sheet);
+    koksma__document d = {0};
+    size_t size;
+    *json = NULL;
+    koksma_status status = sheet ? check_options(options) : koksma__fail_memory(sizeof *sheet);
+    if (!status) {
+        *sheet = (koksma__sheet){.options = options, .run = run};
+        status = koksma__sheet_choose(sheet);
+        status = status ? status : put_content(sheet, &d);
+    }
+    if (!status) {
+        koksma__json_break(&d.json);
+        koksma__json_write_rounded(&d.json, "seconds", koksma__now_s() - start_s, 3);
+        koksma__json_end(&d.json);
+        status = koksma__json_finish(&d.json, json, &size);
+    } else {
+        koksma__json_writer_fini(&d.json);
+    }
+    if (sheet) {
+        koksma__sheet_values_fini(&sheet->plane);
+        koksma__json_writer_fini(&sheet->notes.json);
+        koksma__sheet_drop_commands(sheet);
+        free(sheet->rankings);
+    }
+    free(sheet);
+    return status;
+}
+
+koksma_status koksma_datasheet_page(const char *json, char **page)
+{
+    KOKSMA__REQUIRE(json, page);
+    const char *before = koksma__page_before(), *after = koksma__page_after();
+    const size_t size = strlen(before) + strlen(json) + strlen(after) + 1;
+    *page = NULL;
+    if (strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</")) {
+        return koksma__fail(KOKSMA_ARGUMENT, "json: it takes the text of koksma_datasheet");
+    }
+    *page = malloc(size);
+    if (!*page) {
+        return koksma__fail_memory(size);
+    }
+    snprintf(*page, size, "%s%s%s", before, json, after);
+    return KOKSMA_OK;
+}
