@@ -14,7 +14,8 @@ typedef struct cli_option {
     char letter;      /* 0: none */
     const char *name; /* tables end at a NULL name */
     /* NULL: a flag. Its choices, "csv|json|npy", or a noun; "MEASURE,.." is a list. What ends in "..." may be given
-       again: lines of one text. Completions know the nouns by their names. */
+       again: lines of one text. A file to write has its endings, "FILE.txt|.csv": others are refused. Completions
+       know the nouns by their names. */
     const char *argument;
     const char *help;
 } cli_option;
@@ -36,6 +37,8 @@ struct cli_arguments {
     char **operands;
     const char *values[CLI_MAX_OPTIONS]; /* by option; "" for a flag that is set, NULL when not given */
     char *joined[CLI_MAX_OPTIONS];       /* owns the values of options that were given again */
+    char **made;                         /* owns the operands where -p and -n may add some (cli/source.c) */
+    int n_made;
 };
 
 #define COMMAND(name) extern const cli_command cli_command_##name;
@@ -69,6 +72,9 @@ bool cli_flag(const cli_arguments *arguments, const char *name);
 /* An option as a number in [min, max]; false after an error that names it. */
 bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
                uint64_t *out);
+/* The same of a text that is the option's or a part of it. */
+bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
+                  uint64_t *out);
 /* --size WxH; without it both stay as they are. */
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);

@@ -291,7 +291,7 @@ static int run(const cli_arguments *arguments)
 {
     measuring j = {.arguments = arguments};
     if (arguments->n_operands == 0) {
-        return cli_usage_error(arguments, "it takes files of points, - for stdin, or pattern:SPEC@N");
+        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
     if (cli_text(arguments, "at", NULL)) {
         return measure_local(arguments);
@@ -320,9 +320,9 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
-    {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
-    {'t', "trials", "T",
-     "T sets of pattern: sources, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
+    CLI_SOURCE_OPTIONS,
+    {'s', "seed", "S", "seed of patterns (default: 0)"},
+    {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
      "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
     {0, "at", "X,Y..",
@@ -341,9 +341,9 @@ static const cli_option options[] = {
 const cli_command cli_command_measure = {
     .name = "measure",
     .summary = "measure how irregular points are",
-    .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m MEASURE,..|all] [--json]",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-p PATTERN,..|all -n N,..] [-m MEASURE,..|all] [--json]",
     .details =
-        "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures N points of a pattern, without a file.\n"
+        "FILE holds points as text, .csv or .npy. SPEC@N measures N points of a pattern, without a file.\n"
         "The witness is the region where the supremum is reached: count its points and compare with its volume.\n"
         "\n"
         "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"

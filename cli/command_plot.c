@@ -10,7 +10,7 @@ static uint64_t trials_of_all(const cli_curves *c)
     const cli_arguments *arguments = c->arguments;
     bool has_pattern = false;
     for (int i = 0; i < arguments->n_operands; i++) {
-        has_pattern = has_pattern || cli_label(arguments->operands[i]) != arguments->operands[i];
+        has_pattern = has_pattern || cli_source_is_pattern(arguments->operands[i]);
     }
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
@@ -46,6 +46,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
+    CLI_SOURCE_OPTIONS,
     {'c', "curve", "{chart}", "what is drawn (default: points)"},
     {0, "size", "S", "side or width of a picture in points or pixels (default: 320, charts 480)"},
     {0, "columns", "C", "points: draw C columns of cells"},
@@ -67,7 +68,7 @@ static const cli_option options[] = {
 const cli_command cli_command_plot = {
     .name = "plot",
     .summary = "draw points, where they are worst, spectra and convergence",
-    .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
+    .synopsis = "FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] -o OUT.svg|.pdf|.png [--curve KIND] [--trials T]",
     .details = "{chart-meanings}"
                "Points and power spectra of several sources are drawn side by side, curves in one chart.",
     .examples = "koksma plot pattern:n-rooks@16 -o points.svg --witness star\n"

@@ -50,11 +50,20 @@ static const char example[] =
     "  ]\n"
     "}\n";
 
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot ? dot + 1 : "";
+}
+
 static int new_plan(const cli_arguments *arguments)
 {
     const char *path = cli_text(arguments, "output", arguments->n_operands > 1 ? arguments->operands[1] : "-");
     if (arguments->n_operands > 2) {
         return cli_usage_error(arguments, "new takes one file, as in new plan.json");
+    }
+    if (*ending_of(path) && strcmp(ending_of(path), "json") != 0) {
+        return cli_usage_error(arguments, "%s: a plan's name ends in .json", path);
     }
     struct stat info;
     if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* somebody's work */
@@ -191,12 +200,6 @@ static int estimate(const cli_arguments *arguments)
 
 /* ---- export and report --------------------------------------------------------------------------------- */
 
-static const char *ending_of(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    return dot ? dot + 1 : "";
-}
-
 static int export_rows(const cli_arguments *arguments)
 {
     static const char *const formats[] = {"csv", "json", "npy", "sha256", NULL};
@@ -209,8 +212,11 @@ static int export_rows(const cli_arguments *arguments)
     while (formats[format] && strcmp(formats[format], name) != 0) {
         format++;
     }
-    if (!formats[format] && given) {
-        return cli_usage_error(arguments, "--format %s: it takes csv, json, npy or sha256", name);
+    if (!formats[format] && *name) {
+        return cli_usage_error(arguments,
+                               given ? "--format %s: it takes csv, json, npy or sha256"
+                                     : "%s: its name ends in .csv, .json, .npy or .sha256",
+                               given ? given : path);
     }
     format = formats[format] ? format : 0;
     const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "cli.h"
-#include "table.h"
+#include "aligned.h"
 
 /* As text, rows are kept until the end, because columns are as wide as their widest cell. */
 struct cli_rows {
