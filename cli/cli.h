@@ -106,17 +106,20 @@ bool cli_list_item(const char *list, size_t i, char *item, size_t size);
 /* ---- Long work: threads, progress and Ctrl-C, from CLI_RUN_OPTIONS ------------------------------------ */
 
 typedef struct cli_work {
-    koksma_run run;   /* hand &work.run to the library */
-    const char *what; /* shown before the bar; may be changed while running */
-    bool shown;
+    koksma_run run;      /* hand &work.run to the library */
+    const char *what;    /* shown before the bar; may be changed while running */
+    double begin, share; /* the part of the bar that run's fractions from 0 to 1 go over */
+    double fraction;     /* shown; it never falls */
     double started_s, updated_s;
 } cli_work;
 
 /* False after an error. From here until cli_work_end, the first Ctrl-C makes keep_going false. */
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
-void cli_work_end(cli_work *work); /* clears the progress line */
+void cli_work_part(cli_work *work, size_t i, size_t n); /* what runs next is part i of n equal ones of the bar */
+void cli_work_end(void); /* clears the progress line, if there is one; messages and rows do so themselves */
 bool cli_interrupted(void);
-double cli_seconds(void); /* on the clock of started_s */
+double cli_seconds(void);                                        /* on the clock of started_s */
+const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* "1 min 15 s". Returns text. */
 
 /* Says that a study in this folder can go on; NULL: one of several ranks, of which another says it. The exit code. */
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder);

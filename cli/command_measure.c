@@ -104,6 +104,10 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
 {
     const koksma_spec *spec = &j->measures[measure];
     j->work.what = spec->measure->name;
+    const size_t sets = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
+    const size_t all = sets * j->n_measures * (j->n_prefixes ? j->n_prefixes : 1);
+    cli_work_part(&j->work, j->n_evaluated < all ? j->n_evaluated : all - 1, all);
+    j->n_evaluated++;
     koksma_run run = j->work.run;
     run.time_limit_s = j->time_limit_s;
     const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
@@ -160,7 +164,7 @@ static int measure_source(measuring *j, const char *source)
         status = measuring_forgive(j, status);
     }
     koksma_points_fini(&points);
-    cli_work_end(&j->work);
+    cli_work_end();
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 

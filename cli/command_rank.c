@@ -165,7 +165,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     koksma_rank_row table[MAX_PATTERNS];
     koksma_ranking ranking;
     const koksma_status status = koksma_rank_patterns(options, &work->run, table, &ranking);
-    cli_work_end(work);
+    cli_work_end();
     if (status) {
         return status;
     }
@@ -242,6 +242,7 @@ static int run(const cli_arguments *arguments)
     bool all_settled = true;
     const double start_s = work.started_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
+        cli_work_part(&work, i, n_spp);
         const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);
         bool settled = false;
         const koksma_rank_options options = {.scene = arguments->operands[0],
@@ -258,7 +259,7 @@ static int run(const cli_arguments *arguments)
         status = rank_at(arguments, &options, &work, rows, &settled);
         all_settled &= settled;
     }
-    cli_work_end(&work);
+    cli_work_end();
     code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
     const int rows_code = cli_rows_close(rows);
     return code > CLI_NO || !rows_code ? code : rows_code;

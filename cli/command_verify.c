@@ -124,7 +124,7 @@ static int put_findings(const cli_arguments *arguments, cli_rows *rows, const ch
     const char *expect = cli_text(arguments, "expect", NULL);
     koksma_findings findings = {0};
     const koksma_status status = koksma_verify(points, &work->run, &findings);
-    cli_work_end(work);
+    cli_work_end();
     if (!status) {
         put_rows(rows, source, points, &findings);
         *missed = expect && disappoints(expect, source, points, &findings);
@@ -156,6 +156,7 @@ static int run(const cli_arguments *arguments)
         koksma_points points = {0};
         const char *source = arguments->operands[i];
         bool one = false;
+        cli_work_part(&work, (size_t)i, (size_t)arguments->n_operands);
         code = cli_source_points(arguments, source, seed, &work.run, &points);
         if (!code && cli_flag(arguments, "record")) {
             code = put_record(arguments, rows, source, &points, &work.run, &one);
