@@ -14,7 +14,8 @@ typedef struct cli_option {
     char letter;      /* 0: none */
     const char *name; /* tables end at a NULL name */
     /* NULL: a flag. Its choices, "csv|json|npy", or a noun; "MEASURE,.." is a list. What ends in "..." may be given
-       again: lines of one text. Completions know the nouns by their names. */
+       again: lines of one text. A file to write has its endings, "FILE.txt|.csv": others are refused. Completions
+       know the nouns by their names. */
     const char *argument;
     const char *help;
 } cli_option;
@@ -36,6 +37,8 @@ struct cli_arguments {
     char **operands;
     const char *values[CLI_MAX_OPTIONS]; /* by option; "" for a flag that is set, NULL when not given */
     char *joined[CLI_MAX_OPTIONS];       /* owns the values of options that were given again */
+    char **made;                         /* owns the operands where -p and -n may add some (cli/source.c) */
+    int n_made;
 };
 
 #define COMMAND(name) extern const cli_command cli_command_##name;
@@ -69,6 +72,9 @@ bool cli_flag(const cli_arguments *arguments, const char *name);
 /* An option as a number in [min, max]; false after an error that names it. */
 bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
                uint64_t *out);
+/* The same of a text that is the option's or a part of it. */
+bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
+                  uint64_t *out);
 /* --size WxH; without it both stay as they are. */
 bool cli_size(const cli_arguments *arguments, int *width, int *height);
 bool cli_real(const cli_arguments *arguments, const char *name, double fallback, double min, double max, double *out);
@@ -100,17 +106,20 @@ bool cli_list_item(const char *list, size_t i, char *item, size_t size);
 /* ---- Long work: threads, progress and Ctrl-C, from CLI_RUN_OPTIONS ------------------------------------ */
 
 typedef struct cli_work {
-    koksma_run run;   /* hand &work.run to the library */
-    const char *what; /* shown before the bar; may be changed while running */
-    bool shown;
+    koksma_run run;      /* hand &work.run to the library */
+    const char *what;    /* shown before the bar; may be changed while running */
+    double begin, share; /* the part of the bar that run's fractions from 0 to 1 go over */
+    double fraction;     /* shown; it never falls */
     double started_s, updated_s;
 } cli_work;
 
 /* False after an error. From here until cli_work_end, the first Ctrl-C makes keep_going false. */
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
-void cli_work_end(cli_work *work); /* clears the progress line */
+void cli_work_part(cli_work *work, size_t i, size_t n); /* what runs next is part i of n equal ones of the bar */
+void cli_work_end(void); /* clears the progress line, if there is one; messages and rows do so themselves */
 bool cli_interrupted(void);
-double cli_seconds(void); /* on the clock of started_s */
+double cli_seconds(void);                                        /* on the clock of started_s */
+const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* "1 min 15 s". Returns text. */
 
 /* Says that a study in this folder can go on; NULL: one of several ranks, of which another says it. The exit code. */
 int cli_study_interrupted(const cli_arguments *arguments, const char *folder);

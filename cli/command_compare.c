@@ -123,7 +123,7 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
-    {'o', "output", "FILE", "write an image of the absolute error (with one image)"},
+    {'o', "output", "FILE{images}", "write an image of the absolute error (with one image)"},
     {0, "max-mean", "E", "exit with code 1 if the mean absolute error is above E"},
     CLI_ROW_OPTIONS,
     {0},

@@ -51,8 +51,9 @@ static int run(const cli_arguments *arguments)
 }
 
 static const cli_option options[] = {
+    CLI_SOURCE_OPTIONS,
     CLI_CURVE_OPTIONS("curve", "2 sqrt(n); quality: 7 sqrt(n)"),
-    {'o', "output", "OUT", "{curve:output}: the grid to a file: .npy, .csv, text, or a grey image: {image-formats}"},
+    {'o', "output", "FILE.npy|.csv|.txt|{images}", "{curve:output}: the grid, as numbers or as a grey image"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -61,7 +62,7 @@ static const cli_option options[] = {
 const cli_command cli_command_curve = {
     .name = "curve",
     .summary = "measures that are functions: power spectrum, pair correlation",
-    .synopsis = "{curve} FILE|-|pattern:SPEC@N... [--trials T] [--json]",
+    .synopsis = "{curve} FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] [--trials T] [--json]",
     .details = "{curve-meanings}"
                "`koksma plot --curve` draws them.",
     .examples = "koksma curve rings pattern:poisson-disk-maximal@1024\n"

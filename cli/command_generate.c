@@ -8,6 +8,7 @@
 
 #include <stdio.h>
 
+#include "source.h"
 #include "warps.h"
 
 /* With -n n points in a set of that size; without, all that the pattern has. */
@@ -39,39 +40,39 @@ static int generate(const cli_arguments *arguments, const koksma_spec *spec, con
 
 static int run(const cli_arguments *arguments)
 {
-    koksma_spec spec;
+    cli_source source;
     koksma_points points;
     cli_work work;
-    uint64_t n, dim, seed;
+    uint64_t dim, seed;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2");
     }
-    koksma_status status = koksma_pattern_spec(arguments->operands[0], &spec);
-    if (status) {
-        return cli_fail(arguments, status);
+    int code = cli_pattern_open(arguments, arguments->operands[0], &source);
+    if (code) {
+        return code;
     }
-    const bool counted = cli_text(arguments, "n", NULL) != NULL;
-    if (!counted && !spec.pattern->whole) {
+    const koksma_pattern *pattern = source.spec.pattern;
+    if (!source.n && !pattern->whole) {
         return cli_usage_error(arguments, "-n N, the number of points, is missing");
     }
-    if (!cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
-        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
+    if (!cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
         !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
         return CLI_USAGE;
     }
+    dim = source.n ? (uint64_t)source.dim : dim;
     const char *name = cli_text(arguments, "warp", NULL);
     const koksma_warp *warp = name ? cli_find_warp(arguments, name) : NULL;
     if (name && (!warp || dim != 2)) {
         return warp ? cli_usage_error(arguments, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
     }
-    const bool given = cli_text(arguments, "dim", NULL) || !spec.pattern->takes_path;
+    const bool given = cli_text(arguments, "dim", NULL) || !pattern->takes_path;
     points = (koksma_points){.dim = given ? (int)dim : 0};
-    status = counted ? koksma_points_init(&points, n, (int)dim) : KOKSMA_OK;
+    const koksma_status status = source.n ? koksma_points_init(&points, source.n, source.dim) : KOKSMA_OK;
     if (status) {
         return cli_fail(arguments, status);
     }
-    const int code = generate(arguments, &spec, warp, seed, &work.run, &points);
-    cli_work_end(&work);
+    code = generate(arguments, &source.spec, warp, seed, &work.run, &points);
+    cli_work_end();
     koksma_points_fini(&points);
     return code;
 }
@@ -79,9 +80,10 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out for file:PATH and poisson-disk-maximal:d=D)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
+    {'p', "patterns", "PATTERN", "the pattern, instead of the operand"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},
     {0, "warp", "WARP", "map the points to a disk, triangle or hemisphere; see 'koksma list warps'"},
-    {'o', "output", "FILE", ".txt, .csv or .npy by its ending (default: text on stdout)"},
+    {'o', "output", "FILE.txt|.csv|.npy", "the file (default: text on stdout)"},
     CLI_RUN_OPTIONS,
     {0},
 };
@@ -89,7 +91,7 @@ static const cli_option options[] = {
 const cli_command cli_command_generate = {
     .name = "generate",
     .summary = "generate the points of a pattern",
-    .synopsis = "PATTERN -n N [-d DIM] [-s S] [--warp WARP] [-o FILE]",
+    .synopsis = "PATTERN|SPEC@N[@DIM] [-n N] [-d DIM] [-s S] [--warp WARP] [-o FILE]",
     .details =
         "PATTERN is a name with parameters, such as poisson-disk:d=0.2,torus=1; see 'koksma list patterns'. Behind "
         "them\n"

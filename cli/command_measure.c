@@ -104,6 +104,10 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
 {
     const koksma_spec *spec = &j->measures[measure];
     j->work.what = spec->measure->name;
+    const size_t sets = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
+    const size_t all = sets * j->n_measures * (j->n_prefixes ? j->n_prefixes : 1);
+    cli_work_part(&j->work, j->n_evaluated < all ? j->n_evaluated : all - 1, all);
+    j->n_evaluated++;
     koksma_run run = j->work.run;
     run.time_limit_s = j->time_limit_s;
     const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
@@ -160,7 +164,7 @@ static int measure_source(measuring *j, const char *source)
         status = measuring_forgive(j, status);
     }
     koksma_points_fini(&points);
-    cli_work_end(&j->work);
+    cli_work_end();
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 
@@ -291,7 +295,7 @@ static int run(const cli_arguments *arguments)
 {
     measuring j = {.arguments = arguments};
     if (arguments->n_operands == 0) {
-        return cli_usage_error(arguments, "it takes files of points, - for stdin, or pattern:SPEC@N");
+        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
     }
     if (cli_text(arguments, "at", NULL)) {
         return measure_local(arguments);
@@ -320,9 +324,9 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'m', "measures", "MEASURE,..|all", "measures (default: star,l2-star,extreme; with --warp those of its domain)"},
-    {'s', "seed", "S", "seed for pattern: sources (default: 0)"},
-    {'t', "trials", "T",
-     "T sets of pattern: sources, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
+    CLI_SOURCE_OPTIONS,
+    {'s', "seed", "S", "seed of patterns (default: 0)"},
+    {'t', "trials", "T", "T sets of each pattern, seeds S, S+1, ..: mean, SD, smallest, largest and standard error"},
     {0, "prefixes", "K,..|powers",
      "the first K points for each K (as in 16,64,256), or powers; and the log-log slope beside theory's"},
     {0, "at", "X,Y..",
@@ -341,9 +345,9 @@ static const cli_option options[] = {
 const cli_command cli_command_measure = {
     .name = "measure",
     .summary = "measure how irregular points are",
-    .synopsis = "FILE|-|pattern:SPEC@N[@DIM]... [-m MEASURE,..|all] [--json]",
+    .synopsis = "FILE|-|SPEC@N[@DIM]... [-p PATTERN,..|all -n N,..] [-m MEASURE,..|all] [--json]",
     .details =
-        "FILE holds points as text, .csv or .npy. pattern:SPEC@N measures N points of a pattern, without a file.\n"
+        "FILE holds points as text, .csv or .npy. SPEC@N measures N points of a pattern, without a file.\n"
         "The witness is the region where the supremum is reached: count its points and compare with its volume.\n"
         "\n"
         "--prefixes needs a sequence: the first points of other patterns, such as n-rooks, are a strip of the set.\n"

@@ -62,25 +62,35 @@ static int report(job *j, const koksma_optimum *best)
     return cli_rows_close(rows);
 }
 
-/* --from: a file, or a pattern of n points. */
+/* --from: a file, or a pattern, whose number of points may be given by @N. */
 static int first_set(job *j, bool counted, koksma_points *from)
 {
     const char *text = cli_text(j->arguments, "from", NULL);
-    koksma_spec spec;
+    const bool dim_given = cli_text(j->arguments, "dim", NULL) != NULL;
     if (!text) {
         return CLI_YES;
     }
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":"), text);
     koksma_status status;
-    if (!koksma_pattern_find(name)) {
+    if (cli_source_is_pattern(text) || cli_names_pattern(text)) {
+        cli_source source;
+        const int code = cli_pattern_open(j->arguments, text, &source);
+        if (code) {
+            return code;
+        }
+        if (!source.n && !counted) {
+            return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
+        }
+        if (source.n && ((counted && source.n != j->options.n) || (dim_given && source.dim != j->options.dim))) {
+            return cli_usage_error(j->arguments, "--from %s: -n or -d says otherwise", text);
+        }
+        j->options.n = source.n ? source.n : j->options.n;
+        j->options.dim = source.n ? source.dim : j->options.dim;
+        status = koksma_points_init(from, j->options.n, j->options.dim);
+        status = status ? status : koksma_generate(&source.spec, j->options.seed, &j->work.run, from);
+    } else {
         status = koksma_points_read(text, from);
         j->options.n = counted || status ? j->options.n : from->n;
-        j->options.dim = cli_text(j->arguments, "dim", NULL) || status ? j->options.dim : from->dim;
-    } else {
-        status = koksma_pattern_spec(text, &spec);
-        status = status ? status : koksma_points_init(from, j->options.n, j->options.dim);
-        status = status ? status : koksma_generate(&spec, j->options.seed, &j->work.run, from);
+        j->options.dim = dim_given || status ? j->options.dim : from->dim;
     }
     j->options.first = from;
     return status ? cli_fail(j->arguments, status) : CLI_YES;
@@ -142,7 +152,7 @@ static int run(const cli_arguments *arguments)
         j.work.what = j.line;
         j.gained_s = cli_seconds();
         status = koksma_optimise(&measure, &j.options, &j.work.run, &best);
-        cli_work_end(&j.work);
+        cli_work_end();
         status = j.written ? j.written : status;
         if (best.points.n && !j.written) {
             code = report(&j, &best);
@@ -157,13 +167,13 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'n', "n", "N", "number of points (may be left out with --from FILE)"},
     {'d', "dim", "DIM", "number of dimensions (default: 2)"},
-    {0, "from", "FILE", "the first set, also a PATTERN (default: latin-hypercube; with --keep net: sobol)"},
+    {0, "from", "FILE", "the first set, also PATTERN or SPEC@N (default: latin-hypercube; with --keep net: sobol)"},
     {0, "keep", "none|latin|net", "what the points may not lose (default: none)"},
     {0, "steps", "K", "steps of a fixed amount of work: equal --seed and --steps give equal sets"},
     {0, "time-limit", "SECONDS",
      "end after the step in which so many seconds pass (default: 60, with --steps: none)"},
     {'s', "seed", "S", "seed of the search, and of --from PATTERN (default: 0)"},
-    {'o', "output", "FILE", "the best set, .txt, .csv or .npy by its ending; written anew after each gain"},
+    {'o', "output", "FILE.txt|.csv|.npy", "the best set, written anew after each gain"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

@@ -13,7 +13,7 @@ static uint64_t trials_of_all(const cli_curves *c)
     const cli_arguments *arguments = c->arguments;
     bool has_pattern = false;
     for (int i = 0; i < arguments->n_operands; i++) {
-        has_pattern = has_pattern || cli_label(arguments->operands[i]) != arguments->operands[i];
+        has_pattern = has_pattern || cli_source_is_pattern(arguments->operands[i]);
     }
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
@@ -72,6 +72,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "OUT", "picture to write: .svg, .pdf or .png"},
+    CLI_SOURCE_OPTIONS,
     {'c', "curve", "{chart}", "what is drawn (default: points)"},
     {0, "compare", NULL, "the same as --curve compare"},
     {0, "size", "W[xH]", "width of the picture in points or pixels, and height (default: 320 a set, charts 480)"},
@@ -97,7 +98,8 @@ static const cli_option options[] = {
 const cli_command cli_command_plot = {
     .name = "plot",
     .summary = "draw points, where they are worst, spectra and convergence",
-    .synopsis = "FILE|-|pattern:SPEC@N... -o OUT.svg|.pdf|.png [--curve KIND|--compare] [--trials T]",
+    .synopsis = "FILE|-|SPEC@N... [-p PATTERN,..|all -n N,..] -o OUT.svg|.pdf|.png [--curve KIND|--compare] "
+                "[--trials T]",
     .details =
         "{chart-meanings}"
         "Points and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "

@@ -14,6 +14,7 @@
 #include "cli.h"
 #include "rank_advice.h"
 #include "render_options.h"
+#include "source.h"
 
 enum { MAX_PATTERNS = 64 };
 
@@ -31,7 +32,8 @@ typedef struct patterns {
     size_t n;
 } patterns;
 
-static int parse_patterns(const cli_arguments *arguments, patterns *p)
+/* *spp: of SPEC@N. */
+static int parse_patterns(const cli_arguments *arguments, patterns *p, uint64_t *spp)
 {
     const char *list = cli_text(arguments, "patterns", "thesis");
     if (cli_text(arguments, "with", NULL) && !cli_text(arguments, "patterns", NULL)) {
@@ -39,7 +41,10 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
     }
     list = !strcmp(list, "thesis") ? thesis : !strcmp(list, "later") ? later : list;
     char item[KOKSMA_MAX_SPEC];
-    while (cli_list_item(list, p->n, item, sizeof item)) {
+    for (size_t at = 0; cli_pattern_item(list, at, item); at++) {
+        if (!cli_text(arguments, "with", NULL) && !cli_take_counts(arguments, item, spp)) {
+            return CLI_USAGE;
+        }
         static char text[KOKSMA_MAX_PATTERNS_TEXT];
         koksma_render_options options = {0}; /* for its patterns only */
         if (p->n == MAX_PATTERNS) {
@@ -58,13 +63,15 @@ static int parse_patterns(const cli_arguments *arguments, patterns *p)
                                    sizeof p->texts[p->n] - 1);
         }
         memcpy(p->texts[p->n], text, strlen(text) + 1);
-        for (size_t i = 0; i < p->n; i++) {
-            if (!strcmp(p->texts[i], p->texts[p->n])) {
-                return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
-            }
+        size_t i = 0;
+        while (i < p->n && strcmp(p->texts[i], p->texts[p->n]) != 0) {
+            i++;
+        }
+        if (i < p->n && strcmp(list, "all") != 0) {
+            return cli_usage_error(arguments, "--patterns: '%s' stands twice", p->texts[i]);
         }
         p->at[p->n] = p->texts[p->n];
-        p->n++;
+        p->n += i == p->n; /* all: some have two names */
     }
     return CLI_YES;
 }
@@ -167,7 +174,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     koksma_rank_row table[MAX_PATTERNS];
     koksma_ranking ranking;
     const koksma_status status = koksma_rank_patterns(options, &work->run, table, &ranking);
-    cli_work_end(work);
+    cli_work_end();
     if (status) {
         return status;
     }
@@ -220,24 +227,37 @@ static int run(const cli_arguments *arguments)
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
+    uint64_t spp = 0;
+    char counted[24];
+    int code = parse_patterns(arguments, &p, &spp);
+    if (code) {
+        return code;
+    }
+    if (spp) {
+        snprintf(counted, sizeof counted, "%llu", (unsigned long long)spp);
+        if (strcmp(cli_text(arguments, "spp", counted), counted) != 0) {
+            return cli_usage_error(arguments, "-p has @%s and -n %s", counted, list);
+        }
+        list = counted;
+    }
     size_t n_spp = 0;
     for (; spp_at(list, n_spp); n_spp++) {
         if (spp_at(list, n_spp) < 0) {
             return cli_usage_error(arguments, "--spp %s: it takes numbers of samples, such as 4,16,64", list);
         }
     }
-    int code = parse_patterns(arguments, &p);
-    if (code || !cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
+    if (!cli_real(arguments, "time-limit", 60, 0.1, 1e9, &time_limit_s) ||
         !cli_integrator_and_filter(arguments, &integrator, &filter) || !cli_size(arguments, &width, &height) ||
         !cli_whole(arguments, "max-trials", 4096, 8, KOKSMA_MAX_RANK_TRIALS, &max_trials) ||
         !cli_work_begin(arguments, "ranking", &work)) {
-        return code ? code : CLI_USAGE;
+        return CLI_USAGE;
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     koksma_status status = KOKSMA_OK;
     bool all_settled = true;
     const double start_s = work.started_s;
     for (size_t i = 0; !status && i < n_spp; i++) {
+        cli_work_part(&work, i, n_spp);
         const double left_s = fmax(time_limit_s - (cli_seconds() - start_s), 1e-3);
         bool settled = false;
         const koksma_rank_options options = {.scene = arguments->operands[0],
@@ -257,7 +277,7 @@ static int run(const cli_arguments *arguments)
         status = rank_at(arguments, &options, &work, rows, &settled);
         all_settled &= settled;
     }
-    cli_work_end(&work);
+    cli_work_end();
     code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
     const int rows_code = cli_rows_close(rows);
     return code > CLI_NO || !rows_code ? code : rows_code;
@@ -265,7 +285,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'n', "spp", "N,..", "samples a pixel, one ranking for each (default: 4,16,64)"},
-    {'p', "patterns", "PATTERN,..|thesis|later", "patterns to rank (default: thesis)"},
+    {'p', "patterns", "PATTERN,..|thesis|later|all", "patterns to rank, also SPEC@N (default: thesis)"},
     {0, "size", "WxH", "pixels (default: the scene's, halved until at most 19,200)"},
     {0, "with", "COMMAND|mitsuba", "a shell command that renders, with {scene}, {pattern}, {spp}, {seed}, {out}"},
     {0, "reference", "PATTERN", "with --with: the sampler of the reference (default: the first)"},
@@ -282,7 +302,7 @@ static const cli_option options[] = {
 const cli_command cli_command_rank = {
     .name = "rank",
     .summary = "rank patterns by the error that they leave in a scene",
-    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later] [--size WxH] [--one-size] "
+    .synopsis = "SCENE [--spp N,..] [--patterns PATTERN,..|thesis|later|all] [--size WxH] [--one-size] "
                 "[--integrator INTEGRATOR] [--filter FILTER] [--time-limit S] [--max-trials N] [--with COMMAND "
                 "[--reference PATTERN]] [--json]",
     .details =

@@ -140,7 +140,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
                                ? koksma_render_layers(scene, options, &work.run, &layers)
                                : koksma_render_only(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
-    cli_work_end(&work);
+    cli_work_end();
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =
         done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
@@ -161,7 +161,6 @@ static int run(const cli_arguments *arguments)
     koksma_scene *scene;
     koksma_render_options options;
     cli_adaptive adaptive;
-    uint64_t spp;
     if (arguments->n_operands != 1) {
         return cli_usage_error(arguments, "it takes one scene, such as ball or ./scene.json");
     }
@@ -175,12 +174,10 @@ static int run(const cli_arguments *arguments)
     }
     koksma_render_options_init(&options, scene);
     int code = CLI_USAGE;
-    if (cli_whole(arguments, "spp", 16, 1, KOKSMA_MAX_SPP, &spp) &&
-        cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
+    if (cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &options.seed) &&
         cli_size(arguments, &options.width, &options.height) && cli_sampling_options(arguments, &options) &&
         cli_use_patterns(arguments, cli_text(arguments, "pattern", ""), &options, &code) &&
         cli_adaptive_options(arguments, &adaptive, &code)) {
-        options.spp = (int)spp;
         if (!cli_flag(arguments, "quiet")) {
             cli_scene_warnings(arguments, arguments->operands[0], scene, &options, 3);
             cli_idle_uses(arguments, arguments->operands[0], scene, &options);
@@ -195,7 +192,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'p', "pattern", "[USE[+USE]=]PATTERN...",
-     "pattern of all uses, of one, or of a group; may be repeated (default: n-rooks)"},
+     "pattern of all uses, of one, or of a group, also SPEC@N; may be repeated (default: n-rooks)"},
     {'n', "spp", "N", "samples a pixel (default: 16)"},
     {0, "size", "WxH", "pixels (default: the scene's)"},
     {'s', "seed", "S", "seed of the random numbers (default: 0)"},

@@ -59,11 +59,13 @@ static koksma_status reproduce(const cli_arguments *arguments, const koksma_stud
         bool found;
         status = koksma_study_table_row(study, table, SIZE_MAX, &row, &found);
     }
+    work->share = options->folder ? 0.95 : 1; /* of the bar; the rest is for the report */
     status = status ? status : koksma_study_run(study, &work->run, summary);
-    cli_work_end(work);
     *refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = *refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
+        work->begin = work->share;
+        work->share = 1 - work->begin;
         status = koksma_study_report(study, &work->run);
     }
     const bool all = wanted && !strcmp(table, "all");
@@ -118,7 +120,7 @@ static int run(const cli_arguments *arguments)
                                           .quick = cli_flag(arguments, "quick")};
     int refused = 0;
     const koksma_status status = reproduce(arguments, &options, &work, rows, &summary, &refused);
-    cli_work_end(&work);
+    cli_work_end();
     const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : refused;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {

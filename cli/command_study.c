@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <koksma/plot.h>
 #include <koksma/study.h>
@@ -50,11 +51,20 @@ static const char example[] =
     "  ]\n"
     "}\n";
 
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot ? dot + 1 : "";
+}
+
 static int new_plan(const cli_arguments *arguments)
 {
     const char *path = cli_text(arguments, "output", arguments->n_operands > 1 ? arguments->operands[1] : "-");
     if (arguments->n_operands > 2) {
         return cli_usage_error(arguments, "new takes one file, as in new plan.json");
+    }
+    if (*ending_of(path) && strcmp(ending_of(path), "json") != 0) {
+        return cli_usage_error(arguments, "%s: a plan's name ends in .json", path);
     }
     struct stat info;
     if (!stat(path, &info) && S_ISREG(info.st_mode)) { /* somebody's work */
@@ -80,6 +90,8 @@ static double percent(double part, double of)
     return of > 0 ? 100 * part / of : 0;
 }
 
+static const double RUN_SHARE = 0.95; /* of the bar; the rest is for the report */
+
 static int run_study(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work)
 {
     koksma_study *study;
@@ -88,12 +100,14 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     if (status) {
         return cli_fail(arguments, status);
     }
+    work->share = options->folder ? RUN_SHARE : 1;
     status = koksma_study_run(study, &work->run, &summary);
-    cli_work_end(work);
     const int refused = status == KOKSMA_IMPOSSIBLE ? cli_fail(arguments, status) : 0;
     status = refused ? KOKSMA_OK : status;
     if (!status && options->folder) {
         work->run.time_limit_s = 0;
+        work->begin = RUN_SHARE;
+        work->share = 1 - RUN_SHARE;
         status = koksma_study_report(study, &work->run);
     }
     const char *line;
@@ -111,6 +125,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     if (refused) {
         return refused;
     }
+    cli_work_end();
     if (options->folder && !cli_flag(arguments, "quiet")) {
         fprintf(
             stderr,
@@ -153,11 +168,26 @@ static int run_plans(const cli_arguments *arguments)
         options.folder = NULL;
     }
     const int code = run_study(arguments, &options, &work);
-    cli_work_end(&work);
+    cli_work_end();
     return code;
 }
 
 /* ---- estimate ------------------------------------------------------------------------------------------ */
+
+static int print_cost(const koksma_study_cost *cost, int threads)
+{
+    char time[CLI_NUMBER], references[CLI_NUMBER], size[CLI_NUMBER];
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    const int n = threads > 0 ? threads : online > 1 ? (int)online : 1;
+    printf("about %s on %d thread%s, %s MB: %zu jobs, %llu rows", cli_duration(cost->seconds / n, time), n,
+           n == 1 ? "" : "s", cli_number(ceil(cost->bytes * 1e-6), size), cost->jobs, (unsigned long long)cost->rows);
+    if (cost->references) {
+        printf(", and %zu reference image%s (%s of the time)", cost->references, cost->references == 1 ? "" : "s",
+               cli_duration(cost->reference_seconds / n, references));
+    }
+    puts("");
+    return CLI_YES;
+}
 
 static int estimate(const cli_arguments *arguments)
 {
@@ -177,12 +207,15 @@ static int estimate(const cli_arguments *arguments)
     options.folder = NULL;
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_estimate(study, &work.run, &cost);
-    cli_work_end(&work);
+    cli_work_end();
     koksma_study_close(study);
     if (status) {
         return cli_fail(arguments, status);
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
+    if (!cli_flag(arguments, "json")) {
+        return print_cost(&cost, work.run.threads);
+    }
+    cli_rows *rows = cli_rows_open(true);
     cli_row_whole(rows, "jobs", cost.jobs);
     cli_row_whole(rows, "references", cost.references);
     cli_row_whole(rows, "rows", cost.rows);
@@ -194,12 +227,6 @@ static int estimate(const cli_arguments *arguments)
 }
 
 /* ---- export and report --------------------------------------------------------------------------------- */
-
-static const char *ending_of(const char *path)
-{
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    return dot ? dot + 1 : "";
-}
 
 static int export_rows(const cli_arguments *arguments)
 {
@@ -213,8 +240,11 @@ static int export_rows(const cli_arguments *arguments)
     while (formats[format] && strcmp(formats[format], name) != 0) {
         format++;
     }
-    if (!formats[format] && given) {
-        return cli_usage_error(arguments, "--format %s: it takes csv, json, npy or sha256", name);
+    if (!formats[format] && *name) {
+        return cli_usage_error(arguments,
+                               given ? "--format %s: it takes csv, json, npy or sha256"
+                                     : "%s: its name ends in .csv, .json, .npy or .sha256",
+                               given ? given : path);
     }
     format = formats[format] ? format : 0;
     const koksma_status status = koksma_study_export(arguments->operands[1], (koksma_export_format)format, path);
@@ -237,7 +267,7 @@ static int report(const cli_arguments *arguments)
     const koksma_study_options options = {.folder = arguments->operands[1]};
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_report(study, &work.run);
-    cli_work_end(&work);
+    cli_work_end();
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -246,7 +276,6 @@ static int report(const cli_arguments *arguments)
 /* ---- audit --------------------------------------------------------------------------------------------- */
 
 typedef struct audited {
-    cli_work *work;
     cli_rows *rows; /* of JSON; NULL: text */
 } audited;
 
@@ -257,7 +286,7 @@ static void put_difference(void *context, const char *text)
         cli_row_text(a->rows, "differs", text);
         cli_row_end(a->rows);
     } else {
-        fputs(a->work->shown ? "\n" : "", stderr); /* below the progress */
+        cli_work_end();
         printf("differs: %s\n", text);
     }
 }
@@ -307,14 +336,14 @@ static int audit(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const bool speaks = koksma_study_mpi_rank() == 0;
-    audited to = {&work, json && speaks ? cli_rows_open(true) : NULL};
+    audited to = {json && speaks ? cli_rows_open(true) : NULL};
     const koksma_audit_options options = {.folder = arguments->operands[1],
                                           .rows = (long long)rows,
                                           .seed = seed,
                                           .differs = speaks ? put_difference : NULL,
                                           .context = &to};
     const koksma_status status = koksma_study_audit(&options, &work.run, &found);
-    cli_work_end(&work);
+    cli_work_end();
     if (status) {
         return speaks ? cli_fail(arguments, status) : koksma_status_exit_code(status);
     }
@@ -368,7 +397,7 @@ static int images(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const koksma_status status = koksma_study_images(arguments->operands[1], reference, &work.run, &rows, &n);
-    cli_work_end(&work);
+    cli_work_end();
     if (status) {
         return cli_fail(arguments, status);
     }
@@ -448,7 +477,7 @@ const cli_command cli_command_study = {
         "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
         "new: writes an example plan; it overwrites no file.\n"
-        "estimate: measures samples and prints what the study would cost on one thread.\n"
+        "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
         "'sha256' is the hash of the CSV, which report.json has, too. 'export' and 'report' change no byte of the\n"
         "results, fail while a run uses DIR, and refuse results that something else than a run has changed.\n"

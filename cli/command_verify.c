@@ -11,15 +11,6 @@
 #include "cli.h"
 #include "source.h"
 
-/* Of a file, or of a pattern, which needs no "pattern:" before it here. */
-static int get_points(const cli_arguments *arguments, const char *text, uint64_t seed, const koksma_run *run,
-                      koksma_points *points)
-{
-    char named[sizeof "pattern:" + KOKSMA_MAX_SPEC];
-    snprintf(named, sizeof named, "pattern:%s", text);
-    return cli_source_points(arguments, cli_source_is_spec(text) ? named : text, seed, run, points);
-}
-
 static void put_rows(cli_rows *rows, const char *source, const koksma_points *points, const koksma_findings *findings)
 {
     for (size_t i = 0; i < findings->count; i++) {
@@ -133,7 +124,7 @@ static int put_findings(const cli_arguments *arguments, cli_rows *rows, const ch
     const char *expect = cli_text(arguments, "expect", NULL);
     koksma_findings findings = {0};
     const koksma_status status = koksma_verify(points, &work->run, &findings);
-    cli_work_end(work);
+    cli_work_end();
     if (!status) {
         put_rows(rows, source, points, &findings);
         *missed = expect && disappoints(expect, source, points, &findings);
@@ -165,7 +156,8 @@ static int run(const cli_arguments *arguments)
         koksma_points points = {0};
         const char *source = arguments->operands[i];
         bool one = false;
-        code = get_points(arguments, source, seed, &work.run, &points);
+        cli_work_part(&work, (size_t)i, (size_t)arguments->n_operands);
+        code = cli_source_points(arguments, source, seed, &work.run, &points);
         if (!code && cli_flag(arguments, "record")) {
             code = put_record(arguments, rows, source, &points, &work.run, &one);
             one = !one;
@@ -182,7 +174,8 @@ static int run(const cli_arguments *arguments)
 static const cli_option options[] = {
     {'e', "expect", "PROPERTY,..", "exit with 1 unless these properties all hold"},
     {0, "record", NULL, "the star discrepancy beside the best known; exit with 1 unless it is lower"},
-    {'s', "seed", "S", "seed for SPEC sources (default: 0)"},
+    CLI_SOURCE_OPTIONS,
+    {'s', "seed", "S", "seed of patterns (default: 0)"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},

@@ -80,7 +80,7 @@ const char *cli_curve_names(cli_curve_list list, const char *option, const char 
 
 /* Options of both commands. list: "curve" or "chart", as cli/texts.c has it; a file's word before trials. */
 #define CLI_CURVE_OPTIONS(list, default_half)                                                                        \
-    {'s', "seed", "S", "seed for pattern: sources (default: 0)"},                                                    \
+    {'s', "seed", "S", "seed of patterns (default: 0)"},                                                             \
         {'t', "trials", "T", "{" list ":trials}: the mean over T sets with seeds S, S+1, .., with standard errors"}, \
         {0, "half", "H",                                                                                             \
          "{" list ":half}: frequencies up to H in each coordinate (default: " default_half "; at most 2047)"},       \

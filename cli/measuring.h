@@ -24,6 +24,7 @@ typedef struct measuring {
     bool own_sets; /* --sizes: of patterns not prefixes, but a set of each size */
     double time_limit_s;
     cli_work work;
+    size_t n_evaluated; /* values that were looked for, for the progress */
     cli_rows *rows;
     koksma_tally *tallies; /* [prefix][measure] */
     size_t *n_exact;       /* likewise: of how many trials the value is exact */

@@ -16,6 +16,7 @@
 #include <koksma/render.h>
 
 #include "paragraphs.h"
+#include "source.h"
 
 /* No table has the letter of --help. */
 enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
@@ -81,16 +82,21 @@ static const char *option_name(const void *options, size_t i)
     return i ? ((const cli_option *)options)[i - 1].name : "help";
 }
 
+static bool has_option(const cli_command *command, const char *name)
+{
+    const cli_option *o = command->options;
+    while (o->name && strcmp(o->name, name) != 0) {
+        o++;
+    }
+    return o->name != NULL;
+}
+
 /* word: --NAME or --NAME=VALUE */
 static int unknown_option(const cli_arguments *arguments, const char *word)
 {
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    bool known = !strcmp(name, "help");
-    for (const cli_option *o = arguments->command->options; o->name; o++) {
-        known = known || !strcmp(o->name, name);
-    }
-    if (known) {
+    if (!strcmp(name, "help") || has_option(arguments->command, name)) {
         return cli_usage_error(arguments, "option --%s takes no argument", name);
     }
     const char *closest = koksma_closest_name(name, option_name, arguments->command->options);
@@ -185,18 +191,48 @@ int cli_end_output(int code)
     return code;
 }
 
-/* --digits and --long, of the commands that print tables. */
-static bool set_style(const cli_arguments *arguments)
+/* Whether a file to write has an ending of its option's argument, "FILE.txt|.csv", or none. */
+static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.'), *first = strchr(argument, '.');
+    char all[64] = "";
+    size_t used = 0;
+    for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
+        end = at + strcspn(at, "|");
+        if (strlen(dot) == (size_t)(end - at) && !strncmp(dot, at, (size_t)(end - at))) {
+            return true;
+        }
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%.*s",
+                                 !used  ? ""
+                                 : *end ? ", "
+                                        : " or ",
+                                 (int)(end - at), at);
+    }
+    if (used) {
+        cli_usage_error(arguments, "%s: its name ends in %s", path, all);
+    }
+    return !used;
+}
+
+/* What options mean in all commands that have them. The exit code. */
+static int read_shared_options(cli_arguments *arguments)
 {
     uint64_t digits = CLI_DIGITS;
-    for (const cli_option *o = arguments->command->options; o->name; o++) {
-        if (!strcmp(o->name, "digits")) {
-            const bool valid = cli_whole(arguments, o->name, CLI_DIGITS, 1, 17, &digits);
-            cli_set_style((int)digits, cli_flag(arguments, "long"));
-            return valid;
+    for (int i = 0; arguments->command->options[i].name; i++) {
+        const char *argument = arguments->command->options[i].argument, *value = arguments->values[i];
+        if (value && argument && !strncmp(argument, "FILE.", 5) && !ending_fits(arguments, argument, value)) {
+            return CLI_USAGE;
         }
     }
-    return true;
+    if (has_option(arguments->command, "digits")) {
+        if (!cli_whole(arguments, "digits", CLI_DIGITS, 1, 17, &digits)) {
+            return CLI_USAGE;
+        }
+        cli_set_style((int)digits, cli_flag(arguments, "long"));
+    }
+    return has_option(arguments->command, "patterns") && has_option(arguments->command, "n")
+               ? cli_sources_expand(arguments)
+               : CLI_YES;
 }
 
 int cli_run(const cli_command *command, int argc, char **argv)
@@ -205,11 +241,14 @@ int cli_run(const cli_command *command, int argc, char **argv)
     complained = false;
     int code = parse(&arguments, argc, argv);
     if (code == PARSED) {
-        code = set_style(&arguments) ? command->run(&arguments) : CLI_USAGE;
+        code = read_shared_options(&arguments);
+        code = code ? code : command->run(&arguments);
     }
     for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
         free(arguments.joined[i]);
     }
+    cli_sources_free(&arguments);
+    cli_work_end();
     return cli_end_output(code);
 }
 
@@ -228,14 +267,9 @@ bool cli_flag(const cli_arguments *arguments, const char *name)
     return cli_text(arguments, name, NULL) != NULL;
 }
 
-bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
-               uint64_t *out)
+bool cli_is_whole(const cli_arguments *arguments, const char *name, const char *text, uint64_t min, uint64_t max,
+                  uint64_t *out)
 {
-    const char *text = cli_text(arguments, name, NULL);
-    *out = fallback;
-    if (!text) {
-        return true;
-    }
     char *end;
     errno = 0;
     const unsigned long long value = strtoull(text, &end, 10);
@@ -246,6 +280,14 @@ bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallba
     }
     *out = value;
     return true;
+}
+
+bool cli_whole(const cli_arguments *arguments, const char *name, uint64_t fallback, uint64_t min, uint64_t max,
+               uint64_t *out)
+{
+    const char *text = cli_text(arguments, name, NULL);
+    *out = fallback;
+    return !text || cli_is_whole(arguments, name, text, min, max, out);
 }
 
 bool cli_size(const cli_arguments *arguments, int *width, int *height)
@@ -281,6 +323,7 @@ static void put_line(const char *command, const char *format, va_list list)
     char text[4096];
     vsnprintf(text, sizeof text, format, list);
     koksma_text_escape(text, sizeof text);
+    cli_work_end();
     fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
 }
 

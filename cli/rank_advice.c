@@ -5,8 +5,29 @@
  */
 #include "rank_advice.h"
 
+#include "cli.h"
+
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+static const char *base_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* The rows have the paths of files; here their names do, where they differ. */
+static const char *name_of(const koksma_rank_options *options, size_t pattern)
+{
+    const char *base = base_of(options->patterns[pattern]);
+    for (size_t i = 0; i < options->n_patterns; i++) {
+        if (i != pattern && !strcmp(base_of(options->patterns[i]), base)) {
+            return options->patterns[pattern];
+        }
+    }
+    return base;
+}
 
 static const char *in_bands(const koksma_rank_row *row)
 {
@@ -27,7 +48,7 @@ static void print_patterns(const koksma_rank_options *options, const koksma_rank
                     !done              ? ""
                     : done + 1 < count ? ", "
                                        : " and ",
-                    options->patterns[rows[i].pattern], in_bands(&rows[i]));
+                    name_of(options, rows[i].pattern), in_bands(&rows[i]));
             done++;
         }
     }
@@ -41,8 +62,8 @@ static void print_two_digits(double x)
 
 static void print_seconds(double seconds)
 {
-    print_two_digits(fmax(seconds, 0.1));
-    fprintf(stderr, " s");
+    char text[CLI_NUMBER];
+    fputs(cli_duration(seconds, text), stderr);
 }
 
 static void print_percent(double change, double low, double high, const char *direction)
@@ -90,12 +111,12 @@ static void advise_against(const koksma_rank_options *options, const koksma_rank
                     done == 2      ? count == 2 ? ", and so does " : ", and so do "
                     : done < count ? ", "
                                    : " and ",
-                    options->patterns[row->pattern]);
+                    name_of(options, row->pattern));
             continue;
         }
         const double none = NAN, low = i ? none : 1 - 1 / (1 + rows[best].behind_low),
                      high = i ? none : 1 - 1 / (1 + rows[best].behind_high);
-        fprintf(stderr, "; %s leaves ", options->patterns[row->pattern]);
+        fprintf(stderr, "; %s leaves ", name_of(options, row->pattern));
         print_percent(1 - row->mean / rows[best].mean, low, high, "less");
         fprintf(stderr, ", but in visible bands");
         print_coherence(row);
@@ -114,10 +135,10 @@ static void advise_behind(const koksma_rank_options *options, const koksma_rank_
     if (next < n) {
         const double none = NAN, low = best ? none : rows[next].behind_low,
                      high = best ? none : rows[next].behind_high;
-        fprintf(stderr, "; %s leaves ", options->patterns[rows[next].pattern]);
+        fprintf(stderr, "; %s leaves ", name_of(options, rows[next].pattern));
         print_percent(best ? rows[next].mean / rows[best].mean - 1 : rows[next].behind, low, high, "more");
         if (next + 1 < n) {
-            fprintf(stderr, ", %s ", options->patterns[last->pattern]);
+            fprintf(stderr, ", %s ", name_of(options, last->pattern));
             print_two_digits(100 * (best ? last->mean / rows[best].mean - 1 : last->behind));
             fprintf(stderr, " %% more");
         }
@@ -140,7 +161,7 @@ static void advise_best(const koksma_rank_options *options, const koksma_rank_ro
                         const koksma_ranking *ranking)
 {
     const size_t best = best_row(rows, ranking);
-    const char *name = options->patterns[rows[best].pattern];
+    const char *name = name_of(options, rows[best].pattern);
     if (ranking->n_coherent == ranking->n) {
         fprintf(stderr, "the error of every pattern has visible bands; %s leaves the least", name);
         print_coherence(&rows[best]);
@@ -179,14 +200,14 @@ static void advise_undecided(const koksma_rank_options *options, const koksma_ra
         fprintf(stderr, "; the time was too short to rank %zu of %zu patterns", ranking->n_slow, options->n_patterns);
     }
     if (first == 1) {
-        fprintf(stderr, "; of the others %s leaves the least error%s", options->patterns[rows[0].pattern],
+        fprintf(stderr, "; of the others %s leaves the least error%s", name_of(options, rows[0].pattern),
                 in_bands(&rows[0]));
     }
     if (ranking->n && ranking->n_coherent == ranking->n) {
         fprintf(stderr, "; the error of every%s pattern has visible bands", ranking->n_slow ? " ranked" : "");
     } else if (ranking->advised && ranking->n_coherent) {
         fprintf(stderr, "; of those without bands %s leaves the least error",
-                options->patterns[rows[ranking->advised_row].pattern]);
+                name_of(options, rows[ranking->advised_row].pattern));
     }
     if (!ranking->needed_trials) {
         fprintf(stderr, "; more trials would not decide it, because the reference's own error is too large");
@@ -208,8 +229,8 @@ static void advise_first(const koksma_rank_options *options, const koksma_rank_r
     const koksma_rank_check_result *first = &check->first;
     switch (first->state) {
     case KOKSMA_RANK_OVERTURNED:
-        fprintf(stderr, "; %s%s leaves the least error, not %s, which leaves ", options->patterns[first->pattern],
-                first->coherent ? " (in bands)" : "", options->patterns[rows[0].pattern]);
+        fprintf(stderr, "; %s%s leaves the least error, not %s, which leaves ", name_of(options, first->pattern),
+                first->coherent ? " (in bands)" : "", name_of(options, rows[0].pattern));
         print_percent(first->behind, first->behind_low, first->behind_high, "more");
         break;
     case KOKSMA_RANK_UNSETTLED:
@@ -237,8 +258,8 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
                     advice->coherent && ranking->n_coherent < ranking->n ? ", but in visible bands" : "");
             break;
         case KOKSMA_RANK_OVERTURNED:
-            fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", options->patterns[advice->pattern],
-                    advice->coherent ? " (in bands)" : "", options->patterns[rows[best_row(rows, ranking)].pattern]);
+            fprintf(stderr, "the order changes: %s is the best%s, and %s leaves ", name_of(options, advice->pattern),
+                    advice->coherent ? " (in bands)" : "", name_of(options, rows[best_row(rows, ranking)].pattern));
             print_percent(advice->behind, advice->behind_low, advice->behind_high, "more");
             break;
         case KOKSMA_RANK_UNSETTLED:
@@ -256,8 +277,8 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
 
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
 {
-    fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", options->scene, options->spp, ranking->width,
-            ranking->height);
+    fprintf(stderr, "%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp,
+            ranking->width, ranking->height);
     if (ranking->settled) {
         advise_best(options, rows, ranking);
     } else {

@@ -5,6 +5,7 @@
  * effect in it.
  */
 #include "render_options.h"
+#include "source.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -93,6 +94,7 @@ bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options 
 
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code)
 {
+    uint64_t n = 0, spp;
     while (*lines) {
         static char line[KOKSMA_MAX_PATTERNS_TEXT];
         const size_t length = strcspn(lines, "\n");
@@ -104,13 +106,23 @@ bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_
         memcpy(line, lines, length);
         line[length] = '\0';
         lines += lines[length] ? length + 1 : length;
+        if (!cli_take_counts(arguments, line, &n)) {
+            *code = CLI_USAGE;
+            return false;
+        }
         const koksma_status status = koksma_render_patterns(line, options);
         if (status) {
             *code = cli_fail(arguments, status);
             return false;
         }
     }
-    return true;
+    const bool valid = cli_whole(arguments, "spp", n ? n : 16, 1, KOKSMA_MAX_SPP, &spp);
+    if (valid && n && n != spp) {
+        cli_usage_error(arguments, "-p has @%llu and -n %llu", (unsigned long long)n, (unsigned long long)spp);
+    }
+    options->spp = (int)spp;
+    *code = CLI_USAGE;
+    return valid && (!n || n == spp);
 }
 
 void cli_idle_uses(const cli_arguments *arguments, const char *name, const koksma_scene *scene,

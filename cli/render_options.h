@@ -34,7 +34,7 @@ bool cli_integrator_and_filter(const cli_arguments *arguments, const koksma_inte
 /* Values of all those options; false after an error that names one. */
 bool cli_sampling_options(const cli_arguments *arguments, koksma_render_options *options);
 
-/* Patterns: lines of what koksma_render_patterns takes; false after an error, whose code is in *code. */
+/* --spp, and patterns: lines of what koksma_render_patterns takes, which may have @SPP; false after an error, whose code is in *code. */
 bool cli_use_patterns(const cli_arguments *arguments, const char *lines, koksma_render_options *options, int *code);
 
 /* Warns on stderr about each use that was given a pattern although rendering this scene needs no samples for it. */

@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Operands that name points: files, - for standard input, and pattern:SPEC@N[@DIM]. */
+/*
+ * Operands that name points, for all commands: files, - for standard input, and [pattern:]SPEC@N[@DIM], N points of a
+ * pattern. SPEC@N is a pattern if its name is one, or if no such file exists; ./SPEC@N is a file. -p PATTERN,.. adds
+ * operands, and -n N,.. and -d DIM complete those that are patterns without @N.
+ */
 #include "source.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char prefix[] = "pattern:";
 
@@ -34,47 +39,65 @@ static bool split(char *text, size_t *n, int *dim)
     return n_text[0] >= '0' && n_text[0] <= '9' && !*end;
 }
 
-bool cli_source_is_spec(const char *text)
+bool cli_names_pattern(const char *text)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(text, ":@"), text);
+    return koksma_pattern_find(name) != NULL;
+}
+
+static bool is_counted(const char *text)
 {
     char copy[KOKSMA_MAX_SPEC];
     size_t n;
     int dim;
     snprintf(copy, sizeof copy, "%s", text);
-    return strncmp(text, prefix, sizeof prefix - 1) != 0 && split(copy, &n, &dim);
+    return split(copy, &n, &dim);
+}
+
+bool cli_source_is_pattern(const char *text)
+{
+    return !strncmp(text, prefix, sizeof prefix - 1) ||
+           (is_counted(text) && (cli_names_pattern(text) || (!strchr(text, '/') && access(text, F_OK))));
+}
+
+int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source)
+{
+    char copy[KOKSMA_MAX_SPEC], spec[KOKSMA_MAX_SPEC];
+    text += strncmp(text, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+    *source = (cli_source){.is_pattern = true};
+    snprintf(copy, sizeof copy, "%s", text);
+    snprintf(spec, sizeof spec, "%s", text);
+    if (!split(copy, &source->n, &source->dim)) {
+        source->n = 0;
+        source->dim = 0;
+    } else if (source->dim == 0) {
+        return cli_usage_error(arguments, "'%s': the number of dimensions is 1 to %d", text, KOKSMA_MAX_DIM);
+    }
+    const koksma_status status = koksma_pattern_spec(source->n ? copy : spec, &source->spec);
+    return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
 int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source)
 {
-    char copy[KOKSMA_MAX_SPEC];
-    *source = (cli_source){.is_pattern = strncmp(text, prefix, sizeof prefix - 1) == 0};
-    if (!source->is_pattern) {
-        return CLI_YES;
+    *source = (cli_source){.is_pattern = cli_source_is_pattern(text)};
+    if (source->is_pattern && strncmp(text, prefix, sizeof prefix - 1) != 0 && !access(text, F_OK)) {
+        return cli_usage_error(arguments, "%s is a file, too; it takes ./%s or %s%s", text, text, prefix, text);
     }
-    snprintf(copy, sizeof copy, "%s", text + sizeof prefix - 1);
-    if (!split(copy, &source->n, &source->dim)) {
-        return cli_usage_error(arguments, "'%s' is not of the form pattern:SPEC@N or pattern:SPEC@N@DIM", text);
-    }
-    if (source->dim == 0) {
-        return cli_usage_error(arguments, "'%s': the number of dimensions is 1 to %d", text, KOKSMA_MAX_DIM);
-    }
-    const koksma_status status = koksma_pattern_spec(copy, &source->spec);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    const int code = source->is_pattern ? cli_pattern_open(arguments, text, source) : CLI_YES;
+    return !code && source->is_pattern && !source->n
+               ? cli_usage_error(arguments, "'%s' is not of the form SPEC@N or SPEC@N@DIM", text)
+               : code;
 }
 
 /* For the end of an error about a file: what was meant, if its name begins as a pattern's spec does; else "". */
 static const char *hint(const char *operand, char *text, size_t size)
 {
-    char name[64];
-    const size_t length = strcspn(operand, "@:");
-    bool plausible = operand[length] && length < sizeof name && strlen(operand) + 32 < size;
+    bool plausible = strlen(operand) + 32 < size && cli_names_pattern(operand);
     for (const char *s = operand; *s; s++) {
         plausible = plausible && !iscntrl((unsigned char)*s); /* an error is one line */
     }
-    snprintf(name, sizeof name, "%.*s", plausible ? (int)length : 0, operand);
-    if (!koksma_pattern_find(name)) {
-        return "";
-    }
-    snprintf(text, size, "; did you mean %s%s%s?", prefix, operand, strchr(operand, '@') ? "" : "@N");
+    snprintf(text, size, plausible ? "; did you mean %s@N?" : "", operand);
     return text;
 }
 
@@ -112,12 +135,159 @@ bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trial
             cli_usage_error(arguments, "-: stdin can be read once");
             return false;
         }
-        if (trials > 1 && strncmp(text, prefix, sizeof prefix - 1) != 0) {
+        if (trials > 1 && !cli_source_is_pattern(text)) {
             char meant[KOKSMA_MAX_SPEC];
-            cli_usage_error(arguments, "--trials: '%s' is one set; it takes pattern: sources%s", text,
+            cli_usage_error(arguments, "--trials: '%s' is one set; it takes patterns, SPEC@N%s", text,
                             hint(text, meant, sizeof meant));
             return false;
         }
+    }
+    return true;
+}
+
+/* ---- -p and -n --------------------------------------------------------------------------------------------- */
+
+static bool stop_at_once(void *context, double fraction)
+{
+    (void)context;
+    (void)fraction;
+    return false;
+}
+
+/* Whether a pattern has sets of this kind, by its checks alone. */
+static bool can_serve(const koksma_spec *spec, size_t n, int dim)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma_points points;
+    koksma_status status = koksma_points_init(&points, n, dim);
+    if (!status) {
+        status = koksma_generate(spec, 0, &briefly, &points);
+        koksma_points_fini(&points);
+    }
+    return !status || status == KOKSMA_INTERRUPTED;
+}
+
+bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC])
+{
+    if (strcmp(list, "all") != 0) {
+        return cli_list_item(list, i, spec, KOKSMA_MAX_SPEC);
+    }
+    const koksma_pattern *pattern = koksma_pattern_at(0);
+    for (size_t at = 0; pattern && (pattern->takes_path || i > 0); pattern = koksma_pattern_at(++at)) {
+        i -= !pattern->takes_path;
+    }
+    snprintf(spec, KOKSMA_MAX_SPEC, "%s", pattern ? pattern->name : "");
+    return pattern;
+}
+
+static int add_operand(cli_arguments *arguments, const char *text)
+{
+    char *copy = strdup(text);
+    char **operands = realloc(arguments->made, ((size_t)arguments->n_made + 1) * sizeof *operands);
+    arguments->made = operands ? operands : arguments->made;
+    if (!operands || !copy) {
+        free(copy);
+        return cli_no_memory();
+    }
+    arguments->made[arguments->n_made++] = copy;
+    return CLI_YES;
+}
+
+/* -n and -d, and what -p all leaves out. */
+typedef struct sizes {
+    const char *list; /* NULL: none */
+    uint64_t dim;
+    bool all, used;
+    char left_out[1024];
+} sizes;
+
+/* An operand as it is, or of each size when it is a pattern without one. */
+static int add_sizes(cli_arguments *arguments, const char *text, sizes *of)
+{
+    char item[32], operand[KOKSMA_MAX_SPEC + 64];
+    const char *spec = strncmp(text, prefix, sizeof prefix - 1) ? text : text + sizeof prefix - 1;
+    const bool bare = (cli_names_pattern(spec) || spec != text) && !is_counted(text);
+    int code = bare && of->list ? CLI_YES : add_operand(arguments, text);
+    for (size_t k = 0; bare && of->list && !code && cli_list_item(of->list, k, item, sizeof item); k++) {
+        uint64_t n;
+        koksma_spec known;
+        of->used = true;
+        if (!cli_is_whole(arguments, "n", item, 1, KOKSMA_MAX_COORDINATES, &n)) {
+            return CLI_USAGE;
+        }
+        snprintf(operand, sizeof operand, of->dim == 2 ? "%s@%s" : "%s@%s@%d", text, item, (int)of->dim);
+        if (!of->all || (!koksma_pattern_spec(spec, &known) && can_serve(&known, n, (int)of->dim))) {
+            code = add_operand(arguments, operand);
+        } else {
+            const size_t used = strlen(of->left_out);
+            snprintf(of->left_out + used, sizeof of->left_out - used, "%s%s", used ? ", " : "", operand);
+        }
+    }
+    return code;
+}
+
+int cli_sources_expand(cli_arguments *arguments)
+{
+    const char *patterns = cli_text(arguments, "patterns", NULL);
+    char spec[KOKSMA_MAX_SPEC];
+    sizes of = {.list = cli_text(arguments, "n", NULL)};
+    int code = cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &of.dim) ? CLI_YES : CLI_USAGE;
+    for (int i = 0; i < arguments->n_operands && !code; i++) {
+        code = add_sizes(arguments, arguments->operands[i], &of);
+    }
+    of.all = patterns && !strcmp(patterns, "all");
+    if (!code && of.all && !of.list) {
+        code = cli_usage_error(arguments, "-p all takes -n N, the number of points");
+    }
+    for (size_t i = 0; !code && patterns && cli_pattern_item(patterns, i, spec); i++) {
+        code = add_sizes(arguments, spec, &of);
+    }
+    if (!code && of.list && !of.used) {
+        const char *last = arguments->n_made ? arguments->made[arguments->n_made - 1] : "-";
+        koksma_spec unknown;
+        code = strcmp(last, "-") && access(last, F_OK) && !cli_source_is_pattern(last) &&
+                       koksma_pattern_spec(last, &unknown)
+                   ? cli_fail(arguments, KOKSMA_ARGUMENT)
+                   : cli_usage_error(arguments, "-n %s: no pattern without @N is there to take it", of.list);
+    }
+    if (!code && *of.left_out && !cli_flag(arguments, "quiet")) {
+        cli_say(arguments->command->name, "-p all leaves out what has no such set: %s", of.left_out);
+    }
+    arguments->operands = arguments->made;
+    arguments->n_operands = arguments->n_made;
+    return code;
+}
+
+void cli_sources_free(cli_arguments *arguments)
+{
+    for (int i = 0; i < arguments->n_made; i++) {
+        free(arguments->made[i]);
+    }
+    free(arguments->made);
+}
+
+bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n)
+{
+    for (char *item = text, *next; item; item = next) {
+        next = strchr(item, ';');
+        char *end = next ? next : item + strlen(item), *spec = item + strcspn(item, "=:;");
+        spec = *spec == '=' ? spec + 1 : item;
+        char *at = end;
+        while (at > spec && at[-1] >= '0' && at[-1] <= '9') {
+            at--;
+        }
+        const uint64_t count = at > spec && at < end && at[-1] == '@' ? strtoull(at, NULL, 10) : 0;
+        if (count && *n && *n != count) {
+            cli_usage_error(arguments, "-p: @%llu and @%llu; all patterns have one number of samples a pixel",
+                            (unsigned long long)*n, (unsigned long long)count);
+            return false;
+        }
+        *n = count ? count : *n;
+        const size_t skip = strncmp(spec, prefix, sizeof prefix - 1) ? 0 : sizeof prefix - 1;
+        const size_t length = (size_t)((count ? at - 1 : end) - spec) - skip;
+        memmove(spec, spec + skip, length);
+        memmove(spec + length, end, strlen(end) + 1);
+        next = spec[length] ? spec + length + 1 : NULL;
     }
     return true;
 }

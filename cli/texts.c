@@ -8,7 +8,7 @@
  *     {curve:OPTION}, {chart:OPTION}       power, rings, ...: those that take an option
  *     {curve-meanings}, {chart-meanings}   a paragraph each
  *     {property-meanings}                  a paragraph each, of `verify`
- *     {image-formats}                      .exr, .png or .pfm
+ *     {image-formats}, {images}            .exr, .png or .pfm; .exr|.png|.pfm
  *     {lists}                              patterns|measures|...: what `list` lists
  *
  * Other braces stay as they are. The texts are kept until the program ends, in one block of fixed size; a text that
@@ -59,7 +59,7 @@ static void put_curve_meanings(cli_curve_list list)
     }
 }
 
-const char *cli_image_formats(char *text, size_t size)
+const char *cli_image_formats(const char *comma, const char *last, char *text, size_t size)
 {
     const char *name, *left_out;
     size_t n = 0;
@@ -68,8 +68,8 @@ const char *cli_image_formats(char *text, size_t size)
         const char *next = koksma_image_format(i + 1, &left_out);
         n += (size_t)snprintf(text + n, size - n, ".%s%s", name,
                               !next                                   ? ""
-                              : koksma_image_format(i + 2, &left_out) ? ", "
-                                                                      : " or ");
+                              : koksma_image_format(i + 2, &left_out) ? comma
+                                                                      : last);
     }
     return text;
 }
@@ -91,7 +91,9 @@ static bool put_placeholder(const char *name)
             put_meaning(property->name, property->meaning);
         }
     } else if (!strcmp(name, "image-formats")) {
-        cli_image_formats(text, sizeof text);
+        cli_image_formats(", ", " or ", text, sizeof text);
+    } else if (!strcmp(name, "images")) {
+        cli_image_formats("|", "|", text, sizeof text);
     } else if (!strcmp(name, "lists")) {
         cli_list_names("|", text, sizeof text);
     } else {

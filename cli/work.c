@@ -3,12 +3,14 @@
  * Long work: threads, the progress line on stderr, and Ctrl-C, which ends the work between blocks and keeps what
  * was done.
  */
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "aligned.h"
 #include "cli.h"
 
 static volatile sig_atomic_t interrupted;
@@ -42,19 +44,42 @@ double cli_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+const char *cli_duration(double seconds, char text[CLI_NUMBER])
+{
+    const double whole = floor(seconds + 0.5);
+    if (seconds < 9.95) {
+        snprintf(text, CLI_NUMBER, "%.2g s", fmax(seconds, 0.1));
+    } else if (whole < 60) {
+        snprintf(text, CLI_NUMBER, "%.0f s", whole);
+    } else if (whole < 3600) {
+        snprintf(text, CLI_NUMBER, "%.0f min %.0f s", floor(whole / 60), fmod(whole, 60));
+    } else {
+        snprintf(text, CLI_NUMBER, "%.0f h %.0f min", floor(whole / 3600), floor(fmod(whole, 3600) / 60));
+    }
+    return text;
+}
+
+static bool shown; /* a progress line */
+
+/* A line that is longer than the terminal could not be cleared. */
 static void show(cli_work *work, double fraction)
 {
     const double now = cli_seconds(), elapsed = now - work->started_s;
+    char text[256], left[CLI_NUMBER];
+    work->fraction = fmax(work->fraction, fmin(work->begin + work->share * fraction, 1));
     if (now - work->updated_s < 1.0 / 6) {
         return;
     }
     work->updated_s = now;
-    fprintf(stderr, "\r\033[K%s %3.0f %%", work->what, 100 * fraction);
-    if (fraction > 0.01 && elapsed > 1) {
-        fprintf(stderr, ", %.0f s left", elapsed * (1 - fraction) / fraction);
+    const int used = snprintf(text, sizeof text, "%.150s %3.0f %%", work->what, 100 * work->fraction);
+    if (work->fraction > 0.01 && elapsed > 1) {
+        snprintf(text + used, sizeof text - (size_t)used, ", %s left",
+                 cli_duration(elapsed * (1 - work->fraction) / work->fraction, left));
     }
+    const int width = cli_terminal_width(STDERR_FILENO);
+    fprintf(stderr, "\r\033[K%.*s", width ? width - 1 : (int)sizeof text, text);
     fflush(stderr);
-    work->shown = true;
+    shown = true;
 }
 
 static bool keep_going(void *context, double fraction)
@@ -83,7 +108,7 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
         return false;
     }
     const bool visible = !cli_flag(arguments, "quiet") && (always || (automatic && isatty(STDERR_FILENO)));
-    *work = (cli_work){.what = what, .started_s = cli_seconds()};
+    *work = (cli_work){.what = what, .share = 1, .started_s = cli_seconds()};
     work->run = (koksma_run){
         .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
     signal(SIGXFSZ, SIG_IGN); /* a full disk, or a limit, is an error of the write */
@@ -92,11 +117,17 @@ bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *
     return true;
 }
 
-void cli_work_end(cli_work *work)
+void cli_work_part(cli_work *work, size_t i, size_t n)
 {
-    if (work->shown) {
+    work->begin = (double)i / (double)n;
+    work->share = 1 / (double)n;
+}
+
+void cli_work_end(void)
+{
+    if (shown) {
         fputs("\r\033[K", stderr);
         fflush(stderr);
     }
-    work->shown = false;
+    shown = false;
 }

@@ -82,7 +82,8 @@ scene check ^ $(all scenes) FILES
 compare ^ FILES
 compare a b --max-mean ^
 rank ^ $(all scenes) FILES
-rank ball --patterns ^ thesis later $(all patterns)
+rank ball --patterns ^ thesis later all $(all patterns)
+measure x -p ^ all $(all patterns)
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 study ^ run new estimate export report audit images

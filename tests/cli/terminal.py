@@ -3,7 +3,8 @@
 """terminal.py KOKSMA: tables on a terminal. Every table of `koksma list` and of the commands below, on pseudo terminals of
 several widths: no line is wider; every column of the table that a pipe gets is a column, in the line above or named as left
 out; and a terminal that is wide enough, or --long, shows what a pipe gets, where nothing is cut. Numbers of a pipe are those
-of JSON to five digits; JSON and files hold them to the last bit."""
+of JSON to five digits; JSON and files hold them to the last bit. Every command that may take long shows one bar, which never
+falls and is gone before anything else is printed."""
 import fcntl
 import json
 import os
@@ -25,14 +26,14 @@ def check(good, what):
         failures.append(what)
 
 
-def on_terminal(arguments, width, columns=None):
-    """What the program prints on a terminal: its stdout, and its stderr apart."""
+def on_terminal(arguments, width, columns=None, stderr=subprocess.DEVNULL):
+    """What the program prints on a terminal of a width: its stdout, and its stderr when it is told to be STDOUT."""
     environment = {key: value for key, value in os.environ.items() if key != "COLUMNS"}
     environment |= {"COLUMNS": str(columns)} if columns else {}
     shown = []
     master, slave = pty.openpty()
     fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
-    with subprocess.Popen([KOKSMA, *arguments], stdin=subprocess.DEVNULL, stdout=slave, stderr=subprocess.DEVNULL, env=environment):
+    with subprocess.Popen([KOKSMA, *arguments], stdin=subprocess.DEVNULL, stdout=slave, stderr=stderr, env=environment):
         os.close(slave)
         try:
             while text := os.read(master, 1 << 16):
@@ -112,5 +113,24 @@ with tempfile.TemporaryDirectory() as folder:
         of_file, of_pattern = (rows("measure", source, "-m", "all", "-s", "3") for source in (f"p{ending}", "pattern:random@50"))
         for a, b in zip(of_file, of_pattern):
             check(len(of_file) > 15 and a["value"] == b["value"] and a["witness"] == b["witness"], f"{ending}: {a} is not {b}")
+    # One bar: in place, never falling, cleared before messages and tables, and not in a pipe.
+    subprocess.run([KOKSMA, "study", "new", "plan.json"], check=True)
+    slow = {"measure": ["random@400", "-m", "star,l2-star", "--trials", "3"], "verify": ["sobol@256", "halton@256"],
+            "generate": ["best-candidate", "-n", "1500", "-o", "b.txt"], "curve": ["power", "random@400", "--trials", "9"],
+            "plot": ["random@400", "--curve", "power", "--trials", "9", "-o", "b.png"], "render": ["ball", "-o", "b.png"],
+            "rank": ["ball", "--size", "16x12", "--max-trials", "8", "--one-size", "-p", "random,jittered"],
+            "optimise": ["l2-star", "-n", "30", "--steps", "3", "-o", "b.txt"], "study": ["run", "./plan.json", "-o", "results", "--quick"],
+            "reproduce": ["./plan.json", "-o", "again", "--quick"]}
+    for command, more in slow.items():
+        text = on_terminal([command, *more, "--seed", "1"] if command not in ("rank", "study", "reproduce") else [command, *more], 80, None, subprocess.STDOUT)
+        bars = re.findall(r"\r\x1b\[K([^\r\n]* +(\d+) %[^\r\n]*)(.)", text, re.S)
+        check(bars and all(after == "\r" for _, _, after in bars), f"{command}: no bar, or something is printed behind it: {text[-400:]!r}")
+        parts = [int(part) for _, part, _ in bars]
+        check(parts == sorted(parts) and parts[-1] <= 100 and all(len(bar) < 80 for bar, _, _ in bars), f"{command}: {parts}")
+        check("%" not in subprocess.run([KOKSMA, command, *more], capture_output=True, text=True, check=False).stderr.split("workers")[0].split("leaves")[0],
+              f"{command}: a bar in a pipe")
+    cost = piped("study", "estimate", "./plan.json", "--threads", "2", "--time-limit", "0.2")
+    check(re.fullmatch(r"about (\d+ (min|h) )?[\d.]+ (s|min) on 2 threads, \d+ MB: 1680 jobs, 4560 rows, and 2 reference images "
+                       r"\([^()]+ of the time\)\n", cost), f"estimate: {cost}")
 print("\n".join(failures) or f"{tables} tables")
 sys.exit(bool(failures))

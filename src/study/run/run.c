@@ -91,6 +91,22 @@ koksma_status koksma__run_kind(koksma_study *study, bool images, koksma__run_con
     return before ? before : status;
 }
 
+/* What a kind of jobs takes of the time, roughly: samples of images, points of sets with each measure. 0 when unknown. */
+static double work_of(koksma_study *study, bool images)
+{
+    koksma__tasks tasks;
+    double sum = 0;
+    if (koksma__tasks_open(study, images, &tasks)) {
+        return 0;
+    }
+    for (size_t i = 0; i < tasks.n; i++) {
+        const koksma__task *t = &tasks.at[i];
+        sum += (double)t->trials * (double)t->n * (images ? (double)t->width * t->height : (double)t->n_series);
+    }
+    koksma__tasks_close(&tasks);
+    return sum;
+}
+
 koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksma_study_summary *summary)
 {
     KOKSMA__REQUIRE(study);
@@ -112,7 +128,11 @@ koksma_status koksma_study_run(koksma_study *study, const koksma_run *run, koksm
     const double start_s = koksma__now_s(), processor_s = koksma__processor_s();
     const double store_s = koksma__store_seconds(study->store);
     koksma__failures failures = {.n = 0};
+    const double sets = work_of(study, false), pictures = work_of(study, true);
+    control.share = sets > 0 ? sets / (sets + pictures) : 0;
     koksma_status status = koksma__run_kind(study, false, &control, KOKSMA_OK, summary, &failures);
+    control.begin = control.share;
+    control.share = 1 - control.begin;
     status = koksma__run_kind(study, true, &control, status, summary, &failures);
     summary->workers = koksma__mpi_size() > 1 ? koksma__mpi_size() : control.run.threads;
     summary->seconds = koksma__now_s() - start_s;

@@ -30,7 +30,7 @@ bool koksma__run_control_time_is_up(koksma__run_control *control)
 static bool keep_running(void *context, double fraction)
 {
     koksma__run_control *control = context;
-    control->fraction = fraction;
+    control->fraction = control->begin + control->share * fraction;
     return look(control);
 }
 
@@ -43,8 +43,10 @@ static bool keep_at_job(void *context, double fraction)
 
 void koksma__run_control_begin(const koksma_run *run, double time_limit_s, koksma__run_control *control)
 {
-    *control = (koksma__run_control){
-        .caller_run = run, .caller = pthread_self(), .end_s = time_limit_s > 0 ? koksma__now_s() + time_limit_s : 0};
+    *control = (koksma__run_control){.caller_run = run,
+                                     .share = 1,
+                                     .caller = pthread_self(),
+                                     .end_s = time_limit_s > 0 ? koksma__now_s() + time_limit_s : 0};
     control->run = (koksma_run){.threads = koksma__threads(run), .keep_going = keep_running, .context = control};
     control->job = (koksma_run){.threads = 1, .keep_going = keep_at_job, .context = control};
 }

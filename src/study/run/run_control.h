@@ -16,6 +16,7 @@ typedef struct koksma__run_control {
     pthread_t caller;
     double end_s;            /* of the time, by koksma__now_s; 0: none */
     double fraction;         /* done, as last told by the caller's thread */
+    double begin, share;     /* of the whole, that the fractions of a phase go over */
     atomic_bool stop;        /* what is at work is to end */
     atomic_bool is_up;       /* because the time is up */
     atomic_bool interrupted; /* because the caller's keep_going said so, before or after that */

@@ -5,7 +5,7 @@
  * that are equal in all rows go into a line above; columns are taken from the left as long as they fit, text with at
  * least LEAST columns, in several lines where it is longer; and what is left out is named below.
  */
-#include "table.h"
+#include "aligned.h"
 
 #include <stdint.h>
 #include <stdio.h>

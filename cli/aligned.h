@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Prints rows of cells as aligned text, within the width of a terminal. */
-#ifndef KOKSMA_CLI_TABLE_H
-#define KOKSMA_CLI_TABLE_H
+#ifndef KOKSMA_CLI_ALIGNED_H
+#define KOKSMA_CLI_ALIGNED_H
 
 #include <stdbool.h>
 #include <stddef.h>
