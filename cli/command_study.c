@@ -493,7 +493,7 @@ const cli_command cli_command_study = {
         "nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
         "braces. 'koksma compare --help' explains coherence.\n",
-    .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o results\n"
+    .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
                 "koksma study new plan.json\n"
                 "koksma study estimate ./plan.json\n"
                 "koksma study run ./plan.json -o results --quick\n"

@@ -85,7 +85,7 @@ rank ^ $(all scenes) FILES
 rank ball --patterns ^ thesis later $(all patterns)
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
-study ^ run new estimate export report audit images
+study ^ run quick new estimate export report audit images
 study run ^ shirley1991 mitchell1992 open-questions FILES
 study estimate ^ shirley1991 mitchell1992 open-questions FILES
 study export ^ FILES
