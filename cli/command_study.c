@@ -364,6 +364,10 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_rounded(out, "mean", rows[i].mean, 4);
         cli_row_rounded(out, "low", rows[i].low, 4);
         cli_row_rounded(out, "high", rows[i].high, 4);
+        cli_row_whole(out, "position", rows[i].position);
+        cli_row_rounded(out, "behind", rows[i].behind, 3);
+        cli_row_rounded(out, "behind_low", rows[i].behind_low, 3);
+        cli_row_rounded(out, "behind_high", rows[i].behind_high, 3);
         cli_row_rounded(out, "sd", rows[i].sd, 4);
         cli_row_rounded(out, "max", rows[i].max, 4);
         cli_row_rounded(out, "rmse", rows[i].rmse, 4);
@@ -394,6 +398,10 @@ static int images(const cli_arguments *arguments)
     cli_work_end(&work);
     if (status) {
         return cli_fail(arguments, status);
+    }
+    if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
+        cli_say("study", "there is no {trial} in '%s': other names in braces make groups, without intervals",
+                arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, rows, n);
@@ -492,7 +500,10 @@ const cli_command cli_command_study = {
         "changes\n"
         "nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
-        "braces. 'koksma compare --help' explains coherence.\n",
+        "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
+        "spp,\n"
+        "with an interval of the differences of images with equal {trial}, where both groups have the same. 'koksma "
+        "compare --help' explains coherence.\n",
     .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
                 "koksma study new plan.json\n"
                 "koksma study estimate ./plan.json\n"
