@@ -15,6 +15,7 @@
 #include <koksma/study.h>
 
 #include "cli.h"
+#include "study_quick.h"
 
 /* A plan to begin with. `comment` is allowed in every object and means nothing. */
 static const char example[] =
@@ -169,6 +170,28 @@ static int run_plans(const cli_arguments *arguments)
     }
     const int code = run_study(arguments, &options, &work);
     cli_work_end();
+    return code;
+}
+
+/* Writes a plan from the command line, and runs it. */
+static int run_quick(const cli_arguments *arguments)
+{
+    cli_work work;
+    koksma_study_options options;
+    char path[CLI_QUICK_PATH];
+    const char *folder = cli_text(arguments, "output", NULL);
+    if (arguments->n_operands != 1 || !folder) {
+        return cli_usage_error(arguments, "quick takes options and a folder, as in quick -p sobol,random -o DIR");
+    }
+    int code = cli_write_quick_plan(arguments, folder, path);
+    if (code || !study_options(arguments, &options, &work)) {
+        return code ? code : CLI_USAGE;
+    }
+    const char *plan = path;
+    options.plans = &plan;
+    options.n_plans = 1;
+    code = run_study(arguments, &options, &work);
+    cli_work_end(&work);
     return code;
 }
 
@@ -370,6 +393,10 @@ static void put_image_rows(cli_rows *out, const koksma_images_row *rows, size_t 
         cli_row_number(out, "mean", rows[i].mean);
         cli_row_number(out, "low", rows[i].low);
         cli_row_number(out, "high", rows[i].high);
+        cli_row_whole(out, "position", rows[i].position);
+        cli_row_number(out, "behind", rows[i].behind);
+        cli_row_number(out, "behind_low", rows[i].behind_low);
+        cli_row_number(out, "behind_high", rows[i].behind_high);
         cli_row_number(out, "sd", rows[i].sd);
         cli_row_number(out, "max", rows[i].max);
         cli_row_number(out, "rmse", rows[i].rmse);
@@ -400,6 +427,10 @@ static int images(const cli_arguments *arguments)
     cli_work_end();
     if (status) {
         return cli_fail(arguments, status);
+    }
+    if (n > 1 && !strstr(arguments->operands[1], "{trial}")) {
+        cli_say("study", "there is no {trial} in '%s': other names in braces make groups, without intervals",
+                arguments->operands[1]);
     }
     cli_rows *out = cli_rows_open(cli_flag(arguments, "json"));
     put_image_rows(out, rows, n);
@@ -432,6 +463,7 @@ static int run(const cli_arguments *arguments)
         int (*run)(const cli_arguments *arguments);
         const char *options; /* that it takes beside those of all long work */
     } verbs[] = {{"run", run_plans, " output trials quick time-limit "},
+                 {"quick", run_quick, " output trials quick time-limit patterns measures points scene spp "},
                  {"new", new_plan, " output "},
                  {"estimate", estimate, " trials quick time-limit json digits long "},
                  {"export", export_rows, " output format "},
@@ -443,13 +475,18 @@ static int run(const cli_arguments *arguments)
             return takes_options(arguments, verbs[i].options) ? verbs[i].run(arguments) : CLI_USAGE;
         }
     }
-    return cli_usage_error(arguments, "it takes run, new, estimate, export, report, audit or images");
+    return cli_usage_error(arguments, "it takes run, quick, new, estimate, export, report, audit or images");
 }
 
 static const cli_option options[] = {
-    {'o', "output", "PATH", "run: the folder; new, export: the file (default: -, standard output)"},
-    {0, "trials", "T", "run, estimate: trials of everything instead of the plan's own numbers"},
-    {0, "quick", NULL, "run, estimate: every block's 'quick' number of trials"},
+    {'p', "patterns", "LIST", "quick: the patterns, or all (default: random,jittered,n-rooks,sobol:scramble=owen)"},
+    {'m', "measures", "LIST", "quick: the measures (default: star,l2-star)"},
+    {'n', "points", "LIST", "quick: the numbers of points (default: 16,64,256,1024)"},
+    {0, "scene", "LIST", "quick: scenes to render as well (default: none)"},
+    {0, "spp", "LIST", "quick: samples a pixel in the scenes (default: 4,16,64)"},
+    {'o', "output", "PATH", "run, quick: the folder; new, export: the file (default: -, standard output)"},
+    {0, "trials", "T", "run, quick, estimate: trials of everything instead of the plan's own numbers"},
+    {0, "quick", NULL, "run, quick, estimate: every block's 'quick' number of trials"},
     {0, "time-limit", "S",
      "run: stop after S seconds, exit code 1 if not all is done; estimate: time for samples (5)"},
     {0, "rows", "N|all", "audit: rows to draw at random (default: 200)"},
@@ -465,6 +502,7 @@ const cli_command cli_command_study = {
     .name = "study",
     .summary = "run patterns x measures or scenes x trials, from a plan",
     .synopsis = "run PLAN... -o DIR [--trials T] [--quick] [--time-limit S]\n"
+                "quick [-p LIST] [-m LIST] [-n LIST] [--scene LIST] -o DIR\n"
                 "new [FILE]\n"
                 "estimate PLAN... [--json]\n"
                 "export DIR [--format csv|json|npy|sha256] [-o FILE]\n"
@@ -476,6 +514,9 @@ const cli_command cli_command_study = {
         "the plan's file.\n"
         "run: runs all jobs; results go to DIR/results.sqlite at once. An interrupted run continues when it is\n"
         "started again. A trial whose pattern fails is skipped; the rest completes and the exit code is 2.\n"
+        "quick: writes DIR/plan.json from the options and runs it. Numbers that a pattern does not have are left "
+        "out\n"
+        "and listed. A pattern file:PATH is a file of points.\n"
         "new: writes an example plan; it overwrites no file.\n"
         "estimate: measures samples and prints what the study would cost: time and space on disk.\n"
         "export: writes all results sorted by key: the same bytes for any number of threads and interruptions.\n"
@@ -488,8 +529,12 @@ const cli_command cli_command_study = {
         "changes\n"
         "nothing, and works under mpirun, too.\n"
         "images: compares images from another renderer: PLACES is a path with {spp}, {trial} and other names in\n"
-        "braces. 'koksma compare --help' explains coherence.\n",
-    .examples = "koksma study new plan.json\n"
+        "braces, which make groups. 'behind' is how much larger a group's error is than that of the first of its "
+        "spp,\n"
+        "with an interval of the differences of images with equal {trial}, where both groups have the same. 'koksma "
+        "compare --help' explains coherence.\n",
+    .examples = "koksma study quick -p random,sobol -m star -n 16,64 --quick -o quick\n"
+                "koksma study new plan.json\n"
                 "koksma study estimate ./plan.json\n"
                 "koksma study run ./plan.json -o results --quick\n"
                 "koksma study export results --format csv -o rows.csv\n"

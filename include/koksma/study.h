@@ -202,8 +202,12 @@ typedef struct koksma_images_row {
     double mean, low,
         high;             /* mean over the trials of the mean absolute error, and its 95 % interval (NaN with one) */
     double sd, max, rmse; /* means over the trials */
-    double slope, slope_low, slope_high; /* log-log slope of the group's mean over {spp}; NaN with one number */
-    koksma_coherence_values coherence;   /* of the errors of all trials, in their order */
+    double slope, slope_low, slope_high;    /* log-log slope of the group's mean over {spp}; NaN with one number */
+    koksma_coherence_values coherence;      /* of the errors of all trials, in their order */
+    size_t position;                        /* among the groups with this spp, by the mean: 1 has the least */
+    double behind, behind_low, behind_high; /* how much larger the mean is than the first's, over that: 0.1 is 10 %;
+                                               its 95 % interval is of the differences of images with equal {trial},
+                                               NaN where the two groups have other trials */
 } koksma_images_row;
 
 /* Compares all images whose paths match a template with a reference image.

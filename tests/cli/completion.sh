@@ -86,7 +86,7 @@ rank ball --patterns ^ thesis later all $(all patterns)
 measure x -p ^ all $(all patterns)
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
-study ^ run new estimate export report audit images
+study ^ run quick new estimate export report audit images
 study run ^ shirley1991 mitchell1992 open-questions FILES
 study estimate ^ shirley1991 mitchell1992 open-questions FILES
 study export ^ FILES

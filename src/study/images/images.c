@@ -43,7 +43,7 @@ static int compare_pictures(const void *a, const void *b)
     return p->name.trial != q->name.trial ? (p->name.trial < q->name.trial ? -1 : 1) : strcmp(p->path, q->path);
 }
 
-static koksma_status collect(const char *places, const glob_t *found, pictures *out)
+static koksma_status collect(const char *places, const char *pattern, const glob_t *found, pictures *out)
 {
     out->at = calloc(found->gl_pathc + 1, sizeof *out->at);
     KOKSMA__REQUIRE_MEMORY(out->at, found->gl_pathc * sizeof *out->at);
@@ -60,7 +60,14 @@ static koksma_status collect(const char *places, const glob_t *found, pictures *
         return status;
     }
     qsort(out->at, out->n, sizeof *out->at, compare_pictures);
-    return out->n ? KOKSMA_OK : koksma__fail(KOKSMA_MISSING, "%s: no such images", places);
+    if (!found->gl_pathc) {
+        return koksma__fail(KOKSMA_MISSING, "%s: no such images: no file matches '%s'", places, pattern);
+    }
+    return out->n
+               ? KOKSMA_OK
+               : koksma__fail(KOKSMA_MISSING,
+                              "%s: no such images: none of %zu files that match '%s' has digits at {spp} and {trial}",
+                              places, (size_t)found->gl_pathc, pattern);
 }
 
 /* ---- Errors -------------------------------------------------------------------------------------------- */
@@ -143,6 +150,51 @@ static koksma_status make_rows(const pictures *all, koksma_images_row **rows, si
     return status;
 }
 
+/* How far a row's images are behind those of the first of its spp: paired where both have the same trials. */
+static koksma_status add_behind(const picture *first, size_t n_first, const picture *images, koksma_images_row *row)
+{
+    bool paired = n_first == row->trials;
+    double *values = calloc(2 * row->trials, sizeof *values);
+    if (!values) {
+        return koksma__fail_memory(2 * row->trials * sizeof *values);
+    }
+    for (size_t i = 0; paired && i < row->trials; i++) {
+        paired = images[i].name.trial == first[i].name.trial;
+        values[i] = images[i].error.mean;
+        values[row->trials + i] = first[i].error.mean;
+    }
+    if (paired) {
+        const koksma__estimate e = koksma__relative_change(values, values + row->trials, row->trials);
+        row->behind_low = e.low;
+        row->behind_high = e.high;
+    }
+    free(values);
+    return KOKSMA_OK;
+}
+
+/* Positions among the rows of equal spp; the images of the rows follow each other in `all`. */
+static koksma_status add_positions(const pictures *all, koksma_images_row *rows, size_t n)
+{
+    koksma_status status = KOKSMA_OK;
+    const picture *images = all->at;
+    for (size_t i = 0; !status && i < n; images += rows[i++].trials) {
+        size_t best = i;
+        rows[i].position = 1;
+        for (size_t k = 0; k < n; k++) {
+            rows[i].position += rows[k].spp == rows[i].spp && rows[k].mean < rows[i].mean;
+            best = rows[k].spp == rows[i].spp && rows[k].mean < rows[best].mean ? k : best;
+        }
+        const picture *first = all->at;
+        for (size_t k = 0; k < best; k++) {
+            first += rows[k].trials;
+        }
+        rows[i].behind = rows[best].mean > 0 ? rows[i].mean / rows[best].mean - 1 : 0;
+        rows[i].behind_low = rows[i].behind_high = NAN;
+        status = best == i ? KOKSMA_OK : add_behind(first, rows[best].trials, images, &rows[i]);
+    }
+    return status;
+}
+
 /* The coherence of each row, whose images follow each other in `all`. */
 static koksma_status add_coherence(const pictures *all, const koksma_run *run, koksma_images_row *rows, size_t n)
 {
@@ -178,12 +230,14 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     *rows = NULL;
     *n = 0;
     KOKSMA__TRY(koksma__image_names_pattern(places, pattern, sizeof pattern));
-    koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
-                                                                          : collect(places, &found, &all);
+    koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE
+                               ? koksma__fail_memory(sizeof pattern)
+                               : collect(places, pattern, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
     status = status ? status : koksma_image_check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
     status = status ? status : make_rows(&all, rows, n);
+    status = status ? status : add_positions(&all, *rows, *n);
     status = status ? status : add_coherence(&all, run, *rows, *n);
     if (status) {
         free(*rows);

@@ -89,8 +89,8 @@ static koksma_status leave_out_of(const tried *t, size_t p, koksma__left_out *ou
     int length = snprintf(line, sizeof line, "%s, N = ", t->patterns->at[p]);
     for (size_t k = 0; k < t->n->n && t->n->at[k] <= MOST_TRIED; k++) {
         const koksma_status status = t->trial(t->block, t->patterns->at[p], t->n->at[k]);
-        if (status == KOKSMA_MEMORY) {
-            return status;
+        if (koksma_status_exit_code(status) > 2) { /* of a file or the system, not of this number of points */
+            return koksma__json_fail_in(t->node, status);
         }
         if (status && length < (int)sizeof line) {
             length +=

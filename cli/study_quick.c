@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The plan of `koksma study quick`: the patterns, measures, numbers of points and scenes of the command line as one
+ * block of points and one of images, both with `skip`, written to DIR/plan.json, from where `koksma study run` takes
+ * it as well. Files get absolute paths, as a plan's paths begin in its own folder.
+ */
+#include "study_quick.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <koksma/plot.h>
+
+static const char default_patterns[] = "random,jittered,n-rooks,sobol:scramble=owen";
+
+static void put_characters(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    }
+}
+
+/* A pattern, measure or scene in quotes. A relative path of one begins in the folder that the program was started in. */
+static void put_item(FILE *out, const char *item, bool is_scene)
+{
+    char here[PATH_MAX];
+    const char *path = !strncmp(item, "file:", 5) ? item + 5 : is_scene && strpbrk(item, "/.") ? item : NULL;
+    fputc('"', out);
+    if (path && *path != '/' && getcwd(here, sizeof here)) {
+        fprintf(out, "%.*s", (int)(path - item), item);
+        put_characters(out, here);
+        fputc('/', out);
+        item = path;
+    }
+    put_characters(out, item);
+    fputc('"', out);
+}
+
+static void put_list(FILE *out, const char *key, const char *list, bool is_scene)
+{
+    char item[PATH_MAX];
+    fprintf(out, "\"%s\": [", key);
+    for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
+        fputs(i ? ", " : "", out);
+        put_item(out, item, is_scene);
+    }
+    fputs("]", out);
+}
+
+static bool is_named(const koksma_spec *spec, const char *name)
+{
+    char text[KOKSMA_MAX_SPEC];
+    const size_t length = strlen(name);
+    koksma_spec_text(spec, text);
+    return !strncmp(text, name, length) && strchr(":", text[length]);
+}
+
+/* Every pattern that needs no file, under its own name: another name of one, such as latin-hypercube, is no other. */
+static void put_all_patterns(FILE *out)
+{
+    const koksma_pattern *pattern;
+    koksma_spec spec;
+    fputs("\"patterns\": [", out);
+    for (size_t i = 0, n = 0; (pattern = koksma_pattern_at(i)); i++) {
+        if (!pattern->takes_path && !koksma_pattern_spec(pattern->name, &spec) && is_named(&spec, pattern->name)) {
+            fprintf(out, "%s\"%s\"", n++ ? ", " : "", pattern->name);
+        }
+    }
+    fputs("]", out);
+}
+
+static void put_patterns(FILE *out, const char *list)
+{
+    if (!strcmp(list, "all")) {
+        put_all_patterns(out);
+    } else {
+        put_list(out, "patterns", list, false);
+    }
+}
+
+/* False after an error: a number of a list that is none. */
+static bool put_numbers(FILE *out, const cli_arguments *arguments, const char *key, const char *option,
+                        const char *fallback)
+{
+    char item[32];
+    const char *list = cli_text(arguments, option, fallback);
+    fprintf(out, "\"%s\": [", key);
+    for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
+        if (!*item || item[strspn(item, "0123456789")]) {
+            cli_usage_error(arguments, "--%s %s: '%s' is no whole number", option, list, item);
+            return false;
+        }
+        fprintf(out, "%s%s", i ? ", " : "", item);
+    }
+    fputs("]", out);
+    return true;
+}
+
+static bool put_plan(FILE *out, const cli_arguments *arguments)
+{
+    const char *patterns = cli_text(arguments, "patterns", default_patterns);
+    const char *scenes = cli_text(arguments, "scene", NULL);
+    fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
+          "  \"name\": \"quick\",\n  \"title\": \"Patterns beside each other\",\n  \"discrepancies\": [\n    {",
+          out);
+    put_patterns(out, patterns);
+    fputs(",\n     ", out);
+    put_list(out, "measures", cli_text(arguments, "measures", "star,l2-star"), false);
+    fputs(",\n     ", out);
+    if (!put_numbers(out, arguments, "n", "points", "16,64,256,1024")) {
+        return false;
+    }
+    fputs(", \"trials\": 100, \"quick\": 10, \"skip\": true}\n  ]", out);
+    if (scenes) {
+        fputs(",\n  \"images\": [\n    {", out);
+        put_list(out, "scenes", scenes, true);
+        fputs(",\n     ", out);
+        put_patterns(out, patterns);
+        fputs(",\n     ", out);
+        if (!put_numbers(out, arguments, "spp", "spp", "4,16,64")) {
+            return false;
+        }
+        fputs(", \"size\": [96, 72], \"trials\": 20, \"quick\": 6, \"skip\": true,\n     \"references\": [{\"name\": "
+              "\"converged\", \"pattern\": \"jittered\", \"spp\": 1024, \"replicates\": 4}]}\n  ]",
+              out);
+    }
+    fputs("\n}\n", out);
+    return true;
+}
+
+/* Whether the plan of a folder has exactly this text, or the folder no results. */
+static bool may_write(const char *folder, const char *path, const char *text, size_t size)
+{
+    char results[CLI_QUICK_PATH + 32];
+    snprintf(results, sizeof results, "%s/results.sqlite", folder);
+    FILE *f = access(results, F_OK) ? NULL : fopen(path, "r");
+    if (!f) {
+        return true;
+    }
+    bool same = true;
+    for (size_t i = 0; same && i < size; i++) {
+        same = getc(f) == (unsigned char)text[i];
+    }
+    same = same && getc(f) == EOF;
+    fclose(f);
+    return same;
+}
+
+int cli_write_quick_plan(const cli_arguments *arguments, const char *folder, char path[CLI_QUICK_PATH])
+{
+    char *text = NULL;
+    size_t size = 0;
+    int code = CLI_YES;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) {
+        return cli_no_memory();
+    }
+    const bool good = put_plan(out, arguments);
+    if (fclose(out) || !good) {
+        free(text);
+        return good ? cli_no_memory() : CLI_USAGE;
+    }
+    if (snprintf(path, CLI_QUICK_PATH, "%s/plan.json", folder) >= CLI_QUICK_PATH) {
+        code = cli_usage_error(arguments, "--output: the folder's name is too long");
+    } else if (mkdir(folder, 0777) && errno != EEXIST) {
+        code = cli_usage_error(arguments, "%s: can't be made: %s", folder, strerror(errno));
+    } else if (!may_write(folder, path, text, size)) {
+        code = cli_usage_error(arguments,
+                               "%s: there is another plan; take another folder, or 'koksma study run %s -o %s'", path,
+                               path, folder);
+    } else {
+        const koksma_status status = koksma_plot_write(path, (const unsigned char *)text, size);
+        code = status ? cli_fail(arguments, status) : CLI_YES;
+    }
+    free(text);
+    return code;
+}
