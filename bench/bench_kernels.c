@@ -21,6 +21,8 @@ static _Alignas(64) double units[4 * BIG], out[4][4 * BIG + 64]; /* not all at o
 static double sorted[N + 8], sums[8][16];
 static size_t sink;
 static uint64_t counts[208];
+static int16_t counts16[N];
+static float floats[N];
 
 typedef const koksma__kernel_table *table;
 
@@ -64,6 +66,8 @@ RUN(l2_pairs, N *(N - 1) / 2.0, t->l2_pairs(0, N, N, 2, units, units + 2 * N, 0.
 RUN(star_sweep, (double)N *N, size_t at[2]; t->star_sweep(N, sorted, words, sorted, out[0], sums[0], at))
 RUN(star_extremes, 48 * 32, t->star_extremes(48, pairs_a, 32, pairs_b, columns))
 RUN(star_pairs, 48 * 32, t->star_pairs(48, pairs_a, 32, pairs_b, 1000, 7, sums[0]))
+RUN(far_corners, N, sink += t->far_corners(N, counts16, floats, 1, 1, 1000, found))
+RUN(corner_excesses, N, t->corner_excesses(N / 8, 30, 1, units, units + N, units + 2 * N, out[0], sums[0]))
 RUN(cells_2d, N, t->cells_2d(0, 1, 32, 32, out[2]))
 RUN(rooks_2d, N, t->rooks_2d(1, squares, 0, N, N + 1, out[0]))
 RUN(nearest_place, N,
