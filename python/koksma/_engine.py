@@ -9,10 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, OutOfMemoryError, whole
+from ._library import ArgumentError, OutOfMemoryError, spec, whole
+from ._optimise import optimise
 from ._points import PointArray, generate, is_sequence
 
 _FAR = (1 << 63) - 1
+_SCIPYS = ("random-cd", "lloyd")  # optimizations that scipy has
+_STEPS = 2  # of the search for any other
 
 try:
     from scipy.stats.qmc import QMCEngine as _Base
@@ -25,11 +28,13 @@ except ImportError:
                 raise ValueError("d must be a non-negative integer value")
             if optimization is not None:
                 raise ValueError("optimization takes scipy, which is not installed")
-            self.d, self.rng_seed, self.num_generated = d, copy.deepcopy(seed), 0
+            self.d, self.rng_seed, self.num_generated, self.optimization_method = d, copy.deepcopy(seed), 0, None
             self.rng = seed if isinstance(seed, np.random.RandomState) else np.random.default_rng(seed)
 
         def random(self, n: int = 1, *, workers: int = 1) -> PointArray:
             sample = self._random(n, workers=workers)
+            if self.optimization_method is not None:
+                sample = self.optimization_method(sample)
             self.num_generated += n
             return sample
 
@@ -49,8 +54,9 @@ class Engine(_Base):
     """A pattern's points, drawn a few at a time.
 
     pattern: a spec such as "sobol:scramble=owen" or "n-rooks". seed: an int (Engine(p, d, seed=s).random(n) is then
-    generate(p, n, d, s)), a numpy Generator or RandomState, or None; rng is another name of it. optimization: as in
-    scipy.
+    generate(p, n, d, s)), a numpy Generator or RandomState, or None; rng is another name of it. optimization:
+    "random-cd" and "lloyd" are scipy's; any other is a measure such as "l2-centered" or "min-distance", for which each set is
+    improved by `optimise` with keep="latin": along each axis the coordinates stay, so that Latin hypercubes stay Latin.
 
     Of a sequence (a pattern whose first k of n points are the set of k points), random(n) goes on where the last call
     ended. Of any other pattern each call draws a set of n points of its own, which depends on the seed and on how many
@@ -63,8 +69,14 @@ class Engine(_Base):
         if seed is not None and rng is not None:
             raise TypeError("seed and rng are two names of one argument: it takes one of them")
         seed = rng if seed is None else seed
-        super().__init__(d=d, optimization=optimization, seed=seed)
+        scipys = optimization is None or optimization.lower() in _SCIPYS
+        super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
         self.d = int(d)
+        if not scipys:
+            self._measure: str = str(optimization)
+            if spec("measure", self._measure).measure.contents.answer != 0:
+                raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, as star is")
+            self.optimization_method = self._optimised
         self._init_quad: Dict[str, Any] = {"pattern": pattern, "d": d, "optimization": optimization}  # for qmc_quad
         self.pattern = pattern
         self._sequence = is_sequence(pattern)
@@ -81,6 +93,7 @@ class Engine(_Base):
         workers = whole("workers", workers, -1, s.MAX_INT)
         if workers == 0:
             raise ArgumentError("workers 0: it takes a number of threads, or -1 for all")
+        self._threads = 0 if workers == -1 else int(workers)
         return super().random(whole("n", n, 0, s.MAX_COORDINATES), workers=workers)
 
     def _random(self, n: int = 1, *, workers: int = 1) -> PointArray:
@@ -95,6 +108,12 @@ class Engine(_Base):
         if self._known is None or len(self._known) < first + n:
             self._known = self._generated(first + n, threads)
         return self._known[first:first + n].copy()
+
+    def _optimised(self, sample: PointArray) -> PointArray:
+        if sample.size == 0:
+            return sample
+        return optimise(self._measure, start=sample, keep="latin", steps=_STEPS, seed=self._seed_at(self.num_generated),
+                        threads=self._threads).points
 
     def _generated(self, needed: int, threads: int) -> PointArray:
         """Twice what is needed, so that many small draws cost no more than one large one; but where the sequence ends

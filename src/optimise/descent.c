@@ -15,7 +15,7 @@
 
 #include "core/status.h"
 
-enum { HALVINGS = 20 };
+enum { HALVINGS = 20, STRETCH = 10, HOPE = 4 };
 
 static double dot(size_t n, const double *a, const double *b)
 {
@@ -101,6 +101,7 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     const size_t n = d->count;
     double square, next = 0;
     koksma_status status = value_at(d, &square);
+    double mark = square;
     d->kept = 0;
     for (int k = 0; k < iterations && !status && d->work < d->budget; k++) {
         find_direction(d);
@@ -126,8 +127,12 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
             move_by(d, 0, step);
             break;
         }
-        const bool ends = square - next <= 1e-12 * square;
+        bool ends = square - next <= 1e-12 * square;
         square = next;
+        if (k % STRETCH == STRETCH - 1) { /* the rest gains less than HOPE stretches like the last */
+            ends = ends || HOPE * (mark - square) < square - d->goal;
+            mark = square;
+        }
         keep_step(d, step);
         if (ends) {
             break;
@@ -137,19 +142,50 @@ koksma_status koksma__descend(koksma__descent *d, int iterations, double *least)
     return status;
 }
 
-/* The best set, from which some points are drawn anew, or all are moved by up to a third of the mean spacing. */
-static void kick(koksma__descent *d, koksma__stream *random)
+/* Some pairs of points, near along another axis, exchange a coordinate. */
+static void exchange(koksma__descent *d, koksma__stream *random, size_t pairs)
 {
     const size_t n = d->points.n, dim = (size_t)d->points.dim;
-    const double spacing = d->length * pow((double)n, -1.0 / d->points.dim);
-    const double reach = koksma__next(random) % 2 ? spacing / 3 * koksma__next_unit(random) : 0;
+    for (size_t m = 0; m < pairs; m++) {
+        const size_t k = koksma__next_below(random, dim), l = (k + 1 + koksma__next_below(random, dim)) % dim;
+        double *x = d->points.xs + koksma__next_below(random, n) * dim, *nearest = x, least = INFINITY;
+        for (size_t t = 0; t < n / 4 + 1; t++) {
+            double *y = d->points.xs + koksma__next_below(random, n) * dim;
+            if (y != x && fabs(y[l] - x[l]) < least) {
+                nearest = y;
+                least = fabs(y[l] - x[l]);
+            }
+        }
+        const double swapped = x[k];
+        x[k] = nearest[k];
+        nearest[k] = swapped;
+    }
+}
+
+/* The best set, in which one of these is changed: up to 16 points are drawn anew; pairs of points exchange a coordinate; points
+   in a window of up to four mean spacings are moved by up to a third of the mean spacing. */
+static void kick(koksma__descent *d, koksma__stream *random)
+{
+    const size_t n = d->points.n, dim = (size_t)d->points.dim, kind = koksma__next_below(random, 3);
+    const double spacing = d->length * pow((double)n, -1.0 / d->points.dim),
+                 reach = spacing / 3 * koksma__next_unit(random);
+    const double width = spacing * (1 + 3 * koksma__next_unit(random));
+    const double *centre = d->points.xs + dim * koksma__next_below(random, n);
     const size_t most = (size_t)1 << koksma__next_below(random, 5), some = 1 + koksma__next_below(random, most);
-    for (size_t m = 0; m < (reach > 0 ? n : some); m++) {
-        const size_t i = reach > 0 ? m : koksma__next_below(random, n);
-        for (size_t c = i * dim; c < (i + 1) * dim; c++) {
-            const double u = koksma__next_unit(random);
-            const double x = reach > 0 ? d->points.xs[c] + reach * (2 * u - 1) : d->low[c] + u * d->length;
-            d->points.xs[c] = d->bounded ? fmin(fmax(x, d->low[c]), d->low[c] + d->length) : x;
+    if (kind == 1 && d->length > 0.5) {
+        exchange(d, random, some);
+        return;
+    }
+    for (size_t m = 0; m < (kind ? n : some); m++) {
+        double *x = d->points.xs + (kind ? m : koksma__next_below(random, n)) * dim;
+        bool moves = true;
+        for (size_t k = 0; k < dim && kind; k++) {
+            moves = moves && fabs(x[k] - centre[k]) < width;
+        }
+        for (size_t k = 0; k < dim && moves; k++) {
+            const double low = d->low[(size_t)(x - d->points.xs) + k], u = koksma__next_unit(random);
+            const double to = kind ? x[k] + reach * (2 * u - 1) : low + u * d->length;
+            x[k] = d->bounded ? fmin(fmax(to, low), low + d->length) : to;
         }
     }
 }
@@ -173,9 +209,9 @@ void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma
 {
     memcpy(d->points.xs, best->xs, d->count * sizeof(double));
     const double u = koksma__next_unit(random);
-    if (u < 0.5) {
+    if (u < 0.8) {
         kick(d, random);
-    } else if (keep == KOKSMA_KEEP_NONE && u < 0.9) {
+    } else if (keep == KOKSMA_KEEP_NONE && u < 0.96) {
         draw_kronecker(d, random);
     } else {
         for (size_t c = 0; c < d->count; c++) {
@@ -188,7 +224,7 @@ koksma_status koksma__descent_init(koksma__descent *d, const koksma_points *poin
                                    double cost)
 {
     const size_t n = points->n * (size_t)points->dim, bytes = (7 + 2 * KOKSMA__MEMORY) * n * sizeof(double);
-    *d = (koksma__descent){.bounded = bounded, .count = n, .cost = cost};
+    *d = (koksma__descent){.bounded = bounded, .count = n, .cost = cost, .goal = INFINITY};
     d->points = (koksma_points){points->n, points->dim, malloc(bytes)};
     if (!d->points.xs) {
         return koksma__fail_memory(bytes);

@@ -23,6 +23,7 @@ typedef struct koksma__descent {
     double length, products[KOKSMA__MEMORY], work, cost,
         budget;  /* done, of one gradient, and allowed: in numbers looked at */
     size_t kept; /* steps so far */
+    double goal; /* a descent that will hardly get there ends early */
 } koksma__descent;
 
 /* Allocates for points like these, whose intervals are kept with keep=net; not bounded: coordinates are on the torus.

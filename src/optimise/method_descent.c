@@ -31,6 +31,7 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     d.context = &j;
     while (!status && d.work < d.budget) {
         koksma__descent_start(&d, points, keep, &random);
+        d.goal = best;
         double square;
         status = koksma__descend(&d, KOKSMA__ITERATIONS, &square);
         if (!status && square < best) {

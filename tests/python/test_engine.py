@@ -68,6 +68,36 @@ class Engines(unittest.TestCase):
                 shifted = Engine(spec + ":shift=1", 2, seed=12)
                 self.assertFalse((shifted.random(16) == shifted.random(16)).any())
 
+    def test_optimization_by_any_measure(self):
+        plain = Engine("n-rooks", 3, seed=5).random(12)
+        for measure in ("l2-centered", "l2-star", "star", "min-distance:torus=1", "l2-disk"):
+            dim = 2 if measure.startswith(("min", "l2-disk")) else 3
+            with self.subTest(measure=measure):
+                before = Engine("n-rooks", dim, seed=5).random(12)
+                engine = Engine("n-rooks", dim, seed=5, optimization=measure)
+                after = engine.random(12)
+                np.testing.assert_array_equal(np.sort(after, axis=0), np.sort(before, axis=0))  # Latin is kept
+                better = koksma.measure(after, measure).value - koksma.measure(before, measure).value
+                self.assertTrue(better > 0 if measure.startswith("min") else better < 0)
+                self.assertFalse(np.array_equal(np.sort(engine.random(12), axis=0), np.sort(after, axis=0)))
+                np.testing.assert_array_equal(engine.reset().random(12, workers=2), after)
+        np.testing.assert_array_equal(Engine("n-rooks", 3, seed=5, optimization=None).random(12), plain)
+        for wrong in ("no-such", "edge-sampled", "l2-star:x=1"):
+            with self.assertRaises(koksma.ArgumentError if wrong != "no-such" else koksma.Error):
+                Engine("n-rooks", 2, optimization=wrong)
+
+    def test_optimization_by_scipys_names(self):
+        for name in ("random-cd", "lloyd"):
+            try:
+                from scipy.stats import qmc
+            except ImportError:
+                with self.assertRaises(ValueError):
+                    Engine("n-rooks", 2, seed=1, optimization=name)
+                continue
+            np.testing.assert_array_equal(Engine("n-rooks", 2, seed=1, optimization=name).random(8).shape, (8, 2))
+            ours, theirs = Engine("n-rooks", 2, seed=1, optimization=name), qmc.LatinHypercube(2, optimization=name)
+            self.assertEqual(ours.optimization_method.func, theirs.optimization_method.func)
+
     def test_reset(self):
         for _spec, engine in self.each(SEQUENCES + SETS):
             first = engine.random(8)
