@@ -230,9 +230,8 @@ koksma_status koksma_study_images(const char *places, const char *reference, con
     *rows = NULL;
     *n = 0;
     KOKSMA__TRY(koksma__image_names_pattern(places, pattern, sizeof pattern));
-    koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE
-                               ? koksma__fail_memory(sizeof pattern)
-                               : collect(places, pattern, &found, &all);
+    koksma_status status = glob(pattern, 0, NULL, &found) == GLOB_NOSPACE ? koksma__fail_memory(sizeof pattern)
+                                                                          : collect(places, pattern, &found, &all);
     status = status ? status : koksma_image_read(reference, &all.reference);
     status = status ? status : koksma_image_check_finite(&all.reference, reference);
     status = status ? status : koksma__parallel(run, all.n, compare_one, &all);
