@@ -80,9 +80,7 @@ static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 static koksma_status add_block(koksma__unit_sums *s, uint64_t m)
 {
     block *b = koksma__add_one(&s->blocks, &s->n_blocks, sizeof *b);
-    if (!b) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(b ? KOKSMA_OK : KOKSMA_MEMORY);
     *b = (block){.m = m, .count = count_units(s, m)};
     if (b->count > MATRIX) {
         b->n_axes = koksma__unit_axes(m, b->axes, &b->cut);

@@ -49,9 +49,7 @@ koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *p
 {
     koksma__path *paths =
         koksma__room_for_one(queue->paths, queue->n, &queue->capacity, 4 * KOKSMA__BLOCK, sizeof *paths);
-    if (!paths) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(paths ? KOKSMA_OK : KOKSMA_MEMORY);
     queue->paths = paths;
     queue->paths[queue->n++] = *path;
     return KOKSMA_OK;
