@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 
 enum { MAX_PLACEMENTS = 1 << 20 };
@@ -168,10 +169,6 @@ void koksma__mesh_file_fini(koksma__mesh_file *f)
     for (size_t i = 0; i < f->owned.n; i++) {
         free(((void **)f->owned.items)[i]);
     }
-    free(f->meshes.items);
-    free(f->materials.items);
-    free(f->placements.items);
-    free(f->lights.items);
-    free(f->owned.items);
+    KOKSMA__FREE(f->meshes.items, f->materials.items, f->placements.items, f->lights.items, f->owned.items);
     *f = (koksma__mesh_file){0};
 }

@@ -260,9 +260,7 @@ void koksma__unit_sums_close(koksma__unit_sums *s)
 {
     for (size_t i = 0; s && i < s->n_blocks; i++) {
         block *b = &s->blocks[i];
-        free(b->at);
-        free(b->matrix);
-        free(b->kernel_re);
+        KOKSMA__FREE(b->at, b->matrix, b->kernel_re);
         for (int k = 1; k < b->n_axes; k++) {
             koksma__dft_fini(&b->chirps[k]);
         }

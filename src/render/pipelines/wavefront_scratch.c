@@ -20,11 +20,7 @@ void koksma__wavefront_close(void *opened)
         free(scratch->drawn[i].pairs);
     }
     koksma__sample_scratch_fini(&scratch->draw);
-    free(scratch->drawn);
-    free(scratch->queues[0].paths);
-    free(scratch->queues[1].paths);
-    free(scratch->sums);
-    free(scratch);
+    KOKSMA__FREE(scratch->drawn, scratch->queues[0].paths, scratch->queues[1].paths, scratch->sums, scratch);
 }
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out)

@@ -83,9 +83,7 @@ void koksma__audit_list_fini(koksma__audit_list *list)
         }
         free(list->at[i].drawn);
     }
-    free(list->at);
-    free(list->discrepancies);
-    free(list->images);
+    KOKSMA__FREE(list->at, list->discrepancies, list->images);
     koksma__point_files_fini(&list->files);
 }
 

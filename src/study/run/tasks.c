@@ -141,9 +141,7 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 void koksma__tasks_close(koksma__tasks *tasks)
 {
     for (size_t i = 0; i < tasks->n; i++) {
-        free(tasks->at[i].series);
-        free(tasks->at[i].references);
-        free(tasks->at[i].done);
+        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done);
     }
     free(tasks->at);
     free(tasks->rounds);
