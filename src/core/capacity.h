@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Arrays that grow an item at a time. */
+/* Arrays that grow an item at a time; and the end of several blocks of memory. */
 #ifndef KOKSMA_CORE_CAPACITY_H
 #define KOKSMA_CORE_CAPACITY_H
 
@@ -41,6 +41,16 @@ static inline void *koksma__add_one(void *array, size_t *n, size_t item_size)
         memcpy(array, &items, sizeof items);
     }
     return memset(items + (*n)++ * item_size, 0, item_size);
+}
+
+/* KOKSMA__FREE(a, b, c) frees each; NULL is allowed. */
+#define KOKSMA__FREE(...)                                                                                            \
+    koksma__free_all((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
+static inline void koksma__free_all(void *const *blocks, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        free(blocks[i]);
+    }
 }
 
 #endif

@@ -12,6 +12,7 @@
 #include <jansson.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/status.h"
 
 struct koksma__json {
@@ -201,10 +202,7 @@ void koksma__json_close(koksma__json *document)
 {
     if (document) {
         json_decref(document->root);
-        free(document->kind);
-        free(document->name);
-        free(document->text);
-        free(document);
+        KOKSMA__FREE(document->kind, document->name, document->text, document);
     }
 }
 

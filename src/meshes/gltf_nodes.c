@@ -123,9 +123,7 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
         return status;
     }
     koksma__file_light *light = koksma__list_add(&s->g->out->lights, 1, sizeof *light);
-    if (!light) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(light ? KOKSMA_OK : KOKSMA_MEMORY);
     const field from = koksma__json_item(&s->lights, (size_t)number);
     status = koksma__json_get_text(&from, "type", true, &type);
     status = status ? status : koksma__json_get_number(&from, "intensity", false, 0, WIDEST, &intensity);

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "meshes/gltf_buffers.h"
 #include "meshes/gltf_check.h"
@@ -207,11 +208,6 @@ koksma_status koksma__gltf_read(const unsigned char *bytes, size_t size, koksma_
         status = read_all(&g);
     }
     koksma__json_close(document);
-    free(g.buffers);
-    free(g.images);
-    free(g.beyond);
-    free(g.mesh_shown);
-    free(g.material_used);
-    free(g.shown.items);
+    KOKSMA__FREE(g.buffers, g.images, g.beyond, g.mesh_shown, g.material_used, g.shown.items);
     return status;
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/hash.h"
 #include "core/status.h"
 #include "core/vector.h"
@@ -34,10 +35,7 @@ koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool norm
 
 void koksma__mesh_fini(koksma__mesh *mesh)
 {
-    free(mesh->vertices);
-    free(mesh->normals);
-    free(mesh->uvs);
-    free(mesh->indices);
+    KOKSMA__FREE(mesh->vertices, mesh->normals, mesh->uvs, mesh->indices);
     *mesh = (koksma__mesh){0};
 }
 

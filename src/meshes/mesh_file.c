@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 
 enum { MAX_PLACEMENTS = 1 << 20 };
@@ -115,9 +116,7 @@ koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, cons
     KOKSMA__FAIL_IF(f->placements.n == MAX_PLACEMENTS, KOKSMA_MALFORMED, "%s: over %d meshes at nodes", f->path,
                     MAX_PLACEMENTS);
     koksma__file_placement *to = koksma__list_add(&f->placements, 1, sizeof *to);
-    if (!to) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     to->mesh = mesh;
     memcpy(to->matrix, matrix ? matrix : identity, sizeof to->matrix);
     return KOKSMA_OK;
@@ -126,9 +125,7 @@ koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, cons
 koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma__file_material **out)
 {
     *out = koksma__list_add(&f->materials, 1, sizeof **out);
-    if (!*out) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(*out ? KOKSMA_OK : KOKSMA_MEMORY);
     **out = (koksma__file_material){.colour = {grey, grey, grey}, .roughness = 1};
     return KOKSMA_OK;
 }
@@ -172,10 +169,6 @@ void koksma__mesh_file_fini(koksma__mesh_file *f)
     for (size_t i = 0; i < f->owned.n; i++) {
         free(((void **)f->owned.items)[i]);
     }
-    free(f->meshes.items);
-    free(f->materials.items);
-    free(f->placements.items);
-    free(f->lights.items);
-    free(f->owned.items);
+    KOKSMA__FREE(f->meshes.items, f->materials.items, f->placements.items, f->lights.items, f->owned.items);
     *f = (koksma__mesh_file){0};
 }

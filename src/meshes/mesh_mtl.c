@@ -221,9 +221,7 @@ static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma
     if (koksma__text_is(word, length, "newmtl")) {
         length = koksma__text_rest(t, &rest);
         koksma__mtl_name *name = koksma__mtl_find(names, f, rest, length);
-        if (!name) {
-            return KOKSMA_MEMORY;
-        }
+        KOKSMA__TRY(name ? KOKSMA_OK : KOKSMA_MEMORY);
         name->made = true;
         *current = name->material;
         return KOKSMA_OK;

@@ -128,9 +128,7 @@ static koksma_status take_vertex(obj *o, int kind)
         return wrong(o, rules[kind]);
     }
     float *to = koksma__list_add(&o->vertices[kind], widths[kind], sizeof *to);
-    if (!to) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     const float weight = kind == PLACE && (n == 4 || n == 7) ? v[3] : 1, *colour = v + n - 3;
     if (weight == 0) {
         return wrong(o, "a vertex of weight 0 is nowhere");
@@ -233,9 +231,7 @@ static koksma_status take_corners(obj *o, bool face)
         return KOKSMA_OK;
     }
     part *p = find_part(o);
-    if (!p) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(p ? KOKSMA_OK : KOKSMA_MEMORY);
     KOKSMA__FAIL_IF(before + n > KOKSMA__MAX_VERTICES, KOKSMA_MALFORMED, "%s: over %zu corners", o->text.path,
                     KOKSMA__MAX_VERTICES);
     p->kinds |= first;
@@ -258,15 +254,11 @@ static koksma_status use_material(obj *o, const char *name, size_t length)
     }
     const size_t known = o->names.names.n;
     const koksma__mtl_name *found = koksma__mtl_find(&o->names, o->out, name, length);
-    if (!found) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(found ? KOKSMA_OK : KOKSMA_MEMORY);
     o->material = found->material;
     if (o->names.names.n > known) { /* the first use of a name that no material file makes so far */
         size_t *to = koksma__list_add(&o->used, 1, sizeof *to);
-        if (!to) {
-            return KOKSMA_MEMORY;
-        }
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
         *to = known;
     }
     return KOKSMA_OK;

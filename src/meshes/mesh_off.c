@@ -73,9 +73,7 @@ static koksma_status take_face(off *o)
                 &o->text, "a face is the number of its corners, and their vertices, each below the number of these");
         }
         uint32_t *to = koksma__list_add(&o->corners, 1, sizeof *to);
-        if (!to) {
-            return KOKSMA_MEMORY;
-        }
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
         *to = (uint32_t)vertex;
     }
     return koksma__fan_add(o->text.path, &o->indices, o->corners.items, o->corners.n);

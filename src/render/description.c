@@ -25,9 +25,7 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
     KOKSMA__FAIL_IF(scene->n_shapes == KOKSMA__MAX_SHAPES, KOKSMA_MALFORMED, "more than %d shapes",
                     KOKSMA__MAX_SHAPES);
     *out = koksma__add_one(&scene->shapes, &scene->n_shapes, sizeof **out);
-    if (!*out) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(*out ? KOKSMA_OK : KOKSMA_MEMORY);
     **out = *from;
     return KOKSMA_OK;
 }

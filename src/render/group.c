@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/frame.h"
 
@@ -60,12 +61,7 @@ static koksma_status values_init(koksma__values *v, size_t capacity, int channel
 
 static void values_fini(koksma__values *v)
 {
-    free(v->film);
-    free(v->weights);
-    free(v->rgb);
-    free(v->albedo);
-    free(v->normal);
-    free(v->depth);
+    KOKSMA__FREE(v->film, v->weights, v->rgb, v->albedo, v->normal, v->depth);
 }
 
 koksma_status koksma__task_scratch_init(const koksma__frame *frame, const koksma__pipeline *pipeline, size_t capacity,

@@ -24,9 +24,7 @@ koksma_status koksma__scene_add_placement(koksma_scene *scene, koksma__placement
     KOKSMA__FAIL_IF(scene->n_placements == MAX_PLACEMENTS, KOKSMA_MALFORMED, "more than %d meshes and instances",
                     MAX_PLACEMENTS);
     *out = koksma__add_one(&scene->placements, &scene->n_placements, sizeof **out);
-    if (!*out) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(*out ? KOKSMA_OK : KOKSMA_MEMORY);
     (*out)->light = (*out)->material = -1;
     return KOKSMA_OK;
 }

@@ -105,9 +105,7 @@ koksma_status koksma_smallest_distance(const koksma_points *points, bool torus, 
         return koksma__closest_pair(points, torus, run, distance);
     }
     point *sorted = sort_points(points);
-    if (!sorted) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(sorted ? KOKSMA_OK : KOKSMA_MEMORY);
     const koksma_status status = sweep(sorted, points->n, torus, run, distance);
     free(sorted);
     return status;
@@ -123,9 +121,7 @@ static koksma_status look_distance(koksma__verification *v)
     }
     KOKSMA__TRY(koksma_smallest_distance(points, torus, v->run, &distance));
     koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(f ? KOKSMA_OK : KOKSMA_MEMORY);
     f->value = distance;
     f->holds = distance > 0;
     koksma__snprintf(f->detail, sizeof f->detail, "%.4f of the densest packing's",
@@ -137,18 +133,14 @@ static koksma_status look_distinct(koksma__verification *v)
 {
     const size_t n = v->points->n;
     point *sorted = sort_points(v->points);
-    if (!sorted) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(sorted ? KOKSMA_OK : KOKSMA_MEMORY);
     size_t repeated = 0;
     for (size_t i = 1; i < n; i++) {
         repeated += compare_positions(&sorted[i], &sorted[i - 1]) == 0;
     }
     free(sorted);
     koksma_finding *f = koksma__finding(v);
-    if (!f) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(f ? KOKSMA_OK : KOKSMA_MEMORY);
     f->value = (double)repeated;
     f->holds = repeated == 0;
     snprintf(f->detail, sizeof f->detail, "%zu of %zu points repeat another", repeated, n);

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/pages.h"
 #include "core/parallel.h"
 #include "core/status.h"
@@ -113,14 +114,7 @@ koksma_status koksma__disks_init(koksma__disks *s, uint64_t seed, double d)
 
 void koksma__disks_fini(koksma__disks *s)
 {
-    free(s->places);
-    free(s->who);
-    free(s->squares);
-    free(s->spare);
-    free(s->first);
-    free(s->waiting);
-    free(s->times);
-    free(s->xs);
+    KOKSMA__FREE(s->places, s->who, s->squares, s->spare, s->first, s->waiting, s->times, s->xs);
     *s = (koksma__disks){0};
 }
 

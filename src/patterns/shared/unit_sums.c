@@ -80,9 +80,7 @@ static size_t count_units(const koksma__unit_sums *s, uint64_t m)
 static koksma_status add_block(koksma__unit_sums *s, uint64_t m)
 {
     block *b = koksma__add_one(&s->blocks, &s->n_blocks, sizeof *b);
-    if (!b) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(b ? KOKSMA_OK : KOKSMA_MEMORY);
     *b = (block){.m = m, .count = count_units(s, m)};
     if (b->count > MATRIX) {
         b->n_axes = koksma__unit_axes(m, b->axes, &b->cut);
@@ -262,9 +260,7 @@ void koksma__unit_sums_close(koksma__unit_sums *s)
 {
     for (size_t i = 0; s && i < s->n_blocks; i++) {
         block *b = &s->blocks[i];
-        free(b->at);
-        free(b->matrix);
-        free(b->kernel_re);
+        KOKSMA__FREE(b->at, b->matrix, b->kernel_re);
         for (int k = 1; k < b->n_axes; k++) {
             koksma__dft_fini(&b->chirps[k]);
         }

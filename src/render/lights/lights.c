@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
@@ -124,9 +125,6 @@ void koksma__lights_fini(koksma__lights *lights)
             lights->lights[i].kind->close(lights->lights[i].data);
         }
     }
-    free(lights->lights);
-    free(lights->rectangles);
-    free(lights->cdf);
-    free(lights->estimates);
+    KOKSMA__FREE(lights->lights, lights->rectangles, lights->cdf, lights->estimates);
     *lights = (koksma__lights){0};
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
 
@@ -40,10 +41,7 @@ static void close_scratch(void *opened)
     scratch *r = opened;
     if (r) {
         koksma__sample_scratch_fini(&r->draw);
-        free(r->positions);
-        free(r->list);
-        free(r->seen);
-        free(r);
+        KOKSMA__FREE(r->positions, r->list, r->seen, r);
     }
 }
 

@@ -20,11 +20,7 @@ void koksma__wavefront_close(void *opened)
         free(scratch->drawn[i].pairs);
     }
     koksma__sample_scratch_fini(&scratch->draw);
-    free(scratch->drawn);
-    free(scratch->queues[0].paths);
-    free(scratch->queues[1].paths);
-    free(scratch->sums);
-    free(scratch);
+    KOKSMA__FREE(scratch->drawn, scratch->queues[0].paths, scratch->queues[1].paths, scratch->sums, scratch);
 }
 
 koksma_status koksma__wavefront_open(const koksma__frame *frame, size_t capacity, void **out)
@@ -49,9 +45,7 @@ koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *p
 {
     koksma__path *paths =
         koksma__room_for_one(queue->paths, queue->n, &queue->capacity, 4 * KOKSMA__BLOCK, sizeof *paths);
-    if (!paths) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(paths ? KOKSMA_OK : KOKSMA_MEMORY);
     queue->paths = paths;
     queue->paths[queue->n++] = *path;
     return KOKSMA_OK;

@@ -5,6 +5,7 @@
  */
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/samples/sampler.h"
 
@@ -159,10 +160,6 @@ koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const ko
 
 void koksma__sample_scratch_fini(koksma__sample_scratch *room)
 {
-    free(room->xs);
-    free(room->pairs);
-    free(room->words);
-    free(room->kept);
-    free(room->kept_keys);
+    KOKSMA__FREE(room->xs, room->pairs, room->words, room->kept, room->kept_keys);
     *room = (koksma__sample_scratch){0};
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 
 /* Moves the n_from items of *from behind the n of *to. */
@@ -131,14 +132,7 @@ static void free_table(koksma__table *t)
         free(t->notes[n].pattern);
         free(t->notes[n].reason);
     }
-    free(t->n.at);
-    free(t->rows);
-    free(t->notes);
-    free(t->id);
-    free(t->title);
-    free(t->scene);
-    free(t->measure);
-    free(t->also);
+    KOKSMA__FREE(t->n.at, t->rows, t->notes, t->id, t->title, t->scene, t->measure, t->also);
 }
 
 static void free_image_block(koksma__image_block *b)
@@ -173,21 +167,13 @@ void koksma__plan_fini(koksma__plan *p)
         free_table(&p->tables[i]);
     }
     for (size_t i = 0; i < p->n_figures; i++) {
-        free(p->figures[i].id);
-        free(p->figures[i].title);
-        free(p->figures[i].pattern);
-        free(p->figures[i].scene);
-        free(p->figures[i].variant);
-        free(p->figures[i].adaptive);
-        free(p->figures[i].warp);
-        free(p->figures[i].printed);
+        KOKSMA__FREE(p->figures[i].id, p->figures[i].title, p->figures[i].pattern, p->figures[i].scene,
+                     p->figures[i].variant, p->figures[i].adaptive, p->figures[i].warp, p->figures[i].printed);
         koksma__texts_fini(&p->figures[i].spaces);
     }
     for (size_t i = 0; i < p->n_questions; i++) {
-        free(p->questions[i].id);
-        free(p->questions[i].title);
-        free(p->questions[i].discrepancies);
-        free(p->questions[i].images);
+        KOKSMA__FREE(p->questions[i].id, p->questions[i].title, p->questions[i].discrepancies,
+                     p->questions[i].images);
         for (size_t g = 0; g < p->questions[i].n_groups; g++) {
             free(p->questions[i].groups[g].title);
             koksma__texts_fini(&p->questions[i].groups[g].scenes);
@@ -199,16 +185,8 @@ void koksma__plan_fini(koksma__plan *p)
         free(p->parts[i].about);
         free(p->parts[i].order);
     }
-    free(p->parts);
-    free(p->questions);
-    free(p->discrepancies);
-    free(p->images);
-    free(p->tables);
-    free(p->figures);
-    free(p->name);
-    free(p->title);
-    free(p->about);
-    free(p->order);
+    KOKSMA__FREE(p->parts, p->questions, p->discrepancies, p->images, p->tables, p->figures, p->name, p->title,
+                 p->about, p->order);
     *p = (koksma__plan){0};
 }
 

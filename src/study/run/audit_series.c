@@ -32,9 +32,7 @@ static koksma_status add_series(void *context, const koksma__series *key, long l
     koksma__audit_list *list = context;
     koksma__audit_series *at = koksma__add_one(&list->at, &list->n, sizeof *at);
     const char **texts[8];
-    if (!at) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
     *at = (koksma__audit_series){.key = *key, .id = id};
     bool copied = true;
     texts_of(&at->key, texts);
@@ -85,9 +83,7 @@ void koksma__audit_list_fini(koksma__audit_list *list)
         }
         free(list->at[i].drawn);
     }
-    free(list->at);
-    free(list->discrepancies);
-    free(list->images);
+    KOKSMA__FREE(list->at, list->discrepancies, list->images);
     koksma__point_files_fini(&list->files);
 }
 
@@ -168,9 +164,7 @@ koksma_status koksma__audit_check(koksma_study *study, koksma__audit_list *list,
 static koksma_status set_text(koksma__texts *texts, const char *text)
 {
     char **at = koksma__add_one(&texts->at, &texts->n, sizeof *at);
-    if (!at) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(at ? KOKSMA_OK : KOKSMA_MEMORY);
     *at = strdup(text);
     texts->n -= !*at;
     return *at ? KOKSMA_OK : koksma__fail_memory(strlen(text));
@@ -227,9 +221,7 @@ static koksma_status add_image(koksma__plan *plan, koksma__audit_list *list, con
 {
     koksma__image_block *b = add_block((void **)&plan->images, &plan->n_images, sizeof *b, &list->images);
     char name[KOKSMA_MAX_SPEC], pattern[KOKSMA_MAX_SPEC];
-    if (!b) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(b ? KOKSMA_OK : KOKSMA_MEMORY);
     b->width = (int)key->width;
     b->height = (int)key->height;
     koksma_status status = set_text(&b->scenes, key->scene);

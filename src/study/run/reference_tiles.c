@@ -85,9 +85,7 @@ void koksma__tiles_close(koksma__reference_tiles *tiles)
     for (size_t i = 0; tiles->sums && i < tiles->study->n_references; i++) {
         free(tiles->sums[i].sum);
     }
-    free(tiles->sums);
-    free(tiles->rows_left);
-    free(tiles->at);
+    KOKSMA__FREE(tiles->sums, tiles->rows_left, tiles->at);
     *tiles = (koksma__reference_tiles){0};
 }
 

@@ -28,9 +28,7 @@ static koksma_status add_task(koksma__tasks *tasks, const koksma__task *task)
     KOKSMA__FAIL_IF(tasks->wanted > MOST_JOBS, KOKSMA_ARGUMENT, "plan '%s': more than %lld jobs",
                     tasks->study->plan.name, MOST_JOBS);
     koksma__task *t = koksma__add_one(&tasks->at, &tasks->n, sizeof *t);
-    if (!t) {
-        return KOKSMA_MEMORY;
-    }
+    KOKSMA__TRY(t ? KOKSMA_OK : KOKSMA_MEMORY);
     *t = *task;
     t->place = tasks->n - 1;
     t->series = calloc(t->n_series, sizeof *t->series);
@@ -150,9 +148,7 @@ koksma_status koksma__tasks_open(koksma_study *study, bool images, koksma__tasks
 void koksma__tasks_close(koksma__tasks *tasks)
 {
     for (size_t i = 0; i < tasks->n; i++) {
-        free(tasks->at[i].series);
-        free(tasks->at[i].references);
-        free(tasks->at[i].done);
+        KOKSMA__FREE(tasks->at[i].series, tasks->at[i].references, tasks->at[i].done);
     }
     free(tasks->at);
     free(tasks->rounds);
