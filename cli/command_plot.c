@@ -102,7 +102,7 @@ const cli_command cli_command_plot = {
                 "[--trials T]",
     .details =
         "{chart-meanings}"
-        "Points and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "
+        "\nPoints and power spectra of several sources are drawn side by side, curves in one chart. Points of 3 "
         "dimensions and more are drawn as projections on all pairs of the first 8 axes. A pattern has the colour "
         "of its family in all pictures.",
     .examples = "koksma plot pattern:n-rooks@16 -o points.svg --witness star\n"

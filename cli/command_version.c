@@ -55,7 +55,7 @@ static int run(const cli_arguments *arguments)
                left_out ? ")" : "");
     }
     const char *plots = koksma_plot_library(), *mpi = koksma_study_mpi();
-    printf("plots: %s\n", plots ? plots : "left out (cairo)");
+    printf("plots: svg; pdf and png: %s\n", plots ? plots : "left out (cairo)");
     printf("MPI: %s\n", mpi ? mpi : "left out");
     printf("meshes: %s\n", tracer ? tracer : "left out (Embree)");
     return CLI_YES;

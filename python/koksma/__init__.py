@@ -21,7 +21,7 @@ from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOf
 from ._optimise import Optimum, optimise
 from ._points import (Finding, Member, Modifier, Value, Witness, canonical, generate, measure, measures, modifiers, patterns,
                       read, verify, write)
-from ._plot import Picture, plot, plot_convergence
+from ._plot import Picture, plot, plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, rank
 from ._render import read_image, render, scenes, version
 from ._series import Convergence, Trials, convergence, trials
@@ -34,6 +34,6 @@ __all__ = [
     "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
     "Ranked", "Ranking", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
     "Witness", "audit", "canonical", "compare", "convergence", "generate", "measure", "measures", "modifiers",
-    "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_convergence", "rank", "read", "read_image",
-    "render", "scenes", "spectrum", "trials", "verify", "version", "write",
+    "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence", "rank", "read",
+    "read_image", "render", "scenes", "spectrum", "trials", "verify", "version", "write",
 ]

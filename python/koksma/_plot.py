@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_ubyte, c_void_p, POINTER
 from typing import Any, Callable, Optional, Sequence, SupportsIndex, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
 from ._library import ArgumentError, check, core, lab, spec, text, whole, without_zero
-from ._points import as_points, view
-from ._series import Convergence
+from ._points import as_points, generate, view
+from ._series import Convergence, convergence
+from ._spectrum import spectrum
 
 _FORMATS = ("svg", "pdf", "png")
 _free = ctypes.CDLL(None).free
@@ -141,6 +144,20 @@ def _colours(patterns: Sequence[str]) -> Sequence[int]:
     return numbers
 
 
+def _convergence_chart(results: Sequence[Convergence], kept: "list[Any]") -> s.Chart:
+    """Curves in the colours of their patterns, with the standard errors of the means."""
+    one = len({r.measure for r in results}) == 1
+    curves = (s.Curve * len(results))()
+    for i, (r, colour) in enumerate(zip(results, _colours([r.pattern for r in results]))):
+        xs, ys, errors = ((c_double * len(r.sizes))(*column) for column in (r.sizes, r.mean, r.standard_error))
+        label = r.pattern if one else f"{r.pattern}, {r.measure}"
+        curves[i] = s.Curve(f"{label}: slope {r.slope:.2f}".encode(), len(r.sizes), xs, ys, errors if len(r.values) > 1 else None,
+                            True, False, colour)
+        kept.append((xs, ys, errors))
+    kept.append(curves)
+    return s.Chart(b"n", results[0].measure.encode() if one else b"value", True, True, curves, len(results))
+
+
 def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str] = None, theme: str = "light") -> Picture:
     """Draws measures against the number of points on logarithmic axes, with the standard errors of the means.
 
@@ -160,14 +177,67 @@ def plot_convergence(*results: Convergence, size: float = 0, title: Optional[str
     """
     if not results:
         raise ArgumentError("it takes at least one Convergence")
-    one = len({r.measure for r in results}) == 1
-    curves, kept = (s.Curve * len(results))(), []
-    for i, (r, colour) in enumerate(zip(results, _colours([r.pattern for r in results]))):
-        xs, ys, errors = ((c_double * len(r.sizes))(*column) for column in (r.sizes, r.mean, r.standard_error))
-        label = r.pattern if one else f"{r.pattern}, {r.measure}"
-        curves[i] = s.Curve(f"{label}: slope {r.slope:.2f}".encode(), len(r.sizes), xs, ys, errors if len(r.values) > 1 else None,
-                            True, False, colour)
-        kept.append((xs, ys, errors))
-    measure = results[0].measure if one else "value"
-    chart = s.Chart(b"n", measure.encode(), True, True, curves, len(results))
-    return _figure([[chart]], f"Convergence of {measure}" if title is None and one else title, size, theme, (curves, kept))
+    kept: "list[Any]" = []
+    chart = _convergence_chart(results, kept)
+    measures = {r.measure for r in results}
+    return _figure([[chart]], f"Convergence of {measures.pop()}" if title is None and len(measures) == 1 else title, size, theme,
+                   kept)
+
+
+def plot_compare(*patterns: str, n: SupportsIndex = 256, measure: str = "l2-star", sizes: Optional[Sequence[SupportsIndex]] = None,
+                 trials: SupportsIndex = 10, seed: SupportsIndex = 0, size: float = 0, title: Optional[str] = None,
+                 theme: str = "light") -> Picture:
+    """Draws patterns side by side: points, mean power spectra, their radial means, and the convergence of a measure.
+
+    Parameters
+    ----------
+    *patterns : str
+        Specs, at most 16.
+    n : int
+        Points of each set, of the plane.
+    measure : str
+    sizes : sequence of int, optional
+        Numbers of points for the convergence; else 16, 64, 256 and 1024.
+    trials, seed : int
+        Sets with the seeds seed .. seed + trials - 1.
+    size : float
+        Width in points, or pixels of a PNG; 0: as many as the patterns need, up to 960.
+    title : str, optional
+    theme : {"light", "dark"}
+
+    Returns
+    -------
+    Picture
+
+    Examples
+    --------
+    >>> import koksma
+    >>> picture = koksma.plot_compare("random", "sobol:scramble=owen", n=64, sizes=[16, 64], trials=4)
+    >>> picture.svg.count("<image")
+    2
+    """
+    if not 1 <= len(patterns) <= 16:
+        raise ArgumentError(f"{len(patterns)} patterns: it takes 1 to 16")
+    count, n_sets, first = whole("n", n, 1, s.MAX_COORDINATES), whole("trials", trials, 1, 10**9), whole("seed", seed, 0, s.MAX_SEED)
+    half = min(math.ceil(2 * math.sqrt(count)), s.MAX_HALF)
+    points, spectra, kept = [], [], []
+    curves = (s.Curve * len(patterns))()
+    for i, (pattern, colour) in enumerate(zip(patterns, _colours(patterns))):
+        array = as_points(generate(pattern, count, seed=first))
+        c_points = view(array)
+        mean = spectrum((generate(pattern, count, seed=first + t) for t in range(n_sets)), half)
+        power, rings = np.ascontiguousarray(mean.power[half:]), np.zeros(half + 1)
+        raw = s.Spectrum(half, mean.sets, count, power.ctypes.data_as(POINTER(c_double)), rings.ctypes.data)
+        name = without_zero("a pattern", f"{pattern}, n = {count}".encode())
+        points.append(s.Panel(points=ctypes.pointer(c_points), title=name, swatch=1 + colour))
+        spectra.append(s.Panel(spectrum=ctypes.pointer(raw), title=name, swatch=1 + colour))
+        xs, ys, errors = ((c_double * half)(*column)
+                          for column in (mean.frequency / math.sqrt(count), mean.ring_power, mean.standard_error))
+        curves[i] = s.Curve(name, half, xs, ys, errors, False, False, colour)
+        kept += [array, c_points, power, rings, raw, xs, ys, errors]
+    radial = s.Chart(b"frequency / \xe2\x88\x9an", b"power; dashed: 1 of random points", False, False, curves, len(patterns), True, 1,
+                     title=b"Radial mean of the power spectrum")
+    falling = _convergence_chart([convergence(p, measure, sizes, trials=n_sets, seed=first) for p in patterns], kept)
+    falling.title = f"Convergence of {measure}".encode()
+    return _figure([points, spectra, [radial, falling]], "Points, power spectra and convergence" if title is None else title, size,
+                   theme, kept)

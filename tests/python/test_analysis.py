@@ -144,6 +144,19 @@ class Pictures(unittest.TestCase):
         colour = lambda text: re.findall(r'<g stroke="(#\w+)" fill="none" stroke-width="1.5"', text)[-1]
         self.assertEqual(colour(svg), colour(alone))  # sobol's, alone and beside another
 
+    def test_compare(self):
+        patterns = ["random", "sobol:scramble=owen"]
+        picture = koksma.plot_compare(*patterns, n=64, sizes=[16, 64], trials=3, seed=5)
+        self.assertEqual(picture.svg.count("<circle"), 2 * (64 + 2 + 1))  # points, means, and the legend's marks
+        self.assertEqual(picture.svg.count("<image"), 2)
+        for word in ("random, n = 64", "sobol:scramble=owen, n = 64", "Radial mean", "Convergence of l2-star", "sobol:scramble=owen: slope"):
+            self.assertIn(word, picture.svg)
+        again = koksma.plot_compare(*patterns, n=64, sizes=[16, 64], trials=3, seed=5)
+        self.assertEqual(picture.svg, again.svg)
+        for call in (lambda: koksma.plot_compare(), lambda: koksma.plot_compare("jittered", n=17), lambda: koksma.plot_compare("nosuch")):
+            with self.assertRaises(ValueError):
+                call()
+
     def test_wrong(self):
         points = koksma.generate("random", 4)
         for call in (lambda: koksma.plot(), lambda: koksma.plot(points, witness="l2-star"),
