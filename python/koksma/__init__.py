@@ -15,6 +15,7 @@ except ModuleNotFoundError:
     raise ImportError("koksma needs NumPy: apt install python3-numpy, or pip install numpy") from None
 
 from ._compare import Comparison, compare
+from ._datasheet import Datasheet, datasheet
 from ._engine import Engine
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
@@ -30,10 +31,10 @@ from ._study import Cost, Study, Summary, TableRow, plans
 
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
-    "ArgumentError", "Comparison", "Convergence", "Cost", "Engine", "Error", "Finding", "MalformedError", "Member",
+    "ArgumentError", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding", "MalformedError", "Member",
     "MissingError", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture", "Ranked", "Ranking", "SizeCheck", "Spectrum",
     "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value", "Witness", "canonical", "compare",
-    "convergence", "generate", "measure", "measures", "optimise", "pair_correlation", "patterns", "plans", "plot",
+    "convergence", "datasheet", "generate", "measure", "measures", "optimise", "pair_correlation", "patterns", "plans", "plot",
     "plot_convergence", "rank", "read", "read_image", "render", "scenes", "spectrum", "trials", "verify", "version",
     "write",
 ]

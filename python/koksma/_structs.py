@@ -168,6 +168,11 @@ class RankOptions(Structure):
                 ("time_limit_s", c_double), ("max_trials", c_longlong), ("one_size", c_bool)]
 
 
+class DatasheetOptions(Structure):
+    _fields_ = [("sampler", c_char_p), ("beside", POINTER(c_char_p)), ("n_beside", c_size_t),
+                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("quick", c_bool)]
+
+
 class RankRow(Structure):
     _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
                 ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
@@ -222,6 +227,7 @@ LAYOUTS = [
     ("plot.h", "koksma_curve", Curve), ("plot.h", "koksma_chart", Chart), ("study.h", "koksma_study_options", StudyOptions),
     ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
     ("study.h", "koksma_study_row", StudyRow),
+    ("datasheet.h", "koksma_datasheet_options", DatasheetOptions),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -70,7 +71,7 @@ void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...)
     const int used = snprintf(line, sizeof line, "koksma ");
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
+    koksma__vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
     va_end(arguments);
     char *copy = sheet->n_commands < KOKSMA__SHEET_COMMANDS ? strdup(line) : NULL;
     if (copy) {
