@@ -328,7 +328,7 @@ static void *datasheet_options(void)
 {
     static char sampler[128];
     const char *const beside[] = {"random"}, *const scenes[] = {"checker"};
-    const koksma_points *points = points_of(300);
+    const koksma_points *points = points_of(289);
     snprintf(sampler, sizeof sampler, "%s", work_path("sheet.npy"));
     must(koksma_points_write(sampler, points, NULL, NULL));
     return COPY(koksma_datasheet_options, {.sampler = sampler,
