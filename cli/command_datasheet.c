@@ -125,7 +125,7 @@ const cli_command cli_command_datasheet = {
         "Everything has a fixed count, so that equal sets give equal numbers: 16 sets of 16 to 4,096 points and up\n"
         "to 64 images of each sampler in each scene; with --quick 8 sets of up to 256 points and 8 images.\n",
     .examples = "koksma datasheet sobol:scramble=owen -o sheet.html --quick\n"
-                "koksma datasheet jittered --beside random,pmj02 --scenes ball -o sheet.html --quick\n",
+                "koksma datasheet jittered -b random,pmj02 --scenes ball -o s.html --quick\n",
     .options = options,
     .run = run,
 };

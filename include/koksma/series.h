@@ -54,8 +54,8 @@ typedef struct koksma_joint {
     double spread[KOKSMA_MAX_SIZES][KOKSMA_MAX_SIZES]; /* sums of products of the deviations from the means */
 } koksma_joint;
 
-/* Adds a trial: values[i] at size i, n of them, the same n each time, at most KOKSMA_MAX_SIZES (others are left out).
-   O(n^2). */
+/* Adds a trial: values[i] at size i, n of them, the same n each time, at most KOKSMA_MAX_SIZES: with
+   more it does nothing. O(n^2). */
 KOKSMA_API void koksma_joint_add(koksma_joint *joint, size_t n, const double *values);
 
 /* Fits koksma_log_line to n means. After two trials or more slope_error is that of the trials' spread (infinitesimal

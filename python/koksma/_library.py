@@ -142,6 +142,8 @@ def lab() -> ctypes.CDLL:
     _declare(library, None, "koksma_render_options_init", options, c_void_p)
     _declare(library, c_int, "koksma_render_patterns", c_char_p, options)
     _declare(library, c_int, "koksma_render", c_void_p, options, POINTER(s.Run), image)
+    _declare(library, c_int, "koksma_datasheet", POINTER(s.DatasheetOptions), POINTER(s.Run), POINTER(c_void_p))
+    _declare(library, c_int, "koksma_datasheet_page", c_char_p, POINTER(c_void_p))
     _declare(library, c_int, "koksma_rank_patterns", POINTER(s.RankOptions), POINTER(s.Run), POINTER(s.RankRow),
              POINTER(s.Ranking))
     _declare(library, c_char_p, "koksma_plan_name_at", c_size_t)

@@ -205,6 +205,11 @@ class RankOptions(Structure):
                 ("render_context", c_void_p), ("reference", c_char_p)]
 
 
+class DatasheetOptions(Structure):
+    _fields_ = [("sampler", c_char_p), ("beside", POINTER(c_char_p)), ("n_beside", c_size_t),
+                ("scenes", POINTER(c_char_p)), ("n_scenes", c_size_t), ("quick", c_bool)]
+
+
 class RankRow(Structure):
     _fields_ = [("pattern", c_size_t), ("position", c_size_t), ("state", c_int), ("decision", c_int),
                 ("trials", c_longlong), ("mean", c_double), ("low", c_double), ("high", c_double),
@@ -261,6 +266,7 @@ LAYOUTS = [
     ("study.h", "koksma_study_summary", StudySummary), ("study.h", "koksma_study_cost", StudyCost),
     ("study.h", "koksma_study_row", StudyRow), ("study.h", "koksma_audit_options", AuditOptions),
     ("study.h", "koksma_audit", Audit),
+    ("datasheet.h", "koksma_datasheet_options", DatasheetOptions),
     ("study.h", "koksma_rank_options", RankOptions), ("study.h", "koksma_rank_row", RankRow),
     ("study.h", "koksma_rank_check_result", RankCheckResult),
     ("study.h", "koksma_rank_check", RankCheck), ("study.h", "koksma_ranking", Ranking),

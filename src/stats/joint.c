@@ -14,7 +14,10 @@ void koksma_joint_add(koksma_joint *joint, size_t n, const double *values)
 {
     double off[KOKSMA_MAX_SIZES];
     KOKSMA__REQUIRE_OR(, joint, values);
-    n = n < KOKSMA_MAX_SIZES ? n : KOKSMA_MAX_SIZES;
+    if (n > KOKSMA_MAX_SIZES) {
+        koksma__fail(KOKSMA_ARGUMENT, "koksma_joint_add: n: %zu sizes; at most %d", n, KOKSMA_MAX_SIZES);
+        return;
+    }
     joint->count++;
     for (size_t i = 0; i < n; i++) {
         off[i] = values[i] - joint->means[i];

@@ -86,6 +86,9 @@ VALID = {
     "koksma_text_escape.size": "9", "koksma_entry *": "a_buffer(sizeof(koksma_entry))", "koksma_scene_kind_at.member": "\"lights\"",
     "koksma_method_find.name": "\"descent\"", "koksma_optimise_options *": "optimise_options()", "koksma_optimise.measure": "a_measure(\"l2-disk\")",
     "koksma_optimum *": "a_buffer(sizeof(koksma_optimum))", "koksma_optimum_fini.best": "a_zero(sizeof(koksma_optimum))",
+    "koksma_datasheet_options *": "datasheet_options()", "char **": "a_buffer(sizeof(char *))",
+    "koksma_datasheet_page.json": "\"{\\\"format\\\":\\\"koksma-datasheet\\\"}\"",
+    "koksma_joint *": "a_zero(sizeof(koksma_joint))", "koksma_joint_line.n": "3", "koksma_joint_add.n": "3",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     "koksma_rank_picture *": "a_rank_picture()",
     "koksma_rank_by_command.context": "a_copy(\"printf 'Pf\\n1 1\\n-1\\nabcd' >{out.pfm}\", 35)",
@@ -110,7 +113,7 @@ WRONG = {
 }
 
 # What a text may call an argument, beside its name and that of the struct's member.
-SYNONYMS = {"params": ["takes"], "n": ["point", "points", "panels", "layers"], "width": ["pixels"], "height": ["pixels"],
+SYNONYMS = {"params": ["takes"], "sampler": ["pattern"], "n": ["point", "points", "panels", "layers"], "width": ["pixels"], "height": ["pixels"],
             "size": ["bytes"], "n_sizes": ["sizes"], "sizes": ["prefixes"], "n_uses": ["uses"], "uses": ["use"], "n_plans": ["results"], "folder": ["folder"], "places": ["path"], "xs": ["point", "points", "coordinate"], "dim": ["dimensions", "dimensional"],
             "x": ["corner"], "path": ["characters"]}
 
@@ -146,6 +149,7 @@ ALLOWED = [
     r"koksma_study_audit options->(rows = LLONG_MAX|rows = 0|differs.*) .*", r"koksma_text_escape (size|text) = .*", r"koksma_optimise options->(steps|seed|first) = .*",
     r"koksma_rank_by_command picture->(scene|pattern) = (\"|long_text).*", r"koksma_rank_by_command picture->(spp|width|height|seed) = .*",  # its affair
     r"koksma_rank_patterns options->(render|render_context|reference) = .*",
+    r"koksma_datasheet options->(beside = NULL|scenes = NULL|n_beside = 0|n_scenes = 0) .*",
     r"\w+ path = .(%s%n|nothing:of).*",  # names of files like others
 ]
 

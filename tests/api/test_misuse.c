@@ -5,7 +5,7 @@
  * report of a sanitizer or 20 s of processor time. After an error, results are as before or zero.
  *
  * Cases run in a child, which writes what is wrong and counts it in memory that it shares. When one ends the child, that is
- * a failure, and the next child continues after it.
+ * a failure, and the next child continues after it. Long because each type of an argument has a valid value here.
  */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include <ctype.h>
@@ -23,6 +23,7 @@ static void asserted(const char *condition);
 #define KOKSMA_ASSERT(condition) ((condition) ? (void)0 : asserted(#condition))
 
 #include <koksma/adaptive.h>
+#include <koksma/datasheet.h>
 #include <koksma/mask.h>
 #include <koksma/optimise.h>
 #include <koksma/series.h>
@@ -340,6 +341,22 @@ static void *rank_options(void)
                                       .height = 2,
                                       .max_trials = 8,
                                       .one_size = true});
+}
+
+/* A set of more points than a pixel has samples: no scene is rendered. */
+static void *datasheet_options(void)
+{
+    static char sampler[128];
+    const char *const beside[] = {"random"}, *const scenes[] = {"checker"};
+    const koksma_points *points = points_of(289);
+    snprintf(sampler, sizeof sampler, "%s", work_path("sheet.npy"));
+    must(koksma_points_write(sampler, points, NULL, NULL));
+    return COPY(koksma_datasheet_options, {.sampler = sampler,
+                                           .beside = a_copy(beside, sizeof beside),
+                                           .n_beside = 1,
+                                           .scenes = a_copy(scenes, sizeof scenes),
+                                           .n_scenes = 1,
+                                           .quick = true});
 }
 
 /* ---- One case ------------------------------------------------------------------------------------------------ */

@@ -218,6 +218,23 @@ class Errors(unittest.TestCase):
         self.assertLessEqual(value.lower, value.upper)
 
 
+class Datasheets(unittest.TestCase):
+    def test_datasheet(self):
+        seen = []
+        sheet = koksma.datasheet("sobol", beside=["jittered"], scenes=[], quick=True, progress=seen.append)
+        self.assertEqual(sheet.data["samplers"], ["sobol", "jittered"])
+        star = float(koksma.measure(koksma.generate("sobol", 256), "star"))
+        self.assertEqual(next(row["mean"] for row in sheet.table("values") if (row["measure"], row["sampler"], row["n"]) == ("star", "sobol", 256)), [star] * 3)
+        self.assertIn("Datasheet of sobol", sheet.html)
+        self.assertTrue(seen and max(seen) <= 1)
+        with self.assertRaises(koksma.ArgumentError):
+            sheet.save("sheet.pdf")
+        with self.assertRaises(koksma.MissingError):
+            koksma.datasheet("none_{n}_{seed}.npy")
+        with self.assertRaises(koksma.ArgumentError):
+            koksma.datasheet("sobol", beside=["random"] * 8)
+
+
 class Rankings(unittest.TestCase):
     def test_rank(self):
         ranking = koksma.rank("checker", ["random", "n-rooks"], 4, size=(16, 12), time_limit=None)

@@ -7,21 +7,30 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/c_locale.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
 /* ---- Progress ---------------------------------------------------------------------------------------------- */
 
+/* A part may take several passes, each with a fraction of its own: a pass takes pass_share of what is left. */
 static bool keep_going(void *context, double fraction)
 {
-    const koksma__sheet *sheet = context;
-    return koksma__keep_going(sheet->run, sheet->done + sheet->share * fraction);
+    koksma__sheet *sheet = context;
+    if (fraction < sheet->fraction) {
+        sheet->passed += (1 - sheet->passed) * sheet->pass_share;
+    }
+    sheet->fraction = fraction;
+    const double now = sheet->passed + (1 - sheet->passed) * sheet->pass_share * fraction;
+    return koksma__keep_going(sheet->run, sheet->done + sheet->share * now);
 }
 
-koksma_run koksma__sheet_part(koksma__sheet *sheet, double share)
+koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share)
 {
     sheet->done += sheet->share;
     sheet->share = share;
+    sheet->pass_share = pass_share;
+    sheet->passed = sheet->fraction = 0;
     return (koksma_run){.threads = sheet->run ? sheet->run->threads : 0, .keep_going = keep_going, .context = sheet};
 }
 
@@ -70,7 +79,7 @@ void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...)
     const int used = snprintf(line, sizeof line, "koksma ");
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
+    koksma__vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
     va_end(arguments);
     char *copy = sheet->n_commands < KOKSMA__SHEET_COMMANDS ? strdup(line) : NULL;
     if (copy) {

@@ -61,7 +61,8 @@ typedef struct koksma__sheet_ranking {
 typedef struct koksma__sheet {
     const koksma_datasheet_options *options;
     const koksma_run *run;
-    double done, share; /* of the whole: before the part that runs, and of it */
+    double done, share;                  /* of the whole: before the part that runs, and of it */
+    double passed, pass_share, fraction; /* of that part (koksma__sheet_part) */
     koksma__sheet_sampler all[KOKSMA__SHEET_SAMPLERS];
     koksma__sheet_sampler *samplers[KOKSMA__SHEET_SAMPLERS];
     size_t n_samplers;
@@ -82,8 +83,10 @@ typedef struct koksma__sheet {
     size_t n_rankings;
 } koksma__sheet;
 
-/* A run for the next part of the work, which is this share of the whole. The inner run's context is the sheet. */
-koksma_run koksma__sheet_part(koksma__sheet *sheet, double share);
+/* A run for the next part of the work, which is this share of the whole. Whenever the fraction that is done begins
+   again, the pass before counts for pass_share of what was left of the part: 1 for a part of one pass. The inner
+   run's context is the sheet. */
+koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_share);
 
 /* An item of the list of notes: words, and then the text of this thread's last error. */
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);

@@ -164,7 +164,7 @@ koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
     for (size_t s = 0; s < v->n_samplers; s++) {
         v->trials[s] = koksma__sheet_trials(sheet->samplers[s], sheet->trials);
     }
-    const koksma_run run = koksma__sheet_part(sheet, 0.4);
+    const koksma_run run = koksma__sheet_part(sheet, 0.4, 1);
     return koksma__sheet_evaluate(sheet, v, &run);
 }
 

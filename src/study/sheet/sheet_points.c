@@ -151,7 +151,7 @@ static void put_verify_command(koksma__sheet *sheet, const koksma__sheet_sampler
 koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
 {
     const size_t n = koksma__sheet_size(sheet, VERIFIED);
-    const koksma_run run = koksma__sheet_part(sheet, 0.02);
+    const koksma_run run = koksma__sheet_part(sheet, 0.02, 0.3);
     koksma_findings findings[KOKSMA__SHEET_SAMPLERS] = {{0}};
     koksma_status status = KOKSMA_OK;
     for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
@@ -227,7 +227,7 @@ koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *
         .n_sizes = 1, .sizes = &n, .samplers = samplers, .n_measures = sizeof names / sizeof *names};
     koksma_findings findings = {0};
     koksma_points points = {0};
-    const koksma_run run = koksma__sheet_part(sheet, 0.08);
+    const koksma_run run = koksma__sheet_part(sheet, 0.08, 0.7);
     v.dim = sheet->max_dim < MOST_DIM ? sheet->max_dim : MOST_DIM;
     while (v.dim > 2 && !choose_deep(sheet, n, v.dim, false, samplers, &v.n_samplers)) {
         v.dim--;

@@ -142,10 +142,10 @@ static koksma_status fail_none(const char *path)
     koksma__file_glob(path, false, looked_for, sizeof looked_for);
     const koksma_status status = koksma__file_name(path, 256, 0, first);
     return status ? status
-                  : koksma__fail(
-                        KOKSMA_MISSING,
-                        "%s: no file %s with whole numbers in place of the stars; %s would be 256 points of seed 0",
-                        path, looked_for, first);
+                  : koksma__fail(KOKSMA_MISSING,
+                                 "%s: no file %s with whole numbers in place of the stars, such as %s%s%s", path,
+                                 looked_for, first, koksma__file_has(path, "{n}") ? " of 256 points" : "",
+                                 koksma__file_has(path, "{seed}") ? " for seed 0" : "");
 }
 
 /* The size of a file that says none in its name. */

@@ -26,7 +26,7 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
     }
     for (size_t i = 0; i < n && !status; i++) {
         koksma__sheet_ranking *r = &sheet->rankings[i];
-        const koksma_run run = koksma__sheet_part(sheet, 0.4 / (double)n);
+        const koksma_run run = koksma__sheet_part(sheet, 0.4 / (double)n, 0.06);
         r->scene = sheet->scenes[i / sheet->n_spp];
         r->spp = sheet->spp[i % sheet->n_spp];
         const koksma_rank_options options = {.scene = r->scene,

@@ -6,6 +6,7 @@ it has; the verdict follows from the numbers; what cannot serve is left out with
 import json
 import math
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -185,6 +186,9 @@ def check_verdict(data):
 
 def check_patterns():
     text, data = sheet("sobol:scramble=owen", "--beside", "random,jittered", "--scenes", "ball", "--quick", "--threads", "2")
+    seen = run("datasheet", "sobol:scramble=owen", "--beside", "none", "--scenes", "ball", "--quick", "--progress", "always", "-o", "s.html").stderr
+    percents = [int(p) for p in re.findall(r"(\d+) %", seen)]
+    expect(percents and percents == sorted(percents) and percents[-1] <= 100, f"progress goes back: {percents}")
     again, _ = sheet("sobol:scramble=owen", "--beside", "random,jittered", "--scenes", "ball", "--quick", "--threads", "1")
     expect(text.rsplit("\n", 1)[0] == again.rsplit("\n", 1)[0] or text.split('"seconds"')[0] == again.split('"seconds"')[0], "threads change the sheet")
     expect([b["id"] for b in data["content"]] == ["verdict", "points", "scenes", "measures", "spectra", "properties", "projections", "origin"], "sections")
