@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <koksma/adaptive.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
 
@@ -228,6 +229,17 @@ static void put_commands(void)
 
 static const char names_function[] = "_koksma_names() { koksma list \"$1\" 2>/dev/null | sed 1d | cut -d' ' -f1; }\n";
 
+/* Behind a colon, with `koksma completion spec`. Bash breaks words at colons and equals signs and takes what comes after
+   the last one. */
+static const char bash_specs[] =
+    "  local word=${COMP_LINE:0:COMP_POINT}; word=${word##* }\n"
+    "  if [[ $word = *:* ]]; then\n"
+    "    COMPREPLY=($(compgen -W \"$(koksma completion spec -- \"$word\" 2>/dev/null)\" -- \"$word\"))\n"
+    "    [[ $COMP_WORDBREAKS != *:* ]] || COMPREPLY=(\"${COMPREPLY[@]#\"${word%\"${word##*[:=]}\"}\"}\")\n"
+    "    if [ -n \"${COMPREPLY[*]}\" ]; then compopt -o nospace; return; fi\n"
+    "    COMPREPLY=()\n"
+    "  fi\n";
+
 static void put_bash(void)
 {
     printf("# bash completion for koksma, made by `koksma completion bash`.\n%s"
@@ -238,10 +250,11 @@ static void put_bash(void)
            names_function);
     put_commands();
     /* bash splits words at an equals sign, too. */
-    printf("' -- \"$current\"))\n    return\n  fi\n"
+    printf("' -- \"$current\"))\n    return\n  fi\n%s"
            "  if [ \"$current\" = = ]; then current=''; "
            "elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
-           "  case ${COMP_WORDS[1]} in\n");
+           "  case ${COMP_WORDS[1]} in\n",
+           bash_specs);
     put_cases();
     printf("  esac\n"
            "  if [ $kind = operand ] && [ \"${current#-}\" != \"$current\" ]; then words=$options list=''; fi\n"
@@ -260,6 +273,9 @@ static void put_zsh(void)
            names_function);
     put_commands();
     printf("\n  return\nfi\n"
+           "if [[ $current = *:* ]]; then\n"
+           "  local -a specs=(${(f)\"$(koksma completion spec -- $current 2>/dev/null)\"})\n"
+           "  if (( $#specs )); then compadd -S '' -- $specs; return; fi\nfi\n"
            "if [[ $current = --*=* ]]; then before=${current%%%%=*}; current=${current#*=}; compset -P '*='; fi\n"
            "() {\n  local words=''\n  case $command in\n");
     put_cases();
@@ -305,16 +321,20 @@ static void put_fish(void)
     static const char call[] = "(__koksma_names";
     const cli_command *command;
     printf("# fish completion for koksma, made by `koksma completion fish`.\n"
-           "function __koksma_names\n    koksma list $argv[1] 2>/dev/null | sed 1d | cut -d' ' -f1\nend\n"
-           "# The words after the last comma of a list.\n"
+           "function __koksma_names\n    koksma list $argv[1] 2>/dev/null | sed 1d | cut -d' ' -f1\n"
+           "    koksma completion spec -- (commandline -ct) 2>/dev/null\nend\n"
+           "# The words after the last comma of a list; those behind a colon are whole.\n"
            "function __koksma_list\n    set -l done (string match -r '.*,' -- (commandline -ct))\n"
-           "    printf '%%s\\n' \"$done\"$argv\nend\n"
+           "    for word in $argv\n        string match -q '*:*' -- $word; and echo $word; or echo \"$done\"$word\n  "
+           "  end\nend\n"
            "# The command is the first word, and one of the others was typed after it, if there are any.\n"
            "function __koksma_in\n    set -l typed (commandline -opc)\n"
            "    test \"$typed[2]\" = $argv[1]; or return\n    test (count $argv) -eq 1; and return\n"
            "    set -e typed[1..2]\n    for word in $argv[2..-1]\n        contains -- $word $typed; and return\n"
            "    end\n    return 1\nend\n");
-    printf("complete -c koksma -s h -l help -d 'what it does'\n");
+    printf("complete -c koksma -s h -l help -d 'what it does'\n"
+           "complete -c koksma -n 'string match -q \"pattern:*\" -- (commandline -ct)' -f "
+           "-a '(koksma completion spec -- (commandline -ct))'\n");
     for (size_t i = 0; (command = cli_command_at(i)); i++) {
         printf("complete -c koksma -n __fish_use_subcommand -f -a %s -d '", command->name);
         put_quoted(command->summary);
@@ -339,8 +359,51 @@ static void put_fish(void)
     }
 }
 
+/* The parameters of a pattern, measure or adaptive method; NULL: there is none of that name. */
+static const koksma_param *params_of(const char *name)
+{
+    const koksma_pattern *pattern = koksma_pattern_find(name);
+    const koksma_measure *measure = koksma_measure_find(name);
+    const koksma_adaptive *adaptive = koksma_adaptive_find(name);
+    return pattern ? pattern->params : measure ? measure->params : adaptive ? adaptive->params : NULL;
+}
+
+/* Words that go on with one that ends in a spec, "-p a,sobol:scr": "NAME=" of a parameter, or its choices; the names of
+   patterns behind "pattern:". */
+static int put_specs(const char *word)
+{
+    const char *colon = strrchr(word, ':'), *begin = colon, *last;
+    char name[64];
+    while (begin && begin > word && strchr(lower, begin[-1])) {
+        begin--;
+    }
+    if (!colon) {
+        return CLI_YES;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)(colon - begin), begin);
+    for (size_t i = 0; !strcmp(name, "pattern") && koksma_pattern_at(i); i++) {
+        printf("%.*s%s\n", (int)(colon + 1 - word), word, koksma_pattern_at(i)->name);
+    }
+    last = strrchr(colon, ',') ? strrchr(colon, ',') : colon;
+    const size_t key = strcspn(++last, "=");
+    for (const koksma_param *p = params_of(name); p && p->name; p++) {
+        if (!last[key]) {
+            printf("%.*s%s=\n", (int)(last - word), word, p->name);
+        }
+        for (size_t i = 0; last[key] && p->choices && p->choices[i] && strlen(p->name) == key; i++) {
+            if (!strncmp(p->name, last, key)) {
+                printf("%.*s%s\n", (int)(last + key + 1 - word), word, p->choices[i]);
+            }
+        }
+    }
+    return CLI_YES;
+}
+
 static int run(const cli_arguments *arguments)
 {
+    if (arguments->n_operands == 2 && !strcmp(arguments->operands[0], "spec")) {
+        return put_specs(arguments->operands[1]);
+    }
     static const struct {
         const char *name;
         void (*put)(void);
@@ -359,8 +422,9 @@ static const cli_option options[] = {{0}};
 const cli_command cli_command_completion = {
     .name = "completion",
     .summary = "print a shell's completion script",
-    .synopsis = "bash|zsh|fish",
-    .details = "In bash: source <(koksma completion bash). 'make install' puts the scripts where the shells look.",
+    .synopsis = "bash|zsh|fish\nspec WORD",
+    .details = "In bash: source <(koksma completion bash). 'make install' puts the scripts where the shells look.\n"
+               "spec: prints what may follow behind the colon of a pattern or measure, for the scripts.",
     .examples = "koksma completion bash >koksma.bash\n",
     .options = options,
     .run = run,

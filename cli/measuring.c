@@ -326,7 +326,7 @@ int measuring_trials(measuring *j, const char *source)
         }
         if (!code) {
             const koksma_status status = tally_points(j, own_sets ? NULL : &points, &parts, t, first);
-            cli_work_end();
+            cli_work_end(&j->work);
             code = status ? cli_fail(j->arguments, status) : CLI_YES;
         }
         koksma_points_fini(&points);

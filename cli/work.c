@@ -123,8 +123,9 @@ void cli_work_part(cli_work *work, size_t i, size_t n)
     work->share = 1 / (double)n;
 }
 
-void cli_work_end(void)
+void cli_work_end(const cli_work *work)
 {
+    (void)work; /* there is one line */
     if (shown) {
         fputs("\r\033[K", stderr);
         fflush(stderr);

@@ -89,7 +89,7 @@ static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_sour
             cli_joint_add(&v->joint, v->count, values);
         }
     }
-    cli_work_end();
+    cli_work_end(&c->work);
     return status ? cli_fail(c->arguments, status) : CLI_YES;
 }
 

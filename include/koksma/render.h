@@ -75,6 +75,17 @@ typedef struct koksma_scene_counts {
 /* Counts what a scene contains. */
 KOKSMA_API koksma_scene_counts koksma_scene_count(const koksma_scene *scene);
 
+/* Where a part of a scene is, and what of the picture it may cover. */
+typedef struct koksma_scene_part {
+    char name[80];          /* the kind of a shape; of a placed mesh "mesh" and its name */
+    double low[3], high[3]; /* a box around it at time 0; infinite for a plane */
+    bool in_frame;          /* false: the camera sees nothing of it but reflections and shadows */
+    double frame[4];        /* of the picture that the box covers at most: left, right, top, bottom, from 0 to 1 */
+} koksma_scene_part;
+
+/* Finds part i of a scene: its shapes, then its placed meshes. Returns false past the last one. */
+KOKSMA_API bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out);
+
 /* Returns a 64-bit hash of the scene's text, which changes when the file changes. */
 KOKSMA_API uint64_t koksma_scene_hash(const koksma_scene *scene);
 

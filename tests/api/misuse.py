@@ -38,7 +38,7 @@ VALID = {
     "size_t *": "a_buffer(sizeof(size_t))", "const char **": "a_buffer(sizeof(char *))",
     "double *": "a_buffer(16 * sizeof(double))", "const double *": "three_numbers()", "uint32_t *": "a_buffer(16 * sizeof(uint32_t))",
     "koksma_image *": "an_image()", "koksma_layer *": "two_layers()", "koksma_image_error *": "a_buffer(sizeof(koksma_image_error))",
-    "koksma_coherence *": "a_coherence()", "koksma_coherence_values *": "a_buffer(sizeof(koksma_coherence_values))",
+    "koksma_scene_part *": "a_buffer(sizeof(koksma_scene_part))", "koksma_coherence *": "a_coherence()", "koksma_coherence_values *": "a_buffer(sizeof(koksma_coherence_values))",
     "koksma_scene *": "a_scene()", "koksma_scene **": "a_buffer(sizeof(void *))",
     "koksma_render_options *": ["render_options(\"gaussian-jittered\")", "render_options(\"random;pixel=gaussian-jittered;lens+time=random\")"],
     "koksma_use_group *": "a_group()", "koksma_layers *": "a_buffer(sizeof(koksma_layers))",

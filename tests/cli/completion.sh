@@ -17,8 +17,10 @@ source "$1"
 compopt() { no_files=1; }
 while IFS= read -r line; do
   typed=${line%^} no_files=''
-  COMP_WORDS=(koksma ${typed//=/ = })
-  case $typed in *' '|*=) COMP_WORDS+=('') ;; esac
+  COMP_LINE="koksma $typed" COMP_POINT=$((${#typed} + 7)) COMP_WORDBREAKS=$' \t\n=:'
+  spaced=${typed//:/ : }
+  COMP_WORDS=(koksma ${spaced//=/ = })
+  case $typed in *' '|*=|*:) COMP_WORDS+=('') ;; esac
   COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
   _koksma
   echo "$line" "${COMPREPLY[@]##*,}" ${no_files:-FILES}
@@ -84,6 +86,13 @@ compare a b --max-mean ^
 rank ^ $(all scenes) FILES
 rank ball --patterns ^ thesis later all $(all patterns)
 measure x -p ^ all $(all patterns)
+render ball -p sobol:sc^ scramble=
+render ball -p sobol:scramble=^ none digital-shift lms owen hash-owen
+render ball -p lens=sobol:scramble=ow^ owen
+render ball -p sobol:scramble=owen,nu^ numbers=
+rank ball -p random,sobol:numbers=^ joe-kuo bratley-fox
+measure x -m star,l2-disk:^ $(koksma list parameters --json | sed -n 's/.*"of":"l2-disk","parameter":"\([^"]*\)".*/\1=/p' | tr '\n' ' ')
+measure pattern:n-r^ n-rooks
 rank ball --patterns later,n-r^ n-rooks
 rank ball --spp ^
 study ^ run quick new estimate export report audit images
@@ -99,7 +108,7 @@ reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
 list ^ patterns measures claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses adaptive methods records plans questions sections parameters
 list patterns ^
-completion ^ bash zsh fish
+completion ^ bash zsh fish spec
 manual scen^ scene
 help scen^ scene
 help -^ -h --help
@@ -114,7 +123,7 @@ for shell in bash zsh fish; do
   command -v $shell >/dev/null || continue
   $shell -n "$work/script" || complain "$shell can't read its script"
   case $shell in bash) plain=--norc ;; zsh) plain=-f ;; fish) plain=--no-config ;; esac
-  (cd "$work/empty" && $shell $plain "$work/$shell.driver" "$work/script" <"$work/lines") 2>&1 | sort_words >"$work/$shell.offers"
+  (cd "$work/empty" && $shell $plain "$work/$shell.driver" "$work/script" <"$work/lines") 2>&1 | sort_words | sed -E ':a; s/(\^.*) [^ ]*[:,=]([^ :,=]+=?)( |$)/\1 \2\3/; ta' >"$work/$shell.offers"
   diff "$work/wanted" "$work/$shell.offers" >"$work/difference" || complain "$shell offers other words (>) than wanted (<): $(cat "$work/difference")"
 done
 # The words of choices are the program's own.

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Where the parts of a scene are: boxes around shapes and placed meshes, and the part of the picture that a box covers,
+ * from the projection of its corners. A box that reaches behind the camera, or has no end, may cover all of it.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "render/description.h"
+#include "render/shapes/shapes.h"
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Along axis k; an infinite side that is square to the axis adds nothing. */
+static double reach(const koksma__shape *shape, int k)
+{
+    if (!shape->type->is_flat) {
+        return shape->type->radius ? shape->type->radius(shape) : shape->half[0];
+    }
+    const double u = fabs(shape->axis_u[k]), v = fabs(shape->axis_v[k]),
+                 second = shape->half[1] ? shape->half[1] : shape->half[0];
+    return (u > 0 ? u * shape->half[0] : 0) + (v > 0 ? v * second : 0);
+}
+
+/* Sets frame and in_frame from the box. */
+static void look(const koksma_scene *scene, koksma_scene_part *part)
+{
+    const koksma__camera *camera = &scene->camera;
+    const double half_height = tan(camera->fov_rad / 2), half_width = half_height * scene->width / scene->height;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    int behind = 0, endless = 0;
+    for (int corner = 0; corner < 8; corner++) {
+        double d[3];
+        for (int k = 0; k < 3; k++) {
+            d[k] = (corner >> k & 1 ? part->high[k] : part->low[k]) - camera->eye[k];
+            endless += !isfinite(d[k]);
+        }
+        const double z = dot(d, camera->forward);
+        behind += z <= 0;
+        const double at[2] = {dot(d, camera->right) / z / half_width, dot(d, camera->down) / z / half_height};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], (1 + at[k]) / 2);
+            high[k] = fmax(high[k], (1 + at[k]) / 2);
+        }
+    }
+    const bool whole = endless || behind % 8;
+    for (int k = 0; k < 2; k++) {
+        part->frame[2 * k] = whole ? 0 : fmax(low[k], 0);
+        part->frame[2 * k + 1] = whole ? 1 : fmin(high[k], 1);
+    }
+    part->in_frame = whole || (!behind && part->frame[0] < part->frame[1] && part->frame[2] < part->frame[3]);
+}
+
+bool koksma_scene_part_at(const koksma_scene *scene, size_t i, koksma_scene_part *out)
+{
+    KOKSMA__REQUIRE_OR(false, scene, out);
+    if (i >= scene->n_shapes + scene->n_placements) {
+        return false;
+    }
+    *out = (koksma_scene_part){.in_frame = false};
+    if (i < scene->n_shapes) {
+        const koksma__shape *shape = &scene->shapes[i];
+        snprintf(out->name, sizeof out->name, "%s%s", shape->light < 0 ? "" : "light ", shape->type->kind.name);
+        for (int k = 0; k < 3; k++) {
+            out->low[k] = shape->centre[k] - reach(shape, k);
+            out->high[k] = shape->centre[k] + reach(shape, k);
+        }
+    } else {
+        const koksma__placement *placement = &scene->placements[i - scene->n_shapes];
+        const char *name = scene->meshes[placement->mesh].name;
+        snprintf(out->name, sizeof out->name, "%smesh%s%s", placement->light < 0 ? "" : "light ", *name ? " " : "",
+                 name);
+        memcpy(out->low, placement->low, sizeof out->low);
+        memcpy(out->high, placement->high, sizeof out->high);
+    }
+    look(scene, out);
+    return true;
+}
