@@ -105,12 +105,17 @@ static bool put_plan(FILE *out, const cli_arguments *arguments)
 {
     const char *patterns = cli_text(arguments, "patterns", default_patterns);
     const char *scenes = cli_text(arguments, "scene", NULL);
+    const char *measures = cli_text(arguments, "measures", "star,l2-star");
     fputs("{\n  \"comment\": \"Made by koksma study quick; studies/README.md has all fields.\",\n"
-          "  \"name\": \"quick\",\n  \"title\": \"Patterns beside each other\",\n  \"discrepancies\": [\n    {",
+          "  \"name\": \"quick\",\n  \"title\": \"Patterns by ",
           out);
+    put_characters(out, measures);
+    fputs(scenes ? ", and in " : "", out);
+    put_characters(out, scenes ? scenes : "");
+    fputs("\",\n  \"discrepancies\": [\n    {", out);
     put_patterns(out, patterns);
     fputs(",\n     ", out);
-    put_list(out, "measures", cli_text(arguments, "measures", "star,l2-star"), false);
+    put_list(out, "measures", measures, false);
     fputs(",\n     ", out);
     if (!put_numbers(out, arguments, "n", "points", "16,64,256,1024")) {
         return false;

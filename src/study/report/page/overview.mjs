@@ -49,7 +49,7 @@ function contents(blocks, level = 1) {
 export function overview(report) {
   const answers = answersIn(report.content), field = element("input", { type: "search" }), reproduces = report.content.some(b => b.id === "agreement");
   field.addEventListener("input", () => filterTables(field.value.trim().toLowerCase()));
-  return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : `A study by koksma ${report.koksma}: ${report.plan}`),
+  return element("header", {}, element("p", { class: "kicker" }, reproduces ? "Koksma reproduces" : report.plan ? `A study by koksma ${report.koksma}: ${report.plan}` : `Made by koksma ${report.koksma}`),
     element("h1", {}, report.title), report.about ? element("p", {}, report.about) : null, answers.length ? verdict(answers) : null,
     element("nav", { "aria-label": "contents" }, element("details", { open: true }, element("summary", {}, "Contents"), contents(report.content)),
       element("label", { class: "search" }, "Show rows of all tables with ", field)));
