@@ -5,8 +5,8 @@
  *
  *     x_ik = whole number / 10^12, from a table
  *
- * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 21 points in the
- * plane (Clement, Doerr, Klamroth & Paquete 2023, to four digits), .6180 and .3660 for 1 and 2 points to .0580 for 21.
+ * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 13 points in the
+ * plane, which tools/prove_star.c proves, and to four digits up to 21 (Clement, Doerr, Klamroth & Paquete 2023).
  */
 #include <koksma/optimise.h>
 
@@ -69,6 +69,7 @@ const koksma_pattern koksma__pattern_record = {
     .min_dim = 2,
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_DETERMINISTIC,
+    .revision = 1,
     .params = params,
     .generate = generate,
 };
