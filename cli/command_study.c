@@ -191,7 +191,7 @@ static int run_quick(const cli_arguments *arguments)
     options.plans = &plan;
     options.n_plans = 1;
     code = run_study(arguments, &options, &work);
-    cli_work_end();
+    cli_work_end(&work);
     return code;
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * record: the best known sets of n points for a measure, as `koksma optimise` found them; `koksma list records` has them
- * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc.
+ * with their values and the best published ones. Sets of other n do not exist here. The sets are in shared/records.inc (star)
+ * and shared/records_l2.inc (measures with a pair kernel, with the commands that make them).
  *
  *     x_ik = whole number / 10^12, from a table
  *
@@ -15,17 +16,29 @@
 #include "core/status.h"
 #include "patterns/patterns.h"
 
-enum { STAR };
+#define STAR "star"
+#define L2_STAR "l2-star"
+#define L2_PERIODIC "l2-periodic"
+#define L2_CENTERED "l2-centered"
 
-static const char *const names[] = {"star", NULL};
+static const char *const names[] = {STAR, L2_STAR, L2_PERIODIC, L2_CENTERED, NULL};
 
 static const koksma_record records[] = {
-#define RECORD(measure, dim, n, value, published, source) {"star", (n), (dim), (value), (published), (source)},
+#define RECORD(measure, dim, n, value, published, source) {(measure), (n), (dim), (value), (published), (source)},
+#include "patterns/shared/records.inc"
+#include "patterns/shared/records_l2.inc"
+#undef RECORD
+};
+
+enum {
+    STARS = 0 /* records whose coordinates are in the first file */
+#define RECORD(measure, dim, n, value, published, source) +1
 #include "patterns/shared/records.inc"
 #undef RECORD
 };
 
 #include "patterns/shared/records.inc"
+#include "patterns/shared/records_l2.inc"
 
 const koksma_record *koksma_record_at(size_t i)
 {
@@ -40,14 +53,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     size_t below = 0, above = 0;
     for (size_t i = 0; i < sizeof records / sizeof *records; i++) {
         const koksma_record *r = &records[i];
-        if (!strcmp(r->measure, measure) && r->dim == out->dim && r->n == out->n) {
+        const bool alike = !strcmp(r->measure, measure) && r->dim == out->dim;
+        xs = i == STARS ? points_l2 : xs;
+        if (alike && r->n == out->n) {
             for (size_t c = 0; c < out->n * (size_t)out->dim; c++) {
                 out->xs[c] = (double)xs[c] / 1e12;
             }
             return KOKSMA_OK;
         }
-        below = r->n < out->n ? r->n : below;
-        above = r->n > out->n && !above ? r->n : above;
+        below = alike && r->n < out->n ? r->n : below;
+        above = alike && r->n > out->n && !above ? r->n : above;
         xs += r->n * (size_t)r->dim;
     }
     return above && below
@@ -58,7 +73,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 }
 
 static const koksma_param params[] = {
-    {"measure", "the measure that the sets have a small value of", 0, 0, 0, names, true},
+    {"measure", "the measure that the sets have a small value of", 0, 0, 3, names, true},
     {0},
 };
 

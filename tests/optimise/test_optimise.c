@@ -111,9 +111,10 @@ static const struct {
     {"star-plane", "star", 9, 2, KOKSMA_KEEP_NONE},       {"descent", "l2-star", 8, 3, KOKSMA_KEEP_NONE},
     {"descent", "l2-disk", 8, 2, KOKSMA_KEEP_NONE},       {"descent", "l2-centered", 8, 2, KOKSMA_KEEP_NET},
     {"exchange", "l2-centered", 8, 3, KOKSMA_KEEP_LATIN}, {"exchange", "l2-wraparound", 8, 2, KOKSMA_KEEP_LATIN},
-    {"star-space", "star", 8, 3, KOKSMA_KEEP_NONE},       {"perturb", "extreme", 8, 2, KOKSMA_KEEP_NONE},
+    {"star-space", "star", 8, 3, KOKSMA_KEEP_NONE},       {"witness", "extreme", 8, 3, KOKSMA_KEEP_NONE},
     {"perturb", "star", 8, 2, KOKSMA_KEEP_NET},           {"perturb", "star", 8, 2, KOKSMA_KEEP_LATIN},
-    {"perturb", "min-distance", 8, 2, KOKSMA_KEEP_NONE},
+    {"perturb", "min-distance", 8, 2, KOKSMA_KEEP_NONE},  {"witness", "edge", 8, 2, KOKSMA_KEEP_NONE},
+    {"witness", "disk", 8, 2, KOKSMA_KEEP_NONE},
 };
 
 static int by_value(const void *a, const void *b)
