@@ -135,13 +135,13 @@ int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, siz
     const double ex = v->samplers[a]->same ? 0 : koksma_tally_error(x),
                  ey = v->samplers[b]->same ? 0 : koksma_tally_error(y);
     const double variance = ex * ex + ey * ey;
-    if (variance == 0) {
-        return sign;
+    if (!(variance > 0)) { /* one set of what varies has no error (NaN): not decided */
+        return variance == 0 ? sign : 0;
     }
     const double fourth =
         (ex > 0 ? ex * ex * ex * ex / (x->count - 1) : 0) + (ey > 0 ? ey * ey * ey * ey / (y->count - 1) : 0);
     const double t = koksma__student_quantile(1 - 0.025 / (double)tests, variance * variance / fourth);
-    return fabs(x->mean - y->mean) > t * sqrt(variance) ? sign : 0; /* one set has no error (NaN): not decided */
+    return fabs(x->mean - y->mean) > t * sqrt(variance) ? sign : 0;
 }
 
 koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)

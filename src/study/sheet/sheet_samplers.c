@@ -288,13 +288,10 @@ static void choose_spp(koksma__sheet *sheet)
             sheet->spp[sheet->n_spp++] = usual[k];
         }
     }
-    for (size_t i = 0; i < sheet->n_sizes && !any && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
+    const bool none = sheet->n_spp == 0; /* of the usual numbers: what else there is, the fewest first */
+    for (size_t i = 0; i < sheet->n_sizes && none && sheet->n_spp < (sheet->options->quick ? 1 : KOKSMA__SHEET_SPP);
          i++) {
-        bool there = false;
-        for (size_t k = 0; k < sheet->n_spp; k++) {
-            there |= sheet->sizes[i] == (size_t)sheet->spp[k];
-        }
-        if (!there && sheet->sizes[i] <= MOST_SPP) {
+        if (sheet->sizes[i] <= MOST_SPP) {
             sheet->spp[sheet->n_spp++] = (int)sheet->sizes[i];
         }
     }
