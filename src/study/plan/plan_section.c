@@ -47,7 +47,8 @@ static bool begins_path(const char *text, const char *at)
 static koksma_status from_plan(const koksma__json_node *node, bool is_scene, char **text)
 {
     const char *name = koksma__json_document(node), *slash = strrchr(name, '/');
-    const size_t folder = slash && strncmp(name, "./", (size_t)(slash + 2 - name)) ? (size_t)(slash + 1 - name) : 0;
+    const bool is_here = slash == name + 1 && *name == '.'; /* "./plan.json" */
+    const size_t folder = slash && !is_here ? (size_t)(slash + 1 - name) : 0;
     const bool is_path = is_scene ? strpbrk(*text, "/.") != NULL : strstr(*text, "file:") != NULL;
     if (!folder || !is_path) {
         return KOKSMA_OK;
