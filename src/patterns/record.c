@@ -6,7 +6,7 @@
  *
  *     x_ik = whole number / 10^12, from a table
  *
- * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 13 points in the
+ * Source: own searches (docs/findings/records.md). Known exactly: the least star discrepancies of 1 to 14 points in the
  * plane, which tools/prove_star.c proves, and to four digits up to 21 (Clement, Doerr, Klamroth & Paquete 2023).
  */
 #include <koksma/optimise.h>
