@@ -2,6 +2,8 @@
 /* Charts and panels of `koksma plot`: rows of a curve are stored as lists of numbers, which koksma/plot.h draws. */
 #include "charts.h"
 
+#include "source.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +18,8 @@ const char *cli_title(const char *source, char text[CLI_CHART_LABEL])
 {
     const char *label = cli_label(source), *n = NULL, *dim = NULL;
     size_t length = strlen(label);
-    for (const char *at = label == source ? NULL : strrchr(label, '@'); at && !dim;) { /* one number, or two */
+    for (const char *at = cli_source_is_pattern(source) ? strrchr(label, '@') : NULL;
+         at && !dim;) { /* one number, or two */
         dim = n;
         n = at;
         length = (size_t)(at - label);
@@ -29,8 +32,9 @@ const char *cli_title(const char *source, char text[CLI_CHART_LABEL])
     if (n) {
         const size_t used = strlen(text);
         const int digits = (int)strspn(n + 1, "0123456789");
-        snprintf(text + used, CLI_CHART_LABEL - used, ", n = %.*s%s%s", digits, n + 1, dim ? ", d = " : "",
-                 dim ? dim + 1 : "");
+        const bool plane = !dim || !strcmp(dim, "@2");
+        snprintf(text + used, CLI_CHART_LABEL - used, ", n = %.*s%s%s", digits, n + 1,
+                 plane ? "" : ", d = ", plane ? "" : dim + 1);
     }
     return text;
 }

@@ -344,7 +344,7 @@ const cli_command cli_command_rank = {
     .examples = "koksma rank ball --spp 16\n"
                 "koksma rank balls --spp 4,16 -p random,jittered,sobol:scramble=owen\n"
                 "koksma rank cornell --integrator path --time-limit 300\n"
-                "koksma rank scene.xml --with './render.sh {scene} {pattern} {spp} {seed} {out}' -p halton,zsobol\n",
+                "koksma rank s.xml -p a,b --with './r {scene} {pattern} {spp} {seed} {out}'\n",
     .options = options,
     .run = run,
 };

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _structs as s
 from ._library import ArgumentError, OutOfMemoryError, spec, whole
 from ._optimise import optimise
-from ._points import PointArray, generate, is_sequence
+from ._points import PointArray, generate, is_sequence, measures
 
 _FAR = (1 << 63) - 1
 _SCIPYS = ("random-cd", "lloyd")  # optimizations that scipy has
@@ -74,6 +74,9 @@ class Engine(_Base):
         self.d = int(d)
         if not scipys:
             self._measure: str = str(optimization)
+            if self._measure.partition(":")[0] not in {m.name for m in measures()}:
+                raise ArgumentError(f"{optimization!r} is not a valid optimization method: it takes a measure, "
+                                    f"{' or '.join(_SCIPYS)}")
             if spec("measure", self._measure).measure.contents.answer != 0:
                 raise ArgumentError(f"optimization {optimization!r}: it takes a measure with exact values, as star is")
             self.optimization_method = self._optimised

@@ -4,6 +4,8 @@
 -n N, -p PATTERN, SPEC@N and pattern:SPEC@N are the same points for every command that takes a pattern, and `all` is taken
 by every list of patterns or measures; every command that writes refuses a file whose ending it does not know, before it
 works, and names those that it does."""
+import csv
+import json
 import os
 import re
 import subprocess
@@ -13,7 +15,7 @@ import tempfile
 KOKSMA = os.path.abspath(sys.argv[1])
 failures = []
 # Options of one letter that have two names, by what they take: a set's points or a pixel's samples, one or a list.
-TWO_NAMES = {"n": {"n", "spp"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure"}}
+TWO_NAMES = {"n": {"n", "spp", "points"}, "p": {"patterns", "pattern"}, "m": {"measures", "measure"}}
 
 
 def check(good, what):
@@ -60,7 +62,7 @@ with tempfile.TemporaryDirectory() as folder:
         listed = re.findall(r"--(patterns|measures) ((?:PATTERN|MEASURE),\.\.\S*)", text)
         check(all(argument.strip("]").endswith("|all") for _, argument in listed), f"{name}: 'all' is not taken: {listed}")
         takes = re.search(r"SPEC@N", text.split("\n\n")[1]) or re.search(r"^  -p, ", text, re.M)
-        check(not takes or name in TAKES, f"{name} takes patterns, and is not tested here")
+        check(not takes or name in (*TAKES, "study"), f"{name} takes patterns, and is not tested here")
     for letter, names in letters.items():
         check(len(names) == 1 or set(names) == TWO_NAMES.get(letter), f"-{letter} is {names}")
     for name, (kind, before, behind, path) in TAKES.items():
@@ -78,12 +80,15 @@ with tempfile.TemporaryDirectory() as folder:
     optima = [result("o.txt", "optimise", "l2-star", "--steps", "1", *way, "-o", "o.txt", "--json") for way in (
         ["--from", "sobol", "-n", "16"], ["--from", "sobol@16"], ["--from", "pattern:sobol@16"], ["--from", "pattern:sobol", "-n", "16"])]
     check(all(found == optima[0] for found in optima), "optimise --from")
+    check(ask("study", "quick", "-p", "sobol", "-n", "16", "-m", "star", "-o", "quick").returncode == 0, "study quick")
+    values = {float(row["value"]) for row in csv.DictReader(ask("study", "export", "quick").stdout.splitlines())}
+    check(values == {json.loads(ask("measure", "sobol@16", "-m", "star", "--json").stdout)["value"]}, f"study quick: {values}")
     every = ask("measure", "-p", "all", "-n", "16", "-m", "star")
     check(every.returncode == 0 and len(every.stdout.splitlines()) > 25 and "leaves out" in every.stderr, f"-p all: {every.stderr}")
 
     # Files to write, by the nouns of options and operands.
     writes = {"generate": ["sobol@4", "-o"], "optimise": ["star", "-n", "4", "--steps", "1", "-o"], "curve": ["power", "sobol@16", "-o"],
-              "plot": ["sobol@16", "-o"], "render": ["ball", "-o"], "compare": ["a.pfm", "b.pfm", "-o"]}
+              "plot": ["sobol@16", "-o"], "datasheet": ["sobol", "-o"], "render": ["ball", "-o"], "compare": ["a.pfm", "b.pfm", "-o"]}
     folders = ("reproduce", "study")
     for name, text in helps.items():
         output = re.search(r"^  -o, --output (\S+)", text, re.M)

@@ -148,7 +148,8 @@ export function filterTables(text) {
 
 // A row of a table; `rows` are all, whose merged cells span those below.
 function rowNode(rows, r, visible) {
-  return element("tr", {}, ...visible.map((column, i) => {
+  const rest = visible[0].merged && !span(rows, r, visible[0].c); // its first cell stands in a row above
+  return element("tr", { class: rest ? "rest" : null }, ...visible.map((column, i) => {
     const cell = rows[r][column.c];
     if (cell === undefined) return null;
     const spanned = column.merged ? span(rows, r, column.c) : 1, name = column.type === "text" ? "name" : null;
