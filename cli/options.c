@@ -194,7 +194,9 @@ int cli_end_output(int code)
 /* Whether a file to write has an ending of its option's argument, "FILE.txt|.csv", or none. */
 static bool ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
 {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.'), *first = strchr(argument, '.');
+    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
+    const char *first = strchr(argument, '.');
+    dot = dot && dot > base && dot[1] ? dot : NULL; /* none: ".", "..", ".name" */
     char all[64] = "";
     size_t used = 0;
     for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
