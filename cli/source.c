@@ -97,7 +97,10 @@ static const char *hint(const char *operand, char *text, size_t size)
     for (const char *s = operand; *s; s++) {
         plausible = plausible && !iscntrl((unsigned char)*s); /* an error is one line */
     }
-    snprintf(text, size, plausible ? "; did you mean %s@N?" : "", operand);
+    text[0] = 0;
+    if (plausible) {
+        snprintf(text, size, "; did you mean %s@N?", operand);
+    }
     return text;
 }
 

@@ -263,7 +263,7 @@ static void texts_are_read_and_printed(void **state)
             koksma_points_fini(&points);
         }
     }
-    snprintf(text, sizeof text, "file:x,shift=2.txt%s", all);
+    snprintf(text, sizeof text, "file:x,shift=2.txt%.400s", all);
     assert_ok(koksma_pattern_spec(text, &spec));
     assert_string_equal(spec.path, "x,shift=2.txt");
     koksma_spec_text(&spec, wrong);
