@@ -269,7 +269,7 @@ static double lines_height(const char *text, double width, double height)
 
 double koksma__panel_side(const koksma_panel *panel)
 {
-    return fmax(320, 110 * (dimensions(panel) - 1));
+    return fmax(320, 110 * (dimensions(panel) - 1.0)); /* of points that may still be refused */
 }
 
 double koksma__panel_title(const koksma_panel *panel, double width)
