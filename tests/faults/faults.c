@@ -150,7 +150,7 @@ static void *json_memory(size_t size)
 /* A stream whose reads and writes come by here; the stream below it has no buffer of its own. */
 enum { MAX_FILES = 64, BUFFER = 1024 };
 static struct {
-    FILE *above;
+    _Atomic(FILE *) above;
     char buffer[BUFFER]; /* small, so that there are several writes in a short file */
 } files[MAX_FILES];
 
@@ -291,8 +291,8 @@ static int close_below(void *cookie)
 static FILE *in_pieces(FILE *stream)
 {
     for (int i = 0; stream && i < MAX_FILES; i++) {
-        if (!files[i].above) {
-            files[i].above = stream;
+        FILE *nobody = NULL;
+        if (atomic_compare_exchange_strong(&files[i].above, &nobody, stream)) {
             setvbuf(stream, files[i].buffer, _IOFBF, BUFFER);
             return stream;
         }
@@ -332,12 +332,14 @@ FILE *__wrap_fdopen(int descriptor, const char *how)
 
 int __wrap_fclose(FILE *stream)
 {
-    for (int i = 0; i < MAX_FILES; i++) {
-        if (files[i].above == stream) {
-            files[i].above = NULL;
-        }
+    int i = 0;
+    while (i < MAX_FILES && atomic_load(&files[i].above) != stream) {
+        i++;
     }
     const int code = __real_fclose(stream);
+    if (i < MAX_FILES) {
+        atomic_store(&files[i].above, NULL); /* only now: closing writes the buffer */
+    }
     if (fault_here(FAULT_CLOSE, NULL)) {
         errno = EIO;
         return EOF;
