@@ -123,7 +123,8 @@ with tempfile.TemporaryDirectory() as folder:
             "reproduce": ["./plan.json", "-o", "again", "--quick"]}
     for command, more in slow.items():
         text = on_terminal([command, *more, "--seed", "1"] if command not in ("rank", "study", "reproduce") else [command, *more], 80, None, subprocess.STDOUT)
-        bars = re.findall(r"\r\x1b\[K([^\r\n]* +(\d+) %[^\r\n]*)(.)", text, re.S)
+        # A message follows on the line that was cleared, perhaps with a percentage of its own, but has a colon.
+        bars = re.findall(r"\r\x1b\[K([^\r\n:]* +(\d+) %[^\r\n:]*)([\r\n:]|$)", text)
         check(bars and all(after == "\r" for _, _, after in bars), f"{command}: no bar, or something is printed behind it: {text[-400:]!r}")
         parts = [int(part) for _, part, _ in bars]
         check(parts == sorted(parts) and parts[-1] <= 100 and all(len(bar) < 80 for bar, _, _ in bars), f"{command}: {parts}")
