@@ -252,16 +252,23 @@ static koksma_status read_part(exr_const_context_t file, const source *s, koksma
     return r ? fail(r, KOKSMA_MALFORMED) : KOKSMA_OK;
 }
 
+/* What reading and writing have in common; forgets the last failure. */
+static exr_context_initializer_t begin(source *s)
+{
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = on_error;
+    how.alloc_fn = allocate;
+    how.user_data = s;
+    exhausted = false;
+    *message = 0;
+    return how;
+}
+
 static koksma_status read(const unsigned char *bytes, size_t size, koksma_image *out)
 {
     source s = {.bytes = bytes, .size = size};
     exr_context_t file;
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = on_error;
-    how.alloc_fn = allocate;
-    exhausted = false;
-    *message = 0;
-    how.user_data = &s;
+    exr_context_initializer_t how = begin(&s);
     how.read_fn = read_bytes;
     how.size_fn = query_size;
     how.max_image_width = how.max_image_height = KOKSMA_MAX_IMAGE_SIDE;
@@ -347,12 +354,7 @@ static koksma_status encode(const koksma_layer *layers, size_t n, const char *me
 {
     source s = {.out = out};
     exr_context_t file;
-    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = on_error;
-    how.alloc_fn = allocate;
-    exhausted = false;
-    *message = 0;
-    how.user_data = &s;
+    exr_context_initializer_t how = begin(&s);
     how.write_fn = write_bytes;
     exr_result_t r = exr_start_write(&file, "image", EXR_WRITE_FILE_DIRECTLY, &how);
     if (!r) {
