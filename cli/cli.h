@@ -116,9 +116,8 @@ typedef struct cli_work {
 /* False after an error. From here until cli_work_end, the first Ctrl-C makes keep_going false. */
 bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work);
 void cli_work_part(cli_work *work, size_t i, size_t n); /* what runs next is part i of n equal ones of the bar */
-void cli_work_end(
-    const cli_work *
-        work); /* clears the progress line, if there is one (work: NULL where it is unknown); messages and rows do so themselves */
+/* Clears the progress line, if there is one; messages and rows do so themselves. */
+void cli_work_end(void);
 bool cli_interrupted(void);
 double cli_seconds(void);                                        /* on the clock of started_s */
 const char *cli_duration(double seconds, char text[CLI_NUMBER]); /* "1 min 15 s". Returns text. */

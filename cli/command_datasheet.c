@@ -86,7 +86,7 @@ static int run(const cli_arguments *arguments)
         .quick = cli_flag(arguments, "quick"),
     };
     koksma_status status = koksma_datasheet(&options, &work.run, &json);
-    cli_work_end(&work);
+    cli_work_end();
     status = status ? status : write_sheet(output, is_page, json);
     free(json);
     return status ? cli_fail(arguments, status) : CLI_YES;

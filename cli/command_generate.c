@@ -72,7 +72,7 @@ static int run(const cli_arguments *arguments)
         return cli_fail(arguments, status);
     }
     code = generate(arguments, &source.spec, warp, seed, &work.run, &points);
-    cli_work_end(&work);
+    cli_work_end();
     koksma_points_fini(&points);
     return code;
 }

@@ -164,7 +164,7 @@ static int measure_source(measuring *j, const char *source)
         status = measuring_forgive(j, status);
     }
     koksma_points_fini(&points);
-    cli_work_end(&j->work);
+    cli_work_end();
     return status ? cli_fail(j->arguments, status) : CLI_YES;
 }
 

@@ -152,7 +152,7 @@ static int run(const cli_arguments *arguments)
         j.work.what = j.line;
         j.gained_s = cli_seconds();
         status = koksma_optimise(&measure, &j.options, &j.work.run, &best);
-        cli_work_end(&j.work);
+        cli_work_end();
         status = j.written ? j.written : status;
         if (best.points.n && !j.written) {
             code = report(&j, &best);

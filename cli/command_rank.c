@@ -174,7 +174,7 @@ static koksma_status rank_at(const cli_arguments *arguments, const koksma_rank_o
     koksma_rank_row table[MAX_PATTERNS];
     koksma_ranking ranking;
     const koksma_status status = koksma_rank_patterns(options, &work->run, table, &ranking);
-    cli_work_end(work);
+    cli_work_end();
     if (status) {
         return status;
     }
@@ -277,7 +277,7 @@ static int run(const cli_arguments *arguments)
         status = rank_at(arguments, &options, &work, rows, &settled);
         all_settled &= settled;
     }
-    cli_work_end(&work);
+    cli_work_end();
     code = status ? cli_fail(arguments, status) : all_settled ? CLI_YES : CLI_NO;
     const int rows_code = cli_rows_close(rows);
     return code > CLI_NO || !rows_code ? code : rows_code;

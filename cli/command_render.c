@@ -140,7 +140,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
                                ? koksma_render_layers(scene, options, &work.run, &layers)
                                : koksma_render_only(scene, options, &work.run, &layers);
     const double seconds = now_s() - start;
-    cli_work_end(&work);
+    cli_work_end();
     const bool done = !status || (status == KOKSMA_INTERRUPTED && layers.image.pixels);
     const koksma_status written =
         done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;

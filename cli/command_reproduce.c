@@ -120,7 +120,7 @@ static int run(const cli_arguments *arguments)
                                           .quick = cli_flag(arguments, "quick")};
     int refused = 0;
     const koksma_status status = reproduce(arguments, &options, &work, rows, &summary, &refused);
-    cli_work_end(&work);
+    cli_work_end();
     const int failed = status && status != KOKSMA_INTERRUPTED ? cli_fail(arguments, status) : refused;
     const int code = cli_rows_close(rows);
     if (status == KOKSMA_INTERRUPTED) {

@@ -126,7 +126,7 @@ static int run_study(const cli_arguments *arguments, const koksma_study_options 
     if (refused) {
         return refused;
     }
-    cli_work_end(work);
+    cli_work_end();
     if (options->folder && !cli_flag(arguments, "quiet")) {
         fprintf(
             stderr,
@@ -169,7 +169,7 @@ static int run_plans(const cli_arguments *arguments)
         options.folder = NULL;
     }
     const int code = run_study(arguments, &options, &work);
-    cli_work_end(&work);
+    cli_work_end();
     return code;
 }
 
@@ -191,7 +191,7 @@ static int run_quick(const cli_arguments *arguments)
     options.plans = &plan;
     options.n_plans = 1;
     code = run_study(arguments, &options, &work);
-    cli_work_end(&work);
+    cli_work_end();
     return code;
 }
 
@@ -230,7 +230,7 @@ static int estimate(const cli_arguments *arguments)
     options.folder = NULL;
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_estimate(study, &work.run, &cost);
-    cli_work_end(&work);
+    cli_work_end();
     koksma_study_close(study);
     if (status) {
         return cli_fail(arguments, status);
@@ -290,7 +290,7 @@ static int report(const cli_arguments *arguments)
     const koksma_study_options options = {.folder = arguments->operands[1]};
     koksma_status status = koksma_study_open(&options, &study);
     status = status ? status : koksma_study_report(study, &work.run);
-    cli_work_end(&work);
+    cli_work_end();
     const koksma_status closed = koksma_study_close(study);
     status = status ? status : closed;
     return status ? cli_fail(arguments, status) : CLI_YES;
@@ -309,7 +309,7 @@ static void put_difference(void *context, const char *text)
         cli_row_text(a->rows, "differs", text);
         cli_row_end(a->rows);
     } else {
-        cli_work_end(NULL);
+        cli_work_end();
         printf("differs: %s\n", text);
     }
 }
@@ -366,7 +366,7 @@ static int audit(const cli_arguments *arguments)
                                           .differs = speaks ? put_difference : NULL,
                                           .context = &to};
     const koksma_status status = koksma_study_audit(&options, &work.run, &found);
-    cli_work_end(&work);
+    cli_work_end();
     if (status) {
         return speaks ? cli_fail(arguments, status) : koksma_status_exit_code(status);
     }
@@ -424,7 +424,7 @@ static int images(const cli_arguments *arguments)
         return CLI_USAGE;
     }
     const koksma_status status = koksma_study_images(arguments->operands[1], reference, &work.run, &rows, &n);
-    cli_work_end(&work);
+    cli_work_end();
     if (status) {
         return cli_fail(arguments, status);
     }

@@ -124,7 +124,7 @@ static int put_findings(const cli_arguments *arguments, cli_rows *rows, const ch
     const char *expect = cli_text(arguments, "expect", NULL);
     koksma_findings findings = {0};
     const koksma_status status = koksma_verify(points, &work->run, &findings);
-    cli_work_end(work);
+    cli_work_end();
     if (!status) {
         put_rows(rows, source, points, &findings);
         *missed = expect && disappoints(expect, source, points, &findings);

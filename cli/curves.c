@@ -111,7 +111,7 @@ int cli_curves_each_set(cli_curves *c, const char *source,
         code = cli_source_points(c->arguments, source, c->seed + t, &c->work.run, &points);
         if (!code) {
             const koksma_status status = add(c, &points, context);
-            cli_work_end(&c->work);
+            cli_work_end();
             code = status              ? cli_fail(c->arguments, status)
                    : cli_interrupted() ? koksma_status_exit_code(KOKSMA_INTERRUPTED)
                                        : CLI_YES;

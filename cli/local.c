@@ -63,7 +63,7 @@ int measure_local(const cli_arguments *arguments)
         }
         koksma_points_fini(&points);
     }
-    cli_work_end(&work);
+    cli_work_end();
     const int rows_code = cli_rows_close(rows);
     return code ? code : rows_code;
 }

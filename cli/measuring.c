@@ -143,7 +143,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
         sizes[i] = (double)j->prefixes[i];
         means[i] = t->count > 0 ? t->mean : (double)NAN;
     }
-    if (!cli_slope(j->n_prefixes, sizes, means, &j->joints[measure], &line) ||
+    if (!koksma_joint_line(&j->joints[measure], j->n_prefixes, sizes, means, &line) ||
         cli_source_open(j->arguments, source, &parts)) {
         return;
     }
@@ -297,7 +297,7 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, con
         }
     }
     for (size_t m = 0; m < j->n_measures; m++) {
-        cli_joint_add(&j->joints[m], j->n_prefixes, v.values[m]);
+        koksma_joint_add(&j->joints[m], j->n_prefixes, v.values[m]);
         j->n_whole[m] += v.whole[m];
     }
     return KOKSMA_OK;
@@ -326,7 +326,7 @@ int measuring_trials(measuring *j, const char *source)
         }
         if (!code) {
             const koksma_status status = tally_points(j, own_sets ? NULL : &points, &parts, t, first);
-            cli_work_end(&j->work);
+            cli_work_end();
             code = status ? cli_fail(j->arguments, status) : CLI_YES;
         }
         koksma_points_fini(&points);

@@ -6,9 +6,8 @@
 #include <koksma/warp.h>
 
 #include "cli.h"
-#include "slope.h"
 
-enum { MAX_MEASURES = 64, MAX_PREFIXES = CLI_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
+enum { MAX_MEASURES = 64, MAX_PREFIXES = KOKSMA_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
 
 /* What `measure` is told, and where it is. */
 typedef struct measuring {
@@ -30,7 +29,7 @@ typedef struct measuring {
     size_t *n_exact;       /* likewise: of how many trials the value is exact */
     size_t *n_cut;         /* [measure]: values of all sources that are bounds, as the search was cut short */
     size_t *n_whole;       /* [measure]: trials whose values are exact at all prefixes */
-    cli_joint *joints;     /* [measure] */
+    koksma_joint *joints;  /* [measure] */
     bool bounds, sampled;  /* rows have the columns of bounds, of standard errors */
     /* --paired: the first source's values by trial, [prefix][measure] each, and tallies of what others have more */
     bool paired;

@@ -250,7 +250,7 @@ int cli_run(const cli_command *command, int argc, char **argv)
         free(arguments.joined[i]);
     }
     cli_sources_free(&arguments);
-    cli_work_end(NULL);
+    cli_work_end();
     return cli_end_output(code);
 }
 
@@ -325,7 +325,7 @@ static void put_line(const char *command, const char *format, va_list list)
     char text[4096];
     vsnprintf(text, sizeof text, format, list);
     koksma_text_escape(text, sizeof text);
-    cli_work_end(NULL);
+    cli_work_end();
     fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
 }
 

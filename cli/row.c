@@ -75,7 +75,7 @@ static void json_text(const char *text)
 static void json_key(cli_rows *rows, const char *key)
 {
     if (!rows->started) {
-        cli_work_end(NULL);
+        cli_work_end();
     }
     fputs(rows->started ? "," : "{", stdout);
     rows->started = true;
@@ -162,7 +162,7 @@ void cli_row_end(cli_rows *rows)
 int cli_rows_close(cli_rows *rows)
 {
     if (!rows->failed && !rows->json) {
-        cli_work_end(NULL);
+        cli_work_end();
         cli_table_print(rows->cells, rows->n, is_long ? 0 : cli_terminal_width(STDOUT_FILENO));
     }
     const bool failed = rows->failed;

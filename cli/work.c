@@ -123,9 +123,8 @@ void cli_work_part(cli_work *work, size_t i, size_t n)
     work->share = 1 / (double)n;
 }
 
-void cli_work_end(const cli_work *work)
+void cli_work_end(void)
 {
-    (void)work; /* there is one line */
     if (shown) {
         fputs("\r\033[K", stderr);
         fflush(stderr);

@@ -10,11 +10,10 @@
 #include <string.h>
 
 #include "../bounds.h"
-#include "../slope.h"
 #include "../source.h"
 #include "curve_convergence.h"
 
-enum { MAX_SIZES = CLI_MAX_SIZES, PER_SOURCE = 3 };
+enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
 /* A file has prefixes of all sizes. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
@@ -56,7 +55,7 @@ static bool choose_sizes(const cli_curves *c, const cli_source *source, size_t n
 typedef struct means {
     size_t sizes[MAX_SIZES], count;
     koksma_tally tallies[MAX_SIZES];
-    cli_joint joint;
+    koksma_joint joint;
     size_t n_cut; /* values that are bounds, as the search was cut short */
 } means;
 
@@ -86,10 +85,10 @@ static int tally_sizes(cli_curves *c, const koksma_spec *measure, const cli_sour
             }
         }
         if (!status) {
-            cli_joint_add(&v->joint, v->count, values);
+            koksma_joint_add(&v->joint, v->count, values);
         }
     }
-    cli_work_end(&c->work);
+    cli_work_end();
     return status ? cli_fail(c->arguments, status) : CLI_YES;
 }
 
@@ -156,7 +155,7 @@ static int add_convergence(cli_curves *c, const koksma_spec *measure, const char
         numbers[2 * s->per + i] = koksma_tally_error(&v->tallies[i]);
     }
     koksma_line line;
-    const bool fitted = cli_slope(v->count, numbers, numbers + s->per, &v->joint, &line);
+    const bool fitted = koksma_joint_line(&v->joint, v->count, numbers, numbers + s->per, &line);
     char *n = strstr(cli_title(text, label), ", n = "), *d = n ? strstr(n, ", d = ") : NULL;
     if (n) { /* the axis has it */
         memmove(n, d ? d : "", d ? strlen(d) + 1 : 1);

@@ -64,7 +64,7 @@ static int add_points(cli_curves *c, const char *source, koksma_points *points, 
         if (!status) {
             status = koksma_evaluate(&measure, points, &c->work.run, value);
         }
-        cli_work_end(&c->work);
+        cli_work_end();
         if (status) {
             return cli_fail(c->arguments, status);
         }
