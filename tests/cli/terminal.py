@@ -5,16 +5,16 @@ several widths: no line is wider; every column of the table that a pipe gets is 
 out; and a terminal that is wide enough, or --long, shows what a pipe gets, where nothing is cut. Numbers of a pipe are those
 of JSON to five digits; JSON and files hold them to the last bit. Every command that may take long shows one bar, which never
 falls and is gone before anything else is printed."""
-import fcntl
 import json
 import os
-import pty
 import re
-import struct
 import subprocess
 import sys
 import tempfile
-import termios
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from pseudo_terminal import shown  # pylint: disable=wrong-import-position
 
 KOKSMA = os.path.abspath(sys.argv[1])
 failures, tables = [], 0
@@ -30,18 +30,7 @@ def on_terminal(arguments, width, columns=None, stderr=subprocess.DEVNULL):
     """What the program prints on a terminal of a width: its stdout, and its stderr when it is told to be STDOUT."""
     environment = {key: value for key, value in os.environ.items() if key != "COLUMNS"}
     environment |= {"COLUMNS": str(columns)} if columns else {}
-    shown = []
-    master, slave = pty.openpty()
-    fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
-    with subprocess.Popen([KOKSMA, *arguments], stdin=subprocess.DEVNULL, stdout=slave, stderr=stderr, env=environment):
-        os.close(slave)
-        try:
-            while text := os.read(master, 1 << 16):
-                shown.append(text)
-        except OSError:  # the other end is closed
-            pass
-    os.close(master)
-    return b"".join(shown).decode().replace("\r\n", "\n")
+    return shown([KOKSMA, *arguments], width, environment, stderr=stderr)[0]
 
 
 def piped(*arguments):
@@ -80,8 +69,8 @@ with tempfile.TemporaryDirectory() as folder:
     for kind in lists:
         look("list", kind)
         if kind not in ("records", "parameters", "plans", "formats"):
-            shown = on_terminal(["list", kind], 80)
-            check(re.search(r"^\w+ +what( |$)", shown, re.M), f"list {kind}: what the names are does not come first: {shown}")
+            text = on_terminal(["list", kind], 80)
+            check(re.search(r"^\w+ +what( |$)", text, re.M), f"list {kind}: what the names are does not come first: {text}")
     for row in rows("list", "patterns"):
         check(row["source"] in piped("list", "patterns") and row["claims"] in piped("list", "patterns"), "a pipe's table is cut")
     subprocess.run([KOKSMA, "generate", "random", "-n", "32", "-o", "a file of points whose name is rather long, with a comma.txt"], check=True)

@@ -7,7 +7,6 @@ import ast
 import html.parser
 import json
 import os
-import pty
 import re
 import subprocess
 import sys
@@ -15,6 +14,9 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "tests"))
+from pseudo_terminal import shown  # pylint: disable=wrong-import-position
+
 VOID = {"meta", "link", "img", "br", "hr", "input"}
 failures = []
 
@@ -54,15 +56,6 @@ class Page(html.parser.HTMLParser):
         self.words.append(data)
 
 
-def told(terminal):
-    """What a program writes to a terminal until it ends."""
-    try:
-        while text := os.read(terminal, 4096).decode():
-            yield text
-    except OSError:  # the other end is closed
-        return
-
-
 def names(program, kind, column):
     """The members of a table."""
     out = subprocess.run([program, "list", kind, "--json"], check=True, capture_output=True, text=True).stdout
@@ -75,13 +68,10 @@ if subprocess.run(["/usr/bin/python3", "-c", "import markdown"], capture_output=
 with tempfile.TemporaryDirectory() as folder:
     site = Path(folder)
     PROGRAM = str(Path(sys.argv[1]).resolve())
-    terminal, slave = pty.openpty()
-    with subprocess.Popen([ROOT / "tools/make_docs.py", PROGRAM, site, "--quick"], stdout=subprocess.DEVNULL, stderr=slave) as made:
-        os.close(slave)
-        shown = "".join(told(terminal))
-    check(made.returncode == 0, f"make_docs.py ends with {made.returncode}: {shown}")
-    parts = [(int(a), int(b)) for a, b in re.findall(r"make docs: (\d+) of (\d+) parts", shown)]
-    check(len(parts) > 80 and parts[-1][0] == parts[-1][1] == len(parts) and shown.endswith("\r\x1b[K"), f"the progress: {shown[-200:]!r}")
+    bar, code = shown([ROOT / "tools/make_docs.py", PROGRAM, site, "--quick"], stdout=subprocess.DEVNULL)
+    check(code == 0, f"make_docs.py ends with {code}: {bar}")
+    parts = [(int(a), int(b)) for a, b in re.findall(r"make docs: (\d+) of (\d+) parts", bar)]
+    check(len(parts) > 80 and parts[-1][0] == parts[-1][1] == len(parts) and bar.endswith("\r\x1b[K"), f"the progress: {bar[-200:]!r}")
     pages = {path: Page(path) for path in site.rglob("*.html") if path.name != "explorer.html"}
     reached, left = set(), [site / "index.html"]
     while left:
