@@ -136,7 +136,7 @@ class Site:
 
     def explorer_link(self, name):
         """A pattern in the explorer."""
-        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and name != "file" else ""
+        return f"<p><a href='../explorer.html#a={name}@16'>Try {name} in the explorer</a></p>" if self.explorer and name not in ("file", "lattice-file", "net-file") else ""
 
     def cite(self, keys, name, kind):
         """The references of a member as links, entered into the index of references."""

@@ -22,6 +22,11 @@ from docs_site import ROOT, Program, Site, table
 from docs_tables import small_tables
 
 PLAIN = ("star", "l2-star", "extreme", "edge", "l2-periodic", "relative-radius")  # the columns of a pattern's page
+FILES = {  # what the patterns that read a file are shown with; file has points
+    "file": ("from-elsewhere.csv", None),
+    "lattice-file": ("vector.txt", "# lattice\n2 # dimensions\n1048576 # points\n1\n182667\n"),
+    "net-file": ("net.txt", "d s a m_i\n2 1 0 1\n"),
+}
 COMPARED = ("random", "jittered", "n-rooks", "sobol:scramble=owen")  # the curves of a chart
 
 
@@ -30,7 +35,7 @@ def spec_at(row, n):
     d = re.search(r"\bd=([\d.]+)", row["parameters"])
     if d and float(d[1]) > 0 and n > 16:
         return f"{row['pattern']}:d={float(d[1]) * 4 / n**0.5:.3g}"
-    return row["pattern"] if row["pattern"] != "file" else "file:from-elsewhere.csv"
+    return row["pattern"] + (":" + FILES[row["pattern"]][0] if row["pattern"] in FILES else "")
 
 
 def source_at(program, row, n, dim=""):
@@ -114,7 +119,7 @@ def pattern_pictures(site, row):
     n = int(few.split("@")[1])
     grid = ["--rooks"] if {"latin", "net2"} & set(claims) else ["--grid", f"{round(n**0.5)}"] if round(n**0.5) ** 2 == n else []
     trials = "2" if program.quick else "10"
-    deterministic = "deterministic" in claims or name == "file"
+    deterministic = "deterministic" in claims or name in FILES
     figures = [
         program.picture(f"{name}-few.svg", "plot", few, *grid, "--size", "280", alt=f"{n} points"),
         program.picture(f"{name}.svg", "plot", many, "--size", "280", alt=f"{many.split('@')[1]} points"),
@@ -165,7 +170,7 @@ def ranking(site, name, numbers):
     lines = []
     for row in site.lists["patterns"]:
         values = numbers[row["pattern"]]["values"]
-        if numbers[row["pattern"]]["dim"] != "2" or "another name" in row["what"] or row["pattern"] == "file":
+        if numbers[row["pattern"]]["dim"] != "2" or "another name" in row["what"] or row["pattern"] in FILES:
             continue
         near = [next((v.get(name) for k, v in values.items() if abs(k - n) <= n // 5 + 1), None) for n in sizes]
         where = [next((k for k in values if abs(k - n) <= n // 5 + 1), n) for n in sizes]
@@ -250,7 +255,10 @@ def main():
     pictures = arguments.folder / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     program = Program(str(Path(arguments.program).resolve()), pictures, arguments.quick)
-    program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", "from-elsewhere.csv")
+    program.try_run("generate", "r-sequence", "-n", "256", "-q", "-o", FILES["file"][0])
+    for path, content in FILES.values():
+        if content:
+            (program.folder / path).write_text(content, encoding="utf-8")
     site = Site(program, arguments.folder)
     patterns, progress, numbers = site.lists["patterns"], site.progress, {}
 

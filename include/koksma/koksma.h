@@ -230,7 +230,7 @@ struct koksma_pattern {
    the table. In a renderer each pixel has a seed, so that a random one makes its pixels differ. */
 typedef struct koksma_modifier {
     const char *name, *title, *cite;
-    double max;             /* its value is a whole number from 0, not applied, to max */
+    double min, max;        /* its value is 0, not applied, or a whole number from min to max */
     bool random;            /* depends on the seed */
     unsigned claims;        /* what a pattern claims and its points still keep */
     unsigned claims_binary; /* the same, where n is a power of 2 */

@@ -34,7 +34,7 @@ class Pattern(Structure):
 
 
 class Modifier(Structure):
-    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("max", c_double), ("random", c_bool),
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("min", c_double), ("max", c_double), ("random", c_bool),
                 ("claims", c_uint), ("claims_binary", c_uint), ("gives", c_uint), ("measures", c_char_p), ("keeps", c_char_p)]
 
 

@@ -14,10 +14,8 @@
 /* What does not depend on the dimension: the path and the modifiers. */
 static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p)
 {
-    koksma__all_params modifiers;
-    koksma__all_params_init(&modifiers, NULL);
     return memchr(spec->path, '\0', sizeof spec->path)
-               ? koksma__params_check(p->name, modifiers.params, spec->modifiers)
+               ? koksma__modifiers_check(p->name, spec->modifiers)
                : koksma__fail(KOKSMA_ARGUMENT, "the path of a spec is longer than %d characters",
                               KOKSMA_MAX_SPEC - 1);
 }
@@ -38,7 +36,7 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
 {
     const koksma_pattern *p = pattern_of(spec);
     bool deterministic = !koksma__modifiers_are_random(spec->modifiers) && p->claims & KOKSMA_CLAIM_DETERMINISTIC &&
-                         !(p->takes_path && koksma__file_has(spec->path, "{seed}"));
+                         !(koksma__reads_points(p) && koksma__file_has(spec->path, "{seed}"));
     for (int k = 0; p->params && p->params[k].name; k++) {
         if (!strcmp(p->params[k].name, "scramble") || !strcmp(p->params[k].name, "shuffle")) {
             deterministic = deterministic && spec->params[k] == 0;

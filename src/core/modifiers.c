@@ -10,6 +10,10 @@
  *                    nested uniform scrambling in base 2                            (Owen 1995)
  *     axes           x_k becomes x_p(k), p a random permutation
  *     mirror         x_k becomes 1 - 2^-53 - x_k or stays, with probability 1/2 each
+ *     owen-base=B    owen's scrambling in base B: digit m goes through a random permutation of its own for each value of the
+ *                    digits before it
+ *     tent           x_k becomes 1 - |2 x_k - 1|, the baker's or tent transform, at most 1 - 2^-53: behind shift, a lattice
+ *                    integrates smooth functions that are not periodic with errors near n^-2          (Hickernell 2002)
  *
  * Digits are the first 53. A random bit of owen is found by its node of the tree of digits: one call of the generator has
  * the 127 bits of seven levels below a node. The mirror image flips all 53 digits: half-open strata go to half-open ones.
@@ -20,8 +24,9 @@
 #include <string.h>
 
 #include "core/random.h"
+#include "core/status.h"
 
-enum { DIGITS = 53, LEVELS = 7 };
+enum { DIGITS = 53, LEVELS = 7, MOST_BASE = 64 };
 
 #define ON_TORUS                                                                                                     \
     (KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |                \
@@ -42,8 +47,9 @@ static uint64_t digits_of(double x)
     return (uint64_t)(x * 0x1p53);
 }
 
-static void scramble(uint64_t seed, koksma_points *points)
+static void scramble(uint64_t seed, double value, koksma_points *points)
 {
+    (void)value;
     const size_t dim = (size_t)points->dim;
     for (size_t c = 0; c < points->n * dim; c++) {
         const uint64_t x = digits_of(points->xs[c]);
@@ -60,8 +66,55 @@ static void scramble(uint64_t seed, koksma_points *points)
     }
 }
 
-static void flip_digits(uint64_t seed, koksma_points *points)
+/* Digits in a base: x is the nearest double to, or just above, a multiple of base^-digits, as nets have them. */
+static uint64_t digits_in_base(double x, double scale)
 {
+    const uint64_t floor = (uint64_t)(x * scale);
+    return floor + ((double)(floor + 1) / scale <= x) - ((double)floor / scale > x);
+}
+
+/* Where a digit goes at a node of the tree of digits: Fisher-Yates with a call of the generator for each place. */
+static uint32_t permuted(uint64_t seed, uint32_t lane, uint64_t node, uint32_t base, uint32_t digit)
+{
+    uint32_t order[MOST_BASE];
+    koksma__words r = {{0}};
+    for (uint32_t i = 0; i < base; i++) {
+        order[i] = i;
+    }
+    for (uint32_t i = base - 1, draw = 0; i > 0; i--, draw++) {
+        r = draw % 4 ? r : koksma__random(seed, KOKSMA__PURPOSE_BASE, node, lane << 8 | draw / 4);
+        const uint32_t j = koksma__below(r.w[draw % 4], i + 1), moved = order[i];
+        order[i] = order[j];
+        order[j] = moved;
+    }
+    return order[digit];
+}
+
+static void scramble_in_base(uint64_t seed, double value, koksma_points *points)
+{
+    const uint32_t base = (uint32_t)value;
+    const size_t dim = (size_t)points->dim;
+    uint64_t powers[DIGITS + 1] = {1};
+    int digits = 0;
+    for (; base > 1 && powers[digits] <= (UINT64_C(1) << DIGITS) / base; digits++) {
+        powers[digits + 1] = powers[digits] * base;
+    }
+    const double scale = (double)powers[digits];
+    for (size_t c = 0; c < points->n * dim; c++) {
+        const uint64_t x = digits_in_base(points->xs[c], scale);
+        uint64_t y = 0;
+        for (int m = 0; m < digits; m++) { /* a node: the digits before, behind those of all shorter ones */
+            const uint64_t before = x / powers[digits - m], digit = x / powers[digits - m - 1] % base;
+            y = y * base +
+                permuted(seed, (uint32_t)(c % dim), before + (powers[m] - 1) / (base - 1), base, (uint32_t)digit);
+        }
+        points->xs[c] = (double)y / scale;
+    }
+}
+
+static void flip_digits(uint64_t seed, double value, koksma_points *points)
+{
+    (void)value;
     for (int k = 0; k < points->dim; k++) {
         const koksma__words r = koksma__random(seed, KOKSMA__PURPOSE_DIGITS, 0, (uint32_t)k);
         const uint64_t u = digits_of(koksma__unit(r.w[0], r.w[1]));
@@ -72,8 +125,9 @@ static void flip_digits(uint64_t seed, koksma_points *points)
     }
 }
 
-static void permute_axes(uint64_t seed, koksma_points *points)
+static void permute_axes(uint64_t seed, double value, koksma_points *points)
 {
+    (void)value;
     uint32_t order[KOKSMA_MAX_DIM];
     double row[KOKSMA_MAX_DIM];
     const size_t dim = (size_t)points->dim;
@@ -87,8 +141,9 @@ static void permute_axes(uint64_t seed, koksma_points *points)
     }
 }
 
-static void mirror(uint64_t seed, koksma_points *points)
+static void mirror(uint64_t seed, double value, koksma_points *points)
 {
+    (void)value;
     for (int k = 0; k < points->dim; k++) {
         const bool turned = koksma__random(seed, KOKSMA__PURPOSE_MIRROR, 0, (uint32_t)k).w[0] & 1;
         for (size_t i = 0; turned && i < points->n; i++) {
@@ -99,7 +154,7 @@ static void mirror(uint64_t seed, koksma_points *points)
 }
 
 /* x + u on the torus; never 1. */
-static void shift(uint64_t seed, koksma_points *points)
+static void shift_by(uint64_t seed, koksma_points *points)
 {
     double u[KOKSMA_MAX_DIM + 1];
     for (int k = 0; k < points->dim; k += 2) {
@@ -114,33 +169,64 @@ static void shift(uint64_t seed, koksma_points *points)
     }
 }
 
+static void shift(uint64_t seed, double value, koksma_points *points)
+{
+    (void)value;
+    shift_by(seed, points);
+}
+
+static void shift_to_phase(uint64_t seed, double value, koksma_points *points)
+{
+    (void)seed;
+    shift_by((uint64_t)value, points);
+}
+
+static void fold(uint64_t seed, double value, koksma_points *points)
+{
+    (void)seed, (void)value;
+    for (size_t c = 0; c < points->n * (size_t)points->dim; c++) {
+        const double x = points->xs[c], y = x < 0.5 ? 2 * x : 2 * (1 - x); /* without rounding */
+        points->xs[c] = y < 1 ? y : 1 - 0x1p-53;
+    }
+}
+
 static const struct {
     koksma_modifier modifier;
-    void (*apply)(uint64_t seed, koksma_points *points);
+    void (*apply)(uint64_t seed, double value, koksma_points *points);
 } rows[] = {
-    {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, true, OF_DIGITS, OF_CELLS,
-      KOKSMA_CLAIM_UNBIASED, "t-value",
+    {{"owen", "nested uniform scrambling of binary digits (1), or none (0)", "owen1995", 1, 1, true, OF_DIGITS,
+      OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
       "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
      scramble},
     {{"digital-shift", "xor of the binary digits with those of one random point (1), or none (0)", "lecuyer2002", 1,
-      true, OF_DIGITS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
+      1, true, OF_DIGITS, OF_CELLS, KOKSMA_CLAIM_UNBIASED, "t-value",
       "elementary intervals in base 2: nets, and strata where n is a power of 2; t-value in base 2"},
      flip_digits},
-    {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, true, OF_CUBE, 0, 0, "*",
+    {{"axes", "a random order of the coordinates (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0, 0, "*",
       "every measure, and all strata that do not single out a coordinate"},
      permute_axes},
-    {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, true, OF_CUBE, 0, 0,
-      MIRROR_MEASURES,
+    {{"mirror", "each coordinate reflected about 1/2 or not, at random (1), or none (0)", "-", 1, 1, true, OF_CUBE, 0,
+      0, MIRROR_MEASURES,
       "strata, distances, and measures that do not single out the corner 0: not star, l2-star and l2-modified"},
      mirror},
     {{"phase", "shifted on the torus by the vector that shift has for this seed (1 or more), or not (0)",
-      "cranley1976", UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
+      "cranley1976", 1, UINT32_MAX, false, ON_TORUS | KOKSMA_CLAIM_DETERMINISTIC, 0, 0, TORUS_MEASURES,
       "distances and measures on the torus (l2-periodic, diaphony, disk), lattices; the same for every seed"},
-     shift},
-    {{"shift", "shifted on the torus by one random vector (1), or not (0)", "cranley1976", 1, true, ON_TORUS, 0,
+     shift_to_phase},
+    {{"shift", "shifted on the torus by one random vector (1), or not (0)", "cranley1976", 1, 1, true, ON_TORUS, 0,
       KOKSMA_CLAIM_UNBIASED, TORUS_MEASURES,
       "distances and measures on the torus (l2-periodic, diaphony, disk), lattices"},
      shift},
+    {{"owen-base", "nested uniform scrambling of the digits in this base (2 to 64), or none (0)", "owen1995", 2,
+      MOST_BASE, true, KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE,
+      0, KOKSMA_CLAIM_UNBIASED, "", "elementary intervals in that base: nets in the base, and their t-value there"},
+     scramble_in_base},
+    {{"tent", "the tent (baker's) transform 1 - |2 x - 1| of each coordinate (1), or none (0)", "hickernell2002", 1,
+      1, false,
+      KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |
+          KOKSMA_CLAIM_DETERMINISTIC,
+      0, 0, "", "uniformity in the mean; the same for every seed"},
+     fold},
 };
 
 enum { COUNT = sizeof rows / sizeof *rows };
@@ -156,9 +242,21 @@ void koksma__modify(const double *values, uint64_t seed, koksma_points *points)
 {
     for (size_t i = 0; i < COUNT; i++) {
         if (values[i] > 0) {
-            rows[i].apply(rows[i].modifier.random ? seed : (uint64_t)values[i], points);
+            rows[i].apply(seed, values[i], points);
         }
     }
+}
+
+koksma_status koksma__modifiers_check(const char *pattern, const double *values)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        const koksma_modifier *m = &rows[i].modifier;
+        KOKSMA__FAIL_IF(
+            !(values[i] == 0 || (values[i] >= m->min && values[i] <= m->max && values[i] == floor(values[i]))),
+            KOKSMA_ARGUMENT, "%s: %s=%.17g: it takes 0 or whole numbers from %.9g to %.9g", pattern, m->name,
+            values[i], m->min, m->max);
+    }
+    return KOKSMA_OK;
 }
 
 bool koksma__modifiers_are_random(const double *values)

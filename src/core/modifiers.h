@@ -17,10 +17,13 @@ void koksma__all_params_init(koksma__all_params *all, const koksma_param *own);
 
 /* Where the modifiers at the end of "PATH,shift=1,phase=3" begin: at a comma, or at the text's end. What has a dot or
    a slash is still of the path: x,shift=1.txt is a file's name. */
-const char *koksma__modifiers_of_path(const char *text);
+KOKSMA__LAB const char *koksma__modifiers_of_path(const char *text);
 
 /* Applies all modifiers that are not 0 to points in [0,1), which stay there. */
 void koksma__modify(const double *values, uint64_t seed, koksma_points *points);
+
+/* Errors: ARGUMENT (a value that the table does not allow). */
+koksma_status koksma__modifiers_check(const char *pattern, const double *values);
 
 /* Whether one of them depends on the seed. */
 KOKSMA__LAB bool koksma__modifiers_are_random(const double *values);

@@ -27,7 +27,8 @@ typedef enum koksma__purpose {
     KOKSMA__PURPOSE_NESTED,   /* the modifiers owen, digital-shift, axes and mirror */
     KOKSMA__PURPOSE_DIGITS,
     KOKSMA__PURPOSE_AXES,
-    KOKSMA__PURPOSE_MIRROR
+    KOKSMA__PURPOSE_MIRROR,
+    KOKSMA__PURPOSE_BASE /* the modifier owen-base */
 } koksma__purpose;
 
 typedef struct koksma__words {

@@ -52,7 +52,7 @@ static bool make(size_t i, size_t n, uint64_t seed, koksma_spec *spec, koksma_po
 static void check_claims(const koksma_modifier *m, size_t at, koksma_spec spec, size_t n, int dim)
 {
     koksma_points points;
-    spec.modifiers[at] = 1;
+    spec.modifiers[at] = m->min;
     const unsigned left = koksma__claims_left(&spec, n);
     const bool power = !(n & (n - 1));
     assert_int_equal(left, (spec.pattern->claims & (m->claims | (power ? m->claims_binary : 0))) | m->gives);
@@ -200,6 +200,95 @@ static void digits_are_scrambled_by_definition(void **state)
     }
 }
 
+/* Owen's definition in base 3: images agree in as many leading digits as x and y do and differ in the next; that digit of x
+   goes to each value, and the pair to each of the six ordered pairs, equally often. A net in base 3 stays one. */
+static void digits_of_a_base_are_scrambled_by_definition(void **state)
+{
+    (void)state;
+    enum { SEEDS = 3000 };
+    size_t at = 0;
+    modifier("owen-base", &at);
+    for (int common = 0; common < 6; common++) {
+        const double width = pow(3, -common - 1), x = floor(0.61 * pow(3, common)) * 3 * width, y = x + width;
+        size_t pairs[3][3] = {{0}};
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
+            double xs[2] = {x, y}, values[KOKSMA_MAX_MODIFIERS] = {0};
+            koksma_points points = {2, 1, xs};
+            values[at] = 3;
+            koksma__modify(values, seed, &points);
+            const uint64_t a = (uint64_t)(xs[0] / width), b = (uint64_t)(xs[1] / width);
+            assert_int_equal(a / 3, b / 3);
+            pairs[a % 3][b % 3]++;
+        }
+        double chi = 0;
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(pairs[i][i], 0);
+            for (int j = 0; j < 3; j++) {
+                chi += i == j ? 0 : pow((double)pairs[i][j] - SEEDS / 6.0, 2) / (SEEDS / 6.0);
+            }
+        }
+        assert_true(chi < 20.5); /* five degrees of freedom, one in a thousand */
+    }
+    static const struct {
+        const char *measure, *pattern;
+        size_t n;
+        int dim;
+    } nets[] = {
+        {"t-value:base=3", "faure", 243, 3}, {"t-value:base=5", "faure", 125, 5}, {"t-value:base=2", "sobol", 64, 2}};
+    for (size_t i = 0; i < sizeof nets / sizeof *nets; i++) {
+        koksma_spec spec, what;
+        koksma_points points;
+        koksma_value value;
+        assert_ok(koksma_pattern_spec(nets[i].pattern, &spec));
+        assert_ok(koksma_measure_spec(nets[i].measure, &what));
+        spec.modifiers[at] = nets[i].measure[strlen(nets[i].measure) - 1] - '0';
+        assert_ok(koksma_points_init(&points, nets[i].n, nets[i].dim));
+        assert_ok(koksma_generate(&spec, 9, NULL, &points));
+        assert_ok(koksma_evaluate(&what, &points, NULL, &value));
+        assert_true(value.value == 0);
+        assert_true(points.xs[0] != 0);
+        koksma_points_fini(&points);
+    }
+    koksma_spec spec;
+    koksma_points points;
+    assert_ok(koksma_pattern_spec("sobol:owen-base=1", &spec));
+    assert_ok(koksma_points_init(&points, 4, 2));
+    assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
+    koksma_points_fini(&points);
+}
+
+/* tent is 1 - |2x - 1|, below 1; behind a shift the mean over a lattice of x^2 y has a far smaller error than without. */
+static void tents_fold_the_cube(void **state)
+{
+    (void)state;
+    size_t at = 0;
+    modifier("tent", &at);
+    double xs[] = {0, 0.25, 0.5, 0.75, 1 - 0x1p-53, 0x1p-53, 0.3}, values[KOKSMA_MAX_MODIFIERS] = {0};
+    const double expected[] = {0, 0.5, 1 - 0x1p-53, 0.5, 0x1p-52, 0x1p-52, 0.6};
+    koksma_points points = {7, 1, xs};
+    values[at] = 1;
+    koksma__modify(values, 5, &points);
+    for (size_t i = 0; i < 7; i++) {
+        assert_true(xs[i] == expected[i]);
+    }
+    double squares[2] = {0};
+    for (int tent = 0; tent < 2; tent++) {
+        for (uint64_t seed = 0; seed < 50; seed++) {
+            koksma_spec spec;
+            assert_ok(koksma_pattern_spec(tent ? "lattice-rank1:shift=1,tent=1" : "lattice-rank1:shift=1", &spec));
+            assert_ok(koksma_points_init(&points, 1021, 2));
+            assert_ok(koksma_generate(&spec, seed, NULL, &points));
+            double sum = 0;
+            for (size_t i = 0; i < points.n; i++) {
+                sum += points.xs[2 * i] * points.xs[2 * i] * points.xs[2 * i + 1];
+            }
+            squares[tent] += pow(sum / (double)points.n - 1.0 / 6, 2);
+            koksma_points_fini(&points);
+        }
+    }
+    assert_true(squares[1] < squares[0] / 1000);
+}
+
 /* shift adds the same vector to all points; phase=K is shift with seed K. */
 static void shifts_move_all_points_alike(void **state)
 {
@@ -244,7 +333,7 @@ static void texts_are_read_and_printed(void **state)
             for (int k = 0; p->params && p->params[k].name; k++) {
                 assert_string_not_equal(p->params[k].name, m->name);
             }
-            snprintf(text, sizeof text, "%s:%s%s=1", p->name, p->takes_path ? "a,b=c/d," : "", m->name);
+            snprintf(text, sizeof text, "%s:%s%s=%.0f", p->name, p->takes_path ? "a,b=c/d," : "", m->name, m->min);
             assert_ok(koksma_pattern_spec(text, &spec));
             assert_true(spec.modifiers[at] > 0);
             koksma_spec_text(&spec, wrong);
@@ -276,6 +365,8 @@ int main(void)
         cmocka_unit_test(claims_are_kept),
         cmocka_unit_test(measures_are_kept),
         cmocka_unit_test(digits_are_scrambled_by_definition),
+        cmocka_unit_test(digits_of_a_base_are_scrambled_by_definition),
+        cmocka_unit_test(tents_fold_the_cube),
         cmocka_unit_test(shifts_move_all_points_alike),
         cmocka_unit_test(texts_are_read_and_printed),
     };

@@ -110,6 +110,8 @@ def named_by_files(folder):
         ("MESH", ".obj", "model of a plan", lambda name: in_plan(scenes=["./" + name])),
         ("POINTS", ".txt", "pattern of a plan", lambda name: in_plan(pattern="file:" + name)),
         ("POINTS", ".npy", "pattern of a plan", lambda name: in_plan(pattern="file:" + name)),
+        ("PARAMETERS", ".txt", "net of a plan", lambda name: in_plan(pattern="net-file:" + name)),
+        ("PARAMETERS", ".txt", "lattice of a plan", lambda name: in_plan(pattern="lattice-file:" + name)),
     ]
 
 

@@ -136,7 +136,7 @@ uint64_t koksma__first_seed(const koksma_spec *spec, size_t n)
     koksma__file_set *sets = NULL;
     size_t count = 0;
     uint64_t seed = 0;
-    if (spec->pattern->takes_path && koksma__file_has(spec->path, place_seed) &&
+    if (koksma__reads_points(spec->pattern) && koksma__file_has(spec->path, place_seed) &&
         !koksma__file_sets(spec->path, &sets, &count)) {
         for (size_t i = count; i-- > 0;) {
             seed = sets[i].n == n || !sets[i].n ? sets[i].seed : seed;

@@ -7,6 +7,12 @@
 
 #include "core/visibility.h"
 
+/* Whether a pattern's points are those of a file, and not made from its parameters. */
+static inline bool koksma__reads_points(const koksma_pattern *pattern)
+{
+    return pattern->takes_path && pattern->whole;
+}
+
 /* Whether a path has the place, "{n}" or "{seed}". */
 KOKSMA__LAB bool koksma__file_has(const char *path, const char *place);
 

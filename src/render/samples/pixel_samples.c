@@ -269,7 +269,7 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
 {
     const size_t n = (size_t)options->spp;
     *n_sets = 1;
-    if (spec->pattern->takes_path && !koksma__modifiers_are_random(spec->modifiers) &&
+    if (koksma__reads_points(spec->pattern) && !koksma__modifiers_are_random(spec->modifiers) &&
         koksma__file_has(spec->path, "{seed}")) {
         return read_sets(spec, n, dims, fixed, n_sets);
     }

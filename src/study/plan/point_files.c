@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The files of points that a plan's patterns name (file:PATH). A result depends on what is in them, so that their
-   hash is part of its key: a file that is changed gives new rows and leaves the old ones alone. */
+/* The files of points and parameters that a plan's patterns name (file:PATH, net-file:PATH). A result depends on what is
+   in them, so that their hash is part of its key: a file that is changed gives new rows and leaves the old ones alone. */
 #include "study/plan/point_files.h"
 
 #include <stdio.h>
@@ -8,25 +8,28 @@
 #include <string.h>
 
 #include "core/capacity.h"
+#include "core/modifiers.h"
 #include "core/read_file.h"
 #include "patterns/shared/file_names.h"
 
-static const char prefix[] = "file:";
-
-/* Where the path begins in a pattern or a reference's name, and how long it is; NULL: in none. */
+/* Where the path begins in a pattern or a reference's name, and how long it is without modifiers; NULL: in none. */
 static const char *path_in(const char *spec, size_t *length)
 {
-    if (!strncmp(spec, prefix, strlen(prefix))) {
-        spec += strlen(prefix);
-        *length = strlen(spec);
-        return spec;
+    const koksma_pattern *p;
+    for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
+        char key[80];
+        snprintf(key, sizeof key, ":%s:", p->name);
+        const char *found = !p->takes_path                             ? NULL
+                            : !strncmp(spec, key + 1, strlen(key + 1)) ? spec
+                                                                       : strstr(spec, key);
+        const char *end = !found ? NULL : found == spec ? spec + strlen(spec) : strrchr(found, '@');
+        if (end) {
+            const char *path = found + strlen(key) - (found == spec), *modifiers = koksma__modifiers_of_path(path);
+            *length = (size_t)((modifiers < end ? modifiers : end) - path);
+            return path;
+        }
     }
-    const char *inner = strstr(spec, ":file:"), *end = strrchr(spec, '@');
-    if (!inner || !end || end < inner + 6) {
-        return NULL;
-    }
-    *length = (size_t)(end - inner - 6);
-    return inner + 6;
+    return NULL;
 }
 
 /* Of a family of files (file_names.h) that of all of them. */

@@ -194,7 +194,7 @@ static koksma_status find_dimensions(koksma__sheet *sheet)
 {
     const koksma__sheet_sampler *sampler = &sheet->all[0];
     sheet->max_dim = sampler->spec.pattern->max_dim;
-    if (!sampler->spec.pattern->takes_path) {
+    if (!koksma__reads_points(sampler->spec.pattern)) {
         return KOKSMA_OK;
     }
     char path[KOKSMA_MAX_SPEC];
@@ -264,7 +264,7 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
                               : koksma__fail(KOKSMA_ARGUMENT, "sampler '%s' is given twice", sampler->text);
         }
     }
-    status = sampler->spec.pattern->takes_path ? look_at_files(sheet, sampler) : KOKSMA_OK;
+    status = koksma__reads_points(sampler->spec.pattern) ? look_at_files(sheet, sampler) : KOKSMA_OK;
     status = status ? status : try_sizes(sheet, sampler);
     if (status && !first && status != KOKSMA_MISSING && status != KOKSMA_MALFORMED && status != KOKSMA_MEMORY) {
         koksma__sheet_note_error(sheet, sampler->text);
@@ -278,7 +278,7 @@ static koksma_status add_sampler(koksma__sheet *sheet, const char *text, bool by
 static void choose_spp(koksma__sheet *sheet)
 {
     static const int usual[] = {4, 16, 64};
-    const bool any = !sheet->samplers[0]->spec.pattern->takes_path;
+    const bool any = !koksma__reads_points(sheet->samplers[0]->spec.pattern);
     for (size_t k = sheet->options->quick; k < (sheet->options->quick ? 2 : 3); k++) {
         bool there = any;
         for (size_t i = 0; i < sheet->n_sizes; i++) {

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * lattice-file: the rank-1 lattice of a generating vector that was published or made elsewhere: lattice-file:PATH.
+ *
+ *     x_i,k = {phi_b(i) z_k},   phi_b the radical inverse in base b
+ *
+ * The file is in the format `lattice` of LatNet Builder and LDData: a line "# lattice", the number of dimensions, the
+ * number of points N, and z_1, z_2, ... on a line each, with comments behind #; or as Kuo publishes them, without a head,
+ * a line "k z_k" (or z_k alone) a dimension. With N = b^m, b prime and m > 1, the points are a lattice sequence: the first n
+ * of them, n any power of b, are the lattice {i z / n}, and more can follow. Without a head b is 2 and N is 2^32. Any
+ * other N takes all its points: {i z / N}. A good vector is so for the numbers of points that its comments name.
+ *
+ * Source: Hickernell, Hong, L'Ecuyer & Lemieux 2000 (the order of an extensible lattice); formats: L'Ecuyer, Marion, Godin
+ * & Puchhammer 2022; Cools, Kuo & Nuyens 2006 (embedded lattices). With the modifiers shift=1,tent=1 smooth functions that
+ * are not periodic are integrated with errors near n^-2 (Hickernell 2002).
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/number_lines.h"
+
+typedef struct vector {
+    uint64_t base, points; /* points = base^m */
+    const uint64_t *z;
+} vector;
+
+/* Where i is among the points in the order of their multiples: the digits of i mirrored. */
+static uint64_t mirrored(const vector *v, uint64_t i)
+{
+    uint64_t place = v->points, at = 0;
+    for (; i; i /= v->base) {
+        place /= v->base;
+        at += i % v->base * place;
+    }
+    return at;
+}
+
+static void column(const void *context, int k, size_t first, size_t count, double *xs)
+{
+    const vector *v = context;
+    for (size_t i = 0; i < count; i++) { /* both factors are at most 2^32 */
+        xs[i] = (double)(mirrored(v, first + i) * v->z[k] % v->points) / (double)v->points;
+    }
+}
+
+/* The prime of which `points` is a power above the first, else `points`: then the order is the natural one. */
+static uint64_t base_of(uint64_t points)
+{
+    uint64_t base = 2, left = points;
+    while (base * base <= points && points % base) {
+        base++;
+    }
+    while (base * base <= points && left % base == 0) {
+        left /= base;
+    }
+    return left == 1 ? base : points;
+}
+
+static koksma_status read_head(koksma__number_lines *lines, int dim, vector *v)
+{
+    uint64_t dims = KOKSMA_MAX_DIM;
+    v->points = UINT64_C(1) << 32;
+    if (*lines->kind) {
+        KOKSMA__FAIL_IF(strcmp(lines->kind, "lattice") != 0, KOKSMA_MALFORMED,
+                        "%s: a file of the kind '%s'; it reads '# lattice', and net-file reads nets", lines->name,
+                        lines->kind);
+        KOKSMA__TRY(koksma__number_lines_take(lines, "the number of dimensions", 1, &dims));
+        KOKSMA__TRY(koksma__number_lines_take(lines, "the number of points", 1, &v->points));
+        KOKSMA__FAIL_IF(v->points < 1 || v->points > UINT64_C(1) << 32, KOKSMA_MALFORMED,
+                        "%s: line %zu: %llu points; it takes 1 to 2^32", lines->name, lines->number,
+                        (unsigned long long)v->points);
+    }
+    KOKSMA__FAIL_IF(dims < (uint64_t)dim, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,
+                    (unsigned long long)dims, dim);
+    v->base = base_of(v->points);
+    return KOKSMA_OK;
+}
+
+static koksma_status read_vector(koksma__number_lines *lines, int dim, vector *v, uint64_t *z)
+{
+    KOKSMA__TRY(read_head(lines, dim, v));
+    for (int k = 0; k < dim; k++) {
+        uint64_t line[2] = {0};
+        size_t count;
+        KOKSMA__TRY(koksma__number_lines_next(lines, *lines->kind ? 1 : 2, line, &count));
+        KOKSMA__FAIL_IF(!count && k && !*lines->kind, KOKSMA_DIM, "%s: it has %d dimensions, not %d", lines->name, k,
+                        dim);
+        KOKSMA__FAIL_IF(!count, KOKSMA_MALFORMED, "%s: it ends before coordinate %d of its vector", lines->name,
+                        k + 1);
+        KOKSMA__FAIL_IF(count == 2 && line[0] != (uint64_t)k + 1, KOKSMA_MALFORMED,
+                        "%s: line %zu: dimension %llu where %d is next", lines->name, lines->number,
+                        (unsigned long long)line[0], k + 1);
+        z[k] = line[count - 1] % v->points;
+    }
+    v->z = z;
+    return KOKSMA_OK;
+}
+
+static koksma_status check_count(const koksma__number_lines *lines, const vector *v, size_t n)
+{
+    KOKSMA__FAIL_IF(n > v->points, KOKSMA_N, "%s: it has %llu points, not %zu", lines->name,
+                    (unsigned long long)v->points, n);
+    KOKSMA__FAIL_IF(
+        v->base == v->points && n < v->points, KOKSMA_N,
+        "%s: its %llu points are no sequence (their number is not b^m with a prime b and m > 1): n = %llu would do",
+        lines->name, (unsigned long long)v->points, (unsigned long long)v->points);
+    return KOKSMA_OK;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    uint64_t *z = malloc((size_t)out->dim * sizeof *z);
+    koksma__number_lines lines;
+    vector v = {0};
+    KOKSMA__REQUIRE_MEMORY(z, (size_t)out->dim * sizeof *z);
+    koksma_status status = koksma__number_lines_open("lattice-file", args->path, &lines);
+    status = status ? status : read_vector(&lines, out->dim, &v, z);
+    status = status ? status : check_count(&lines, &v, out->n);
+    status = status ? status : koksma__fill_columns(args->run, out, column, &v);
+    koksma__number_lines_close(&lines);
+    free(z);
+    return status;
+}
+
+const koksma_pattern koksma__pattern_lattice_file = {
+    .name = "lattice-file",
+    .title =
+        "the rank-1 lattice of a file's generating vector: lattice-file:PATH (LatNet Builder's and Kuo's formats)",
+    .cite = "hickernell2000 lecuyer2022 cools2006",
+    .min_dim = 1,
+    .max_dim = KOKSMA_MAX_DIM,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
+    .generate = generate,
+    .takes_path = true,
+};

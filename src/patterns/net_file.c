@@ -1,0 +1,342 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * net-file: the digital net or sequence of generator matrices that were published or made elsewhere: net-file:PATH.
+ *
+ *     x_i,k = sum_l y_l b^-l,   y = C_k a modulo b,   i = sum_c a_c b^c   (l = 1, 2, ..., c = 0, 1, ...)
+ *
+ * The file is in one of these formats of LatNet Builder and LDData, or as Joe &
+ * Kuo publish theirs; comments stand behind #:
+ *
+ *     # dnet      base b, dimensions s, columns k (or b^k), digits r; then a line a dimension: the k columns of C, each
+ *                 a whole number whose digit for b^(r-1) is that of row 1. Interlaced (higher-order) nets are such files.
+ *     # plattice  prime b, s, degree k and modulus Q(z), then q_k(z) a line, as the values of the polynomials at z = b:
+ *                 digit l of C's column c is that of z^-(l+c) in q/Q (Niederreiter 1992)
+ *     # soboljk   s lines "k degree a m_1 ... m_degree" from dimension 2 on; the first has the identity (Joe & Kuo 2008,
+ *                 whose own files begin with a line "d s a m_i" instead)
+ *
+ * Source: Niederreiter 1992; formats: L'Ecuyer et al. 2022, Joe & Kuo 2008.
+ *
+ * The first points do not depend on n, and there are b^k of them. A coordinate keeps as many digits as a double has room
+ * for (53 in base 2), the others are cut off. Scrambled in the base by the modifier owen-base=b.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/status.h"
+#include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
+#include "patterns/shared/number_lines.h"
+
+enum { MOST_COLUMNS = 64, MOST_DIGITS = 53, LARGEST_BASE = 256, SOBOL_COLUMNS = 32, LARGEST_DEGREE = 31 };
+
+typedef struct matrices {
+    uint32_t base;
+    int columns, digits;                         /* of a coordinate */
+    uint8_t (*digit)[MOST_COLUMNS][MOST_DIGITS]; /* [k][c][l], C's row l + 1 */
+} matrices;
+
+/* ---- Points ------------------------------------------------------------------------------------------------ */
+
+static void add_column(const matrices *m, const uint8_t *column, uint32_t times, uint32_t *y)
+{
+    for (int l = 0; l < m->digits; l++) {
+        y[l] = (y[l] + times * column[l]) % m->base;
+    }
+}
+
+static double value_of(const matrices *m, const uint32_t *y)
+{
+    double whole = 0, scale = 1; /* both below 2^53 */
+    for (int l = 0; l < m->digits; l++) {
+        whole = whole * m->base + y[l];
+        scale *= m->base;
+    }
+    return whole / scale;
+}
+
+/* The same in base 2, a column a word. */
+static void binary_column(const matrices *m, int k, size_t first, size_t count, double *xs)
+{
+    uint64_t words[MOST_COLUMNS] = {0}, y = 0;
+    for (int c = 0; c < m->columns; c++) {
+        for (int l = 0; l < m->digits; l++) {
+            words[c] = words[c] << 1 | m->digit[k][c][l];
+        }
+        y ^= first >> c & 1 ? words[c] : 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        xs[i] = (double)(int64_t)y / (double)(INT64_C(1) << m->digits);
+        for (int c = 0; c < m->columns; c++) { /* the digits of first + i that change */
+            y ^= words[c];
+            if (!((first + i) >> c & 1)) {
+                break;
+            }
+        }
+    }
+}
+
+/* To go from i to i + 1 adds a column once for each digit that changes: b times a column is 0. */
+static void column(const void *context, int k, size_t first, size_t count, double *xs)
+{
+    const matrices *m = context;
+    uint32_t a[MOST_COLUMNS + 1] = {0}, y[MOST_DIGITS] = {0};
+    size_t rest = first;
+    if (m->base == 2) {
+        binary_column(m, k, first, count, xs);
+        return;
+    }
+    for (int c = 0; rest; c++, rest /= m->base) {
+        a[c] = (uint32_t)(rest % m->base);
+        add_column(m, m->digit[k][c], a[c], y);
+    }
+    for (size_t i = 0; i < count; i++) {
+        xs[i] = value_of(m, y);
+        bool carry = i + 1 < count;
+        for (int c = 0; carry && c < m->columns; c++) {
+            add_column(m, m->digit[k][c], 1, y);
+            a[c] = a[c] + 1 == m->base ? 0 : a[c] + 1;
+            carry = a[c] == 0;
+        }
+    }
+}
+
+/* ---- Files ------------------------------------------------------------------------------------------------- */
+
+static koksma_status take(koksma__number_lines *lines, const char *what, uint64_t least, uint64_t most, uint64_t *out)
+{
+    KOKSMA__TRY(koksma__number_lines_take(lines, what, 1, out));
+    KOKSMA__FAIL_IF(*out < least || *out > most, KOKSMA_MALFORMED, "%s: line %zu: %s is %llu; it takes %llu to %llu",
+                    lines->name, lines->number, what, (unsigned long long)*out, (unsigned long long)least,
+                    (unsigned long long)most);
+    return KOKSMA_OK;
+}
+
+static koksma_status check_dims(const koksma__number_lines *lines, uint64_t dims, int dim)
+{
+    KOKSMA__FAIL_IF(dims < (uint64_t)dim, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,
+                    (unsigned long long)dims, dim);
+    return KOKSMA_OK;
+}
+
+/* The most digits of a base in 53 bits. */
+static int digits_in_double(uint64_t base)
+{
+    int digits = 0;
+    for (uint64_t room = UINT64_C(1) << 53; room >= base; room /= base) {
+        digits++;
+    }
+    return digits;
+}
+
+/* Columns given as such, or as the number b^columns of points. */
+static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
+{
+    uint64_t points = given;
+    *columns = (int)given;
+    if (given > MOST_COLUMNS) {
+        for (*columns = 0; points % base == 0; (*columns)++) {
+            points /= base;
+        }
+        KOKSMA__FAIL_IF(points != 1 || *columns > MOST_COLUMNS, KOKSMA_MALFORMED,
+                        "%s: line %zu: %llu is neither a number of columns, at most %d, nor a power of %llu",
+                        lines->name, lines->number, (unsigned long long)given, MOST_COLUMNS,
+                        (unsigned long long)base);
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status read_dnet(koksma__number_lines *lines, int dim, matrices *m)
+{
+    uint64_t base, dims, columns, rows, numbers[MOST_COLUMNS];
+    KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
+    KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
+    KOKSMA__TRY(check_dims(lines, dims, dim));
+    KOKSMA__TRY(take(lines, "the number of columns", 1, UINT64_MAX, &columns));
+    KOKSMA__TRY(count_columns(lines, base, columns, &m->columns));
+    KOKSMA__TRY(take(lines, "the number of digits", 1, 64, &rows));
+    const int kept = digits_in_double(base);
+    m->base = (uint32_t)base;
+    m->digits = (int)rows < kept ? (int)rows : kept;
+    for (int k = 0; k < dim; k++) {
+        KOKSMA__TRY(koksma__number_lines_take(lines, "a matrix", (size_t)m->columns, numbers));
+        for (int c = 0; c < m->columns; c++) {
+            uint64_t left = numbers[c];
+            for (int l = (int)rows - 1; l >= 0; l--, left /= base) {
+                if (l < m->digits) {
+                    m->digit[k][c][l] = (uint8_t)(left % base);
+                }
+            }
+            KOKSMA__FAIL_IF(left, KOKSMA_MALFORMED, "%s: line %zu: %llu has more than %llu digits in base %llu",
+                            lines->name, lines->number, (unsigned long long)numbers[c], (unsigned long long)rows,
+                            (unsigned long long)base);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* The coefficients of a polynomial that is given by its value at z = b, lowest first; the degree, -1 of 0. */
+static int coefficients_of(uint64_t value, uint32_t base, uint32_t *out)
+{
+    int degree = -1;
+    for (int d = 0; d <= MOST_COLUMNS; d++, value /= base) {
+        out[d] = (uint32_t)(value % base);
+        degree = out[d] ? d : degree;
+    }
+    return degree;
+}
+
+static uint32_t inverse_modulo(uint32_t a, uint32_t prime)
+{
+    uint32_t power = 1;
+    for (uint32_t e = prime - 2; e; e >>= 1, a = a * a % prime) {
+        power = e & 1 ? power * a % prime : power;
+    }
+    return power;
+}
+
+/* The digits u_1, u_2, ... of q/Q, degree of q below that of Q: each step multiplies the remainder by z. */
+static void divide(uint32_t *rest, const uint32_t *modulus, int degree, uint32_t base, int count, uint8_t *u)
+{
+    const uint32_t inverse = inverse_modulo(modulus[degree], base);
+    for (int w = 0; w < count; w++) {
+        const uint32_t digit = rest[degree - 1] * inverse % base;
+        for (int d = degree - 1; d >= 0; d--) {
+            const uint32_t higher = d ? rest[d - 1] : 0;
+            rest[d] = (higher + (base - digit) * modulus[d]) % base;
+        }
+        u[w] = (uint8_t)digit;
+    }
+}
+
+static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrices *m)
+{
+    uint64_t base, dims, columns, value;
+    uint32_t modulus[MOST_COLUMNS + 1], q[MOST_COLUMNS + 1];
+    KOKSMA__TRY(take(lines, "the base", 2, LARGEST_BASE, &base));
+    for (uint64_t d = 2; d * d <= base; d++) {
+        KOKSMA__FAIL_IF(base % d == 0, KOKSMA_MALFORMED, "%s: line %zu: the base is %llu; it takes primes",
+                        lines->name, lines->number, (unsigned long long)base);
+    }
+    KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
+    KOKSMA__TRY(check_dims(lines, dims, dim));
+    KOKSMA__TRY(take(lines, "the degree of the modulus", 1, MOST_COLUMNS - 1, &columns));
+    KOKSMA__TRY(take(lines, "the modulus", 2, UINT64_MAX, &value));
+    m->base = (uint32_t)base;
+    m->columns = (int)columns;
+    m->digits = digits_in_double(base);
+    KOKSMA__FAIL_IF(coefficients_of(value, m->base, modulus) != m->columns, KOKSMA_MALFORMED,
+                    "%s: line %zu: the modulus is not of degree %d", lines->name, lines->number, m->columns);
+    for (int k = 0; k < dim; k++) {
+        uint8_t u[MOST_COLUMNS + MOST_DIGITS];
+        KOKSMA__TRY(koksma__number_lines_take(lines, "a polynomial of the vector", 1, &value));
+        KOKSMA__FAIL_IF(coefficients_of(value, m->base, q) >= m->columns, KOKSMA_MALFORMED,
+                        "%s: line %zu: the polynomial's degree is not below that of the modulus", lines->name,
+                        lines->number);
+        divide(q, modulus, m->columns, m->base, m->columns + m->digits, u);
+        for (int c = 0; c < m->columns; c++) {
+            memcpy(m->digit[k][c], u + c, (size_t)m->digits);
+        }
+    }
+    return KOKSMA_OK;
+}
+
+/* A dimension of Sobol' numbers: column c as a whole number of 32 bits. */
+static koksma_status sobol_columns(const koksma__number_lines *lines, int k, const uint64_t *numbers, size_t count,
+                                   uint32_t *v)
+{
+    const uint64_t degree = count > 1 ? numbers[1] : 0, a = count > 2 ? numbers[2] : 0;
+    KOKSMA__FAIL_IF(count < 4 || numbers[0] != (uint64_t)k + 1 || degree != count - 3, KOKSMA_MALFORMED,
+                    "%s: line %zu: it is not the dimension %d, a degree s, a, and s numbers", lines->name,
+                    lines->number, k + 1);
+    for (int c = 0; c < SOBOL_COLUMNS; c++) {
+        if (c < (int)degree) {
+            const uint64_t number = numbers[3 + c];
+            KOKSMA__FAIL_IF(number % 2 == 0 || number >> (c + 1), KOKSMA_MALFORMED,
+                            "%s: line %zu: %llu is not odd and below %llu", lines->name, lines->number,
+                            (unsigned long long)number, 1ULL << (c + 1));
+            v[c] = (uint32_t)number << (31 - c);
+            continue;
+        }
+        v[c] = v[c - (int)degree] ^ v[c - (int)degree] >> degree;
+        for (int d = 1; d < (int)degree; d++) {
+            v[c] ^= a >> ((int)degree - 1 - d) & 1 ? v[c - d] : 0;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status read_sobol(koksma__number_lines *lines, int dim, matrices *m)
+{
+    *m = (matrices){.base = 2, .columns = SOBOL_COLUMNS, .digits = SOBOL_COLUMNS, .digit = m->digit};
+    for (int k = 0; k < dim; k++) {
+        uint64_t numbers[3 + LARGEST_DEGREE];
+        uint32_t v[SOBOL_COLUMNS];
+        size_t count = 1;
+        if (k) {
+            KOKSMA__TRY(koksma__number_lines_next(lines, 3 + LARGEST_DEGREE, numbers, &count));
+            KOKSMA__TRY(count ? sobol_columns(lines, k, numbers, count, v) : check_dims(lines, (uint64_t)k, dim));
+        }
+        for (int c = 0; c < SOBOL_COLUMNS; c++) {
+            for (int l = 0; l < SOBOL_COLUMNS; l++) {
+                m->digit[k][c][l] = k ? v[c] >> (31 - l) & 1 : l == c;
+            }
+        }
+    }
+    return KOKSMA_OK;
+}
+
+static koksma_status read_matrices(koksma__number_lines *lines, int dim, matrices *m)
+{
+    static const struct {
+        const char *kind;
+        koksma_status (*read)(koksma__number_lines *lines, int dim, matrices *m);
+    } kinds[] = {{"dnet", read_dnet}, {"plattice", read_plattice}, {"soboljk", read_sobol}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (!strcmp(lines->kind, kinds[i].kind)) {
+            return kinds[i].read(lines, dim, m);
+        }
+    }
+    return koksma__fail(
+        KOKSMA_MALFORMED,
+        "%s: its first line is none of '# dnet', '# plattice', '# soboljk' and Joe and Kuo's 'd s a m_i'; "
+        "lattice-file reads lattices",
+        lines->name);
+}
+
+static koksma_status check_count(const koksma__number_lines *lines, const matrices *m, size_t n)
+{
+    uint64_t points = 1;
+    for (int c = 0; c < m->columns && points < n; c++) {
+        points *= m->base; /* below 2^32 times the base */
+    }
+    KOKSMA__FAIL_IF(points < n, KOKSMA_N, "%s: it has %llu points, not %zu", lines->name, (unsigned long long)points,
+                    n);
+    return KOKSMA_OK;
+}
+
+static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
+{
+    (void)seed;
+    matrices m = {.digit = calloc((size_t)out->dim, sizeof *m.digit)};
+    koksma__number_lines lines;
+    KOKSMA__REQUIRE_MEMORY(m.digit, (size_t)out->dim * sizeof *m.digit);
+    koksma_status status = koksma__number_lines_open("net-file", args->path, &lines);
+    status = status ? status : read_matrices(&lines, out->dim, &m);
+    status = status ? status : check_count(&lines, &m, out->n);
+    status = status ? status : koksma__fill_columns(args->run, out, column, &m);
+    koksma__number_lines_close(&lines);
+    free(m.digit);
+    return status;
+}
+
+const koksma_pattern koksma__pattern_net_file = {
+    .name = "net-file",
+    .title =
+        "the digital net of a file's matrices: net-file:PATH (LatNet Builder's formats, Joe & Kuo's Sobol' numbers)",
+    .cite = "lecuyer2022 joe2008 niederreiter1992",
+    .min_dim = 1,
+    .max_dim = KOKSMA_MAX_DIM,
+    .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE,
+    .generate = generate,
+    .takes_path = true,
+};

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Lines of whole numbers with comments behind #, as the file formats of LatNet Builder and of the collection LDData have
+ * them (L'Ecuyer, Marion, Godin & Puchhammer 2022), and those of Joe & Kuo 2008, which begin with a heading of words.
+ * The file is read whole; a line is taken apart when it is asked for, so that dimensions behind those asked for cost
+ * nothing more.
+ */
+#include "patterns/shared/number_lines.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/read_file.h"
+#include "core/status.h"
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* The first word behind the mark of a comment; a first line of words is Joe & Kuo's heading and is passed over. */
+static void find_kind(koksma__number_lines *lines)
+{
+    const char *s = lines->text + strspn(lines->text, " \t");
+    if (*s == '#') {
+        s += 1 + strspn(s + 1, " \t");
+        const size_t length = strcspn(s, " \t\r\n");
+        snprintf(lines->kind, sizeof lines->kind, "%.*s", length < sizeof lines->kind ? (int)length : 0, s);
+    } else if (*s == 'd' && is_blank(s[1])) {
+        snprintf(lines->kind, sizeof lines->kind, "soboljk");
+        lines->at += strcspn(lines->at, "\n");
+        lines->at += *lines->at == '\n';
+        lines->number = 1;
+    }
+}
+
+koksma_status koksma__number_lines_open(const char *pattern, const char *path, koksma__number_lines *lines)
+{
+    unsigned char *bytes;
+    size_t size;
+    *lines = (koksma__number_lines){0};
+    snprintf(lines->name, sizeof lines->name, "%s:%s", pattern, path);
+    KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_PARAMETERS, KOKSMA__BY_FILE, koksma__check_text, &bytes, &size));
+    lines->text = lines->at = (char *)bytes;
+    if (memchr(bytes, 0, size)) {
+        koksma__number_lines_close(lines);
+        return koksma__fail(KOKSMA_MALFORMED, "%s: no text in UTF-8: it has a zero byte", lines->name);
+    }
+    find_kind(lines);
+    return KOKSMA_OK;
+}
+
+void koksma__number_lines_close(koksma__number_lines *lines)
+{
+    free(lines->text);
+    lines->text = lines->at = NULL;
+}
+
+/* The numbers of the line from `at`, which ends at `end`. */
+static koksma_status split(const koksma__number_lines *lines, char *at, const char *end, size_t most,
+                           uint64_t *numbers, size_t *count)
+{
+    while (at < end && (is_blank(*at) || *at == ',')) {
+        at++;
+    }
+    while (at < end && *at != '#') {
+        char *after = at;
+        errno = 0;
+        const unsigned long long value = *at >= '0' && *at <= '9' ? strtoull(at, &after, 10) : 0;
+        const bool whole =
+            after > at && !errno && (after == end || is_blank(*after) || *after == ',' || *after == '#');
+        KOKSMA__FAIL_IF(!whole, KOKSMA_MALFORMED, "%s: line %zu: '%.*s' is no whole number below 2^64", lines->name,
+                        lines->number, (int)strcspn(at, " \t\r\n,") % 24, at);
+        KOKSMA__FAIL_IF(*count == most, KOKSMA_MALFORMED, "%s: line %zu: more than %zu numbers", lines->name,
+                        lines->number, most);
+        numbers[(*count)++] = value;
+        for (at = after; at < end && (is_blank(*at) || *at == ',');) {
+            at++;
+        }
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__number_lines_next(koksma__number_lines *lines, size_t most, uint64_t *numbers, size_t *count)
+{
+    koksma_status status = KOKSMA_OK;
+    *count = 0;
+    while (!status && !*count && *lines->at) {
+        char *const at = lines->at, *const end = at + strcspn(at, "\n");
+        lines->at = end + (*end == '\n');
+        lines->number++;
+        status = split(lines, at, end, most, numbers, count);
+    }
+    return status;
+}
+
+koksma_status koksma__number_lines_take(koksma__number_lines *lines, const char *what, size_t needed,
+                                        uint64_t *numbers)
+{
+    size_t count;
+    KOKSMA__TRY(koksma__number_lines_next(lines, needed, numbers, &count));
+    if (count == needed) {
+        return KOKSMA_OK;
+    }
+    return count ? koksma__fail(KOKSMA_MALFORMED, "%s: line %zu: %zu of the %zu numbers of %s", lines->name,
+                                lines->number, count, needed, what)
+                 : koksma__fail(KOKSMA_MALFORMED, "%s: it ends before %s", lines->name, what);
+}
