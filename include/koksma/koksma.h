@@ -173,6 +173,8 @@ typedef struct koksma_args {
     double params[KOKSMA_MAX_PARAMS];
     const char *path;      /* the file, for a pattern that reads one; else NULL */
     const koksma_run *run; /* may be NULL */
+    uint64_t first, n; /* of a pattern that has ranges: the index of the first point wanted, and how many points the
+                              whole set has, unless it is a sequence; else 0 */
 } koksma_args;
 
 typedef struct koksma_pattern koksma_pattern;
@@ -224,6 +226,9 @@ struct koksma_pattern {
        is set by the caller; 0: any. Returns N where the parameters leave the number open. NULL for other patterns. */
     koksma_status (*whole)(uint64_t seed, const koksma_args *args, koksma_points *out);
     int revision; /* 0, and one more with every change of any bit of its points: studies keep it with their rows */
+    /* Whether a point follows from its index alone with these parameters, so that koksma_generate_range serves it. NULL:
+       with none. */
+    bool (*ranges)(const double *params);
 };
 
 /* A map of the cube to itself that every pattern accepts behind its own parameters. Several are applied in the order of
@@ -257,6 +262,23 @@ KOKSMA_API const koksma_pattern *koksma_pattern_find(const char *name);
    IMPOSSIBLE (no such set exists, or none was found), MEMORY, INTERRUPTED; of a file MISSING and MALFORMED. */
 KOKSMA_API koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run,
                                          koksma_points *out);
+
+/* Returns whether koksma_generate_range serves a pattern with these parameters. */
+KOKSMA_API bool koksma_has_ranges(const koksma_spec *spec);
+
+/* No point of a range has a number above this. With KOKSMA_MAX_DIM its coordinates still have numbers of 64 bits. */
+#define KOKSMA_MAX_INDEX (((uint64_t)1 << 51) - 1)
+
+/* Generates points first .. first + out->n - 1 of those that koksma_generate makes, in time and memory for out->n points.
+     spec   a pattern that has ranges (koksma_has_ranges). Of a sequence (KOKSMA_CLAIM_SEQUENCE) any points up to
+            KOKSMA_MAX_INDEX; sequences of 32-bit words end at 2^32 - 1, and radical inverses in base b at the largest
+            power of b up to 2^53
+     n      of a set that is no sequence: how many points the whole has; its last is n - 1. Unused for a sequence
+     first  the index of the first point wanted, from 0
+     out    initialised by koksma_points_init with the number of points that are wanted
+   Errors: those of koksma_generate; N also for points past the end, UNSUPPORTED for a pattern without ranges. */
+KOKSMA_API koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
+                                               const koksma_run *run, koksma_points *out);
 
 /* Generates all points of a pattern that decides their number: those of a file, or of a maximal Poisson disk set of a
    given radius. Allocates out.

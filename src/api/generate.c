@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* koksma_generate and koksma_generate_whole: the checks of arguments that every pattern can rely on, the pattern's
-   own function, and the modifiers that every pattern takes. */
+/* koksma_generate, koksma_generate_range and koksma_generate_whole: the checks of arguments that every pattern can rely
+   on, the pattern's own function, and the modifiers that every pattern takes. */
 #include "api/generate.h"
 
 #include <string.h>
@@ -45,25 +45,68 @@ bool koksma__spec_is_deterministic(const koksma_spec *spec)
     return deterministic;
 }
 
+/* Points first .. first + out->n - 1 of the n of a set, or of a sequence, whose points do not depend on n. */
+static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, uint64_t seed, uint64_t n,
+                              uint64_t first, const koksma_run *run, koksma_points *out)
+{
+    koksma_args args = koksma__spec_arguments(spec, run);
+    args.n = n;
+    args.first = first;
+    KOKSMA__TRY(check_generate(spec, p, out->dim));
+    KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
+    KOKSMA__TRY(p->generate(seed, &args, out));
+    koksma__modify(spec->modifiers, seed, out);
+    return KOKSMA_OK;
+}
+
+static const koksma_pattern *pattern_for(const char *caller, const koksma_spec *spec, const koksma_points *out)
+{
+    const koksma_pattern *p = pattern_of(spec);
+    if (!p || !out->xs || out->n == 0) {
+        koksma__fail(KOKSMA_ARGUMENT, "%s: it takes the spec of a pattern and initialised points", caller);
+        return NULL;
+    }
+    return p;
+}
+
 koksma_status koksma_generate(const koksma_spec *spec, uint64_t seed, const koksma_run *run, koksma_points *out)
 {
     KOKSMA__REQUIRE(spec, out);
     KOKSMA__REQUIRE_RUN(run);
+    const koksma_pattern *p = pattern_for(__func__, spec, out);
+    return p ? generate(spec, p, seed, out->n, 0, run, out) : KOKSMA_ARGUMENT;
+}
+
+bool koksma_has_ranges(const koksma_spec *spec)
+{
+    KOKSMA__REQUIRE_OR(false, spec);
     const koksma_pattern *p = pattern_of(spec);
-    if (!p || !out->xs || out->n == 0) {
-        return koksma__fail(KOKSMA_ARGUMENT,
-                            "koksma_generate: it takes the spec of a pattern and initialised points");
+    return p && p->ranges && p->ranges(spec->params);
+}
+
+koksma_status koksma_generate_range(const koksma_spec *spec, uint64_t seed, uint64_t n, uint64_t first,
+                                    const koksma_run *run, koksma_points *out)
+{
+    KOKSMA__REQUIRE(spec, out);
+    KOKSMA__REQUIRE_RUN(run);
+    const koksma_pattern *p = pattern_for(__func__, spec, out);
+    if (!p) {
+        return KOKSMA_ARGUMENT;
     }
-    koksma_status status = check_generate(spec, p, out->dim);
-    status = status ? status : koksma__points_fit(out->n, out->dim);
-    const koksma_args args = koksma__spec_arguments(spec, run);
-    if (!status) {
-        status = p->generate(seed, &args, out);
+    if (!koksma_has_ranges(spec)) {
+        char text[KOKSMA_MAX_SPEC];
+        koksma_spec_text(spec, text);
+        return koksma__fail(KOKSMA_UNSUPPORTED,
+                            "%s: it has no ranges: its points are made together from the first on", text);
     }
-    if (!status) {
-        koksma__modify(spec->modifiers, seed, out);
-    }
-    return status;
+    const uint64_t most = KOKSMA_MAX_INDEX < SIZE_MAX ? KOKSMA_MAX_INDEX + 1 : SIZE_MAX;
+    const uint64_t end = p->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;
+    KOKSMA__FAIL_IF(end > KOKSMA_MAX_INDEX + 1 || (!(p->claims & KOKSMA_CLAIM_SEQUENCE) && n > most), KOKSMA_N,
+                    "%s: n = %llu: at most %llu points", p->name, (unsigned long long)n, (unsigned long long)most);
+    KOKSMA__FAIL_IF(first > end || out->n > end - first, KOKSMA_N,
+                    "%s: first = %llu with %zu points: the last point has number %llu", p->name,
+                    (unsigned long long)first, out->n, (unsigned long long)end - 1);
+    return generate(spec, p, seed, n, first, run, out);
 }
 
 koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, const koksma_run *run, int dim,

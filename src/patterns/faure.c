@@ -18,7 +18,7 @@
 #include "patterns/shared/owen_sequence.h"
 #include "patterns/shared/radical.h"
 
-enum { MAX_DIGITS = 32, FEW = 4096 };
+enum { MAX_DIGITS = 53, FEW = 4096 };
 enum { NONE, OWEN };
 
 typedef struct job {
@@ -60,7 +60,7 @@ static void add_column(const job *j, const uint32_t *matrix, int c, walk *w)
     }
 }
 
-static void begin(const job *j, const uint32_t *matrix, size_t index, walk *w)
+static void begin(const job *j, const uint32_t *matrix, uint64_t index, walk *w)
 {
     *w = (walk){.x = 0};
     double weight = j->whole;
@@ -86,7 +86,7 @@ static void step(const job *j, const uint32_t *matrix, walk *w)
     }
 }
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const job *j = context;
     const uint32_t *matrix = j->matrices + (size_t)k * (size_t)(j->digits * j->digits);
@@ -123,9 +123,12 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (args->params[0] == OWEN) {
         return koksma__owen_sequence(seed, j.base, relatives, &j.base, args->run, out);
     }
-    for (j.whole = j.base; j.whole < (double)out->n; j.whole *= j.base) {
+    const double end = (double)(args->first + out->n);
+    for (j.whole = j.base; j.whole < end; j.whole *= j.base) {
         j.digits++;
     }
+    KOKSMA__FAIL_IF(j.whole > 0x1p53, KOKSMA_N, "faure: point %.0f: in base %u its points end before number %.0f",
+                    end - 1, j.base, j.whole / j.base);
     uint32_t few[FEW];
     const size_t entries = (size_t)out->dim * (size_t)(j.digits * j.digits);
     j.matrices = entries <= FEW ? few : malloc(entries * sizeof *j.matrices);
@@ -133,11 +136,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     for (int k = 0; k < out->dim; k++) {
         fill_matrix(&j, (uint32_t)k, j.matrices + (size_t)k * (size_t)(j.digits * j.digits));
     }
-    const koksma_status status = koksma__fill_columns(args->run, out, column, &j);
+    const koksma_status status = koksma__range_columns(args, out, column, &j);
     if (j.matrices != few) {
         free(j.matrices);
     }
     return status;
+}
+
+static bool ranges(const double *params)
+{
+    return params[0] != OWEN;
 }
 
 static const char *const scrambles[] = {"none", "owen", NULL};
@@ -156,4 +164,5 @@ const koksma_pattern koksma__pattern_faure = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET_PREFIXES,
     .params = params,
     .generate = generate,
+    .ranges = ranges,
 };

@@ -16,16 +16,16 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     (void)seed;
     uint64_t before = 1, number = 1;
-    while (number < out->n) {
+    while (number < args->n) {
         const uint64_t next = before + number;
         before = number;
         number = next;
     }
-    KOKSMA__FAIL_IF(number != out->n, KOKSMA_N,
-                    "fibonacci: n = %zu is not a Fibonacci number; n = %llu or %llu would do", out->n,
-                    (unsigned long long)before, (unsigned long long)number);
-    const uint64_t z[2] = {out->n > 1, out->n > 1 ? before : 0};
-    return koksma__fill_lattice(args->run, z, out);
+    KOKSMA__FAIL_IF(number != args->n, KOKSMA_N,
+                    "fibonacci: n = %llu is not a Fibonacci number; n = %llu or %llu would do",
+                    (unsigned long long)args->n, (unsigned long long)before, (unsigned long long)number);
+    const uint64_t z[2] = {args->n > 1, args->n > 1 ? before : 0};
+    return koksma__range_lattice(args, z, out);
 }
 
 const koksma_pattern koksma__pattern_fibonacci = {
@@ -36,4 +36,5 @@ const koksma_pattern koksma__pattern_fibonacci = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_LATTICE,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

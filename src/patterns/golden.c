@@ -11,7 +11,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     if (k == 0) {
         koksma__kernels()->steps(count, (double)first, 0, *(const double *)context, xs);
@@ -27,8 +27,8 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
-    const double n = (double)out->n;
-    return koksma__fill_columns(args->run, out, column, &n);
+    const double n = (double)args->n;
+    return koksma__range_columns(args, out, column, &n);
 }
 
 const koksma_pattern koksma__pattern_golden = {
@@ -39,4 +39,5 @@ const koksma_pattern koksma__pattern_golden = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

@@ -16,6 +16,7 @@
  * Known exactly, 2D, n = 16: D* = 0.201388889, L2 star = 0.068247792.
  */
 #include "core/random.h"
+#include "core/status.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/owen_digits.h"
@@ -23,7 +24,7 @@
 
 enum { NONE, AFFINE, OWEN };
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const koksma__radicals *r = context;
     koksma__radical_column(&r->columns[k], first, count, xs);
@@ -44,12 +45,18 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         return koksma__owen_digits(seed, args->run, out);
     }
     koksma__radicals r;
-    koksma_status status = koksma__radicals_init(&r, out->dim, out->n, scramble == AFFINE ? affine : NULL, &seed);
+    koksma_status status =
+        koksma__radicals_init(&r, out->dim, args->first + out->n, scramble == AFFINE ? affine : NULL, &seed);
     if (!status) {
-        status = koksma__fill_columns(args->run, out, column, &r);
+        status = koksma__range_columns(args, out, column, &r);
         koksma__radicals_fini(&r);
     }
-    return status;
+    return status ? koksma__fail_in(status, "halton") : KOKSMA_OK;
+}
+
+static bool ranges(const double *params)
+{
+    return params[0] != OWEN;
 }
 
 static const char *const scrambles[] = {"none", "affine", "owen", NULL};
@@ -69,4 +76,5 @@ const koksma_pattern koksma__pattern_halton = {
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_LATIN_PREFIXES,
     .params = params,
     .generate = generate,
+    .ranges = ranges,
 };

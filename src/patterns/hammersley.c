@@ -26,7 +26,7 @@ typedef struct job {
     koksma__radicals radicals;
 } job;
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const job *j = context;
     if (k == 0) {
@@ -42,14 +42,14 @@ typedef struct net {
     uint32_t directions[2][32], start;
 } net;
 
-static bool make_net(size_t n, double offset, net *s)
+static bool make_net(uint64_t n, double offset, net *s)
 {
     int m = 0;
-    while ((size_t)1 << m < n) {
+    while (m < 32 && (uint64_t)1 << m < n) {
         m++;
     }
     const double start = ldexp(offset, 32 - m);
-    if ((size_t)1 << m != n || start != floor(start)) {
+    if ((uint64_t)1 << m != n || start != floor(start)) {
         return false;
     }
     for (int b = 0; b < 32; b++) {
@@ -58,18 +58,6 @@ static bool make_net(size_t n, double offset, net *s)
     }
     s->start = (uint32_t)start;
     return true;
-}
-
-static void rows(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
-{
-    const net *s = context;
-    const uint32_t *directions[2] = {s->directions[0], s->directions[1]};
-    uint32_t starts[2] = {s->start, 0};
-    for (int b = 0; first >> b; b++) {
-        starts[0] ^= first >> b & 1 ? directions[0][b] : 0;
-        starts[1] ^= first >> b & 1 ? directions[1][b] : 0;
-    }
-    koksma__kernels()->digital_rows(count, 2, directions, starts, stream, out->xs + 2 * first);
 }
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -81,17 +69,24 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (args->params[1] == OWEN) {
         return koksma__owen_hammersley(seed, args->run, out);
     }
-    if (out->dim == 2 && make_net(out->n, args->params[0], &digital)) {
-        return koksma__fill_rows(args->run, out, rows, &digital);
+    if (out->dim == 2 && make_net(args->n, args->params[0], &digital)) {
+        const uint32_t *directions[2] = {digital.directions[0], digital.directions[1]},
+                       starts[2] = {digital.start, 0};
+        return koksma__range_digital(args, directions, starts, out);
     }
-    j.n = (double)out->n;
+    j.n = (double)args->n;
     j.offset = args->params[0];
-    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, out->n, NULL, NULL);
+    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, args->n, NULL, NULL);
     if (!status) {
-        status = koksma__fill_columns(args->run, out, column, &j);
+        status = koksma__range_columns(args, out, column, &j);
         koksma__radicals_fini(&j.radicals);
     }
     return status;
+}
+
+static bool ranges(const double *params)
+{
+    return params[1] != OWEN;
 }
 
 static const char *const scrambles[] = {"none", "owen", NULL};
@@ -111,4 +106,5 @@ const koksma_pattern koksma__pattern_hammersley = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
     .params = params,
     .generate = generate,
+    .ranges = ranges,
 };

@@ -26,4 +26,5 @@ const koksma_pattern koksma__pattern_jittered = {
     .claims = KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_INDEPENDENT,
     .params = params,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

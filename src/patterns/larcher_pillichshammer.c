@@ -31,19 +31,16 @@ static void fill_directions(uint32_t directions[32])
     }
 }
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const double n = *(const double *)context;
     if (k == 0) {
         koksma__kernels()->steps(count, (double)first, 0, n, xs);
         return;
     }
-    uint32_t directions[32], v[KOKSMA__COLUMN_BLOCK], start = 0;
+    uint32_t directions[32], v[KOKSMA__COLUMN_BLOCK];
     fill_directions(directions);
-    for (int b = 0; b < 32; b++) {
-        start ^= first >> b & 1 ? directions[b] : 0;
-    }
-    koksma__kernels()->digital(count, directions, start, v);
+    koksma__kernels()->digital(count, directions, koksma__digital_start(directions, first), v);
     koksma__kernels()->fractions(count, v, xs);
 }
 
@@ -67,8 +64,13 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (args->params[0] == OWEN) {
         return generate_owen(seed, args->run, out);
     }
-    const double n = (double)out->n;
-    return koksma__fill_columns(args->run, out, column, &n);
+    const double n = (double)args->n;
+    return koksma__range_columns(args, out, column, &n);
+}
+
+static bool ranges(const double *params)
+{
+    return params[0] != OWEN;
 }
 
 static const char *const scrambles[] = {"none", "owen", NULL};
@@ -87,4 +89,5 @@ const koksma_pattern koksma__pattern_larcher_pillichshammer = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
     .params = params,
     .generate = generate,
+    .ranges = ranges,
 };

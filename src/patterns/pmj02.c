@@ -19,7 +19,9 @@
 #include <koksma/sampler.h>
 
 #include "core/random.h"
+#include "core/status.h"
 #include "patterns/patterns.h"
+#include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
@@ -29,10 +31,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
         partners[l] = koksma_pmj02_partner(0, l);
         partners[32 + l] = koksma_pmj02_partner(1, l);
     }
-    if (args->params[0] != 0) {
-        return koksma__grow_shuffled(seed, KOKSMA__PURPOSE_POINT, partners, koksma_order(seed, 0), args->run, out);
-    }
-    return koksma__grow(seed, KOKSMA__PURPOSE_POINT, partners, args->run, out);
+    const uint32_t order = koksma_order(seed, 0);
+    KOKSMA__TRY(koksma__range_fits("pmj02", args, out));
+    return koksma__grow_range(seed, KOKSMA__PURPOSE_POINT, partners, args->params[0] != 0 ? &order : NULL, args, out);
 }
 
 static const koksma_param params[] = {
@@ -50,4 +51,5 @@ const koksma_pattern koksma__pattern_pmj02 = {
               KOKSMA_CLAIM_UNBIASED,
     .params = params,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

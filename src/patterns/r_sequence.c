@@ -18,6 +18,7 @@
  */
 #include <koksma/sampler.h>
 
+#include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
@@ -50,7 +51,7 @@ static uint64_t root(int dim)
     return a;
 }
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const uint64_t alpha = ((const uint64_t *)context)[k];
     uint64_t x = ((uint64_t)1 << 63) + (first + 1) * alpha;
@@ -64,7 +65,7 @@ typedef struct shuffled {
     uint32_t order;
 } shuffled;
 
-static void shuffled_columns(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+static void shuffled_columns(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const shuffled *s = context;
     uint32_t index[KOKSMA__COLUMN_BLOCK];
@@ -94,9 +95,10 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     }
     if (args->params[0] != 0) {
         const shuffled s = {alphas, koksma_order(seed, 0)};
-        return koksma__fill_blocks(args->run, out, shuffled_columns, &s);
+        KOKSMA__TRY(koksma__range_fits("r-sequence", args, out));
+        return koksma__range_blocks(args, out, shuffled_columns, &s);
     }
-    return koksma__fill_columns(args->run, out, column, alphas);
+    return koksma__range_columns(args, out, column, alphas);
 }
 
 static const koksma_param params[] = {
@@ -113,4 +115,5 @@ const koksma_pattern koksma__pattern_r_sequence = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N,
     .params = params,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

@@ -13,7 +13,9 @@
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    return koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
+    const uint64_t dim = (uint64_t)out->dim;
+    return koksma__range_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, args->first * dim, out->n * (size_t)dim,
+                                 out->xs);
 }
 
 const koksma_pattern koksma__pattern_random = {
@@ -25,4 +27,5 @@ const koksma_pattern koksma__pattern_random = {
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_UNBIASED | KOKSMA_CLAIM_EXCHANGEABLE |
               KOKSMA_CLAIM_INDEPENDENT,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

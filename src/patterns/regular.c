@@ -13,9 +13,6 @@
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    for (size_t i = 0; i < out->n * (size_t)out->dim; i++) {
-        out->xs[i] = 0;
-    }
     return koksma__fill_cells("regular", seed, args, 0, out);
 }
 
@@ -30,4 +27,5 @@ const koksma_pattern koksma__pattern_regular = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_STRATIFIED | KOKSMA_CLAIM_CENTRED,
     .params = params,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

@@ -31,8 +31,6 @@
 #include "patterns/shared/grow.h"
 #include "patterns/shared/sobol_table.h"
 
-enum { ROWS = 16 }; /* the most dimensions of the kernel digital_rows */
-
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
 
 typedef struct job {
@@ -54,35 +52,13 @@ static uint32_t seed_of(const job *j, int k)
     return koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, at / 4, 0).w[at % 4];
 }
 
-static uint32_t start_of(const uint32_t *directions, size_t first)
-{
-    uint32_t start = 0;
-    for (int b = 0; first; b++, first >>= 1) {
-        start ^= first & 1 ? directions[b] : 0;
-    }
-    return start;
-}
-
-/* Few dimensions: rows at once. */
-static void digital_rows(const void *context, size_t first, size_t count, bool stream, koksma_points *out)
-{
-    const job *j = context;
-    const uint32_t *directions[ROWS];
-    uint32_t starts[ROWS];
-    for (int k = 0; k < out->dim; k++) {
-        directions[k] = directions_of(j, k);
-        starts[k] = start_of(directions[k], first) ^ (j->scramble ? seed_of(j, k) : 0);
-    }
-    koksma__kernels()->digital_rows(count, out->dim, directions, starts, stream, out->xs + first * (size_t)out->dim);
-}
-
-static void digital(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+static void digital(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
     uint32_t v[KOKSMA__COLUMN_BLOCK];
     for (int c = 0; c < some; c++) {
         const uint32_t *directions = directions_of(j, k + c);
-        uint32_t start = start_of(directions, first);
+        uint32_t start = koksma__digital_start(directions, first);
         if (j->scramble) {
             start ^= seed_of(j, k + c);
         }
@@ -91,10 +67,18 @@ static void digital(const void *context, int k, int some, size_t first, size_t c
     }
 }
 
-static koksma_status fill_digital(const job *j, const koksma_run *run, koksma_points *out)
+static koksma_status fill_digital(const job *j, const koksma_args *args, koksma_points *out)
 {
-    return out->dim <= ROWS ? koksma__fill_rows(run, out, digital_rows, j)
-                            : koksma__fill_blocks(run, out, digital, j);
+    const uint32_t *directions[KOKSMA__DIGITAL_DIM];
+    uint32_t starts[KOKSMA__DIGITAL_DIM];
+    if (out->dim > KOKSMA__DIGITAL_DIM) {
+        return koksma__range_blocks(args, out, digital, j);
+    }
+    for (int k = 0; k < out->dim; k++) {
+        directions[k] = directions_of(j, k);
+        starts[k] = j->scramble ? seed_of(j, k) : 0;
+    }
+    return koksma__range_digital(args, directions, starts, out);
 }
 
 /* The hash takes mirrored words: made of mirrored directions. */
@@ -105,7 +89,7 @@ static void mirror_directions(const uint32_t *directions, uint32_t *mirrored)
     }
 }
 
-static void hash_owen(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+static void hash_owen(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
     const koksma__kernel_table *kernels = koksma__kernels();
@@ -129,7 +113,7 @@ static void hash_owen(const void *context, int k, int some, size_t first, size_t
             if (j->shuffle) {
                 kernels->digital_at(count, index, directions, v);
             } else {
-                kernels->digital(count, directions, start_of(directions, first), v);
+                kernels->digital(count, directions, koksma__digital_start(directions, first), v);
             }
             kernels->owen_hash(count, v, false, true, seed, v);
         }
@@ -137,21 +121,21 @@ static void hash_owen(const void *context, int k, int some, size_t first, size_t
     }
 }
 
-static koksma_status generate_owen(const job *j, const koksma_run *run, koksma_points *out)
+static koksma_status generate_owen(const job *j, const koksma_args *args, koksma_points *out)
 {
     uint32_t few[8 * 32], *partners = few;
     if (out->dim > 8) {
         partners = malloc((size_t)out->dim * 32 * sizeof *partners);
         KOKSMA__REQUIRE_MEMORY(partners, (size_t)out->dim * 32 * sizeof *partners);
     }
-    int levels = 1;
-    while ((size_t)1 << levels < out->n) {
+    int levels = args->first ? 32 : 1;
+    while ((uint64_t)1 << levels < out->n) {
         levels++;
     }
     for (int k = 0; k < out->dim; k++) {
         koksma__partners(directions_of(j, k), levels, partners + 32 * k);
     }
-    const koksma_status status = koksma__grow(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, run, out);
+    const koksma_status status = koksma__grow_range(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, NULL, args, out);
     if (partners != few) {
         free(partners);
     }
@@ -177,7 +161,7 @@ static void scramble_matrix(const job *j, int k, uint32_t *matrix)
     }
 }
 
-static koksma_status generate_lms(job *j, const koksma_run *run, koksma_points *out)
+static koksma_status generate_lms(job *j, const koksma_args *args, koksma_points *out)
 {
     uint32_t few[8][32], (*matrices)[32] = few;
     if (out->dim > 8) {
@@ -188,7 +172,7 @@ static koksma_status generate_lms(job *j, const koksma_run *run, koksma_points *
         scramble_matrix(j, k, matrices[k]);
     }
     j->matrices = (const uint32_t(*)[32])matrices;
-    const koksma_status status = fill_digital(j, run, out);
+    const koksma_status status = fill_digital(j, args, out);
     if (matrices != few) {
         free(matrices);
     }
@@ -205,14 +189,14 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
                     KOKSMA__SOBOL_OLD_DIM, out->dim, KOKSMA__SOBOL_DIM);
     KOKSMA__FAIL_IF(j.shuffle && j.scramble != HASH_OWEN, KOKSMA_ARGUMENT,
                     "sobol: shuffle=1 goes with scramble=hash-owen only");
+    KOKSMA__TRY(koksma__range_fits("sobol", args, out));
     if (j.scramble == OWEN) {
-        return generate_owen(&j, args->run, out);
+        return generate_owen(&j, args, out);
     }
     if (j.scramble == LMS) {
-        return generate_lms(&j, args->run, out);
+        return generate_lms(&j, args, out);
     }
-    return j.scramble == HASH_OWEN ? koksma__fill_blocks(args->run, out, hash_owen, &j)
-                                   : fill_digital(&j, args->run, out);
+    return j.scramble == HASH_OWEN ? koksma__range_blocks(args, out, hash_owen, &j) : fill_digital(&j, args, out);
 }
 
 static const char *const scrambles[] = {"none", "digital-shift", "lms", "owen", "hash-owen", NULL};
@@ -236,4 +220,5 @@ const koksma_pattern koksma__pattern_sobol = {
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
     .generate = generate,
+    .ranges = koksma__ranges_always,
 };

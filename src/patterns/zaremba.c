@@ -33,7 +33,7 @@ static uint32_t fold(const void *context, uint32_t base, int j, uint32_t a)
     return (a + (uint32_t)j) % base;
 }
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const job *j = context;
     if (k == 0) {
@@ -49,13 +49,18 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     if (args->params[0] == OWEN) {
         return koksma__owen_hammersley(seed, args->run, out);
     }
-    j.n = (double)out->n;
-    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, out->n, fold, NULL);
+    j.n = (double)args->n;
+    koksma_status status = koksma__radicals_init(&j.radicals, out->dim - 1, args->n, fold, NULL);
     if (!status) {
-        status = koksma__fill_columns(args->run, out, column, &j);
+        status = koksma__range_columns(args, out, column, &j);
         koksma__radicals_fini(&j.radicals);
     }
     return status;
+}
+
+static bool ranges(const double *params)
+{
+    return params[0] != OWEN;
 }
 
 static const char *const scrambles[] = {"none", "owen", NULL};
@@ -74,4 +79,5 @@ const koksma_pattern koksma__pattern_zaremba = {
     .claims = KOKSMA_CLAIM_DETERMINISTIC | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2,
     .params = params,
     .generate = generate,
+    .ranges = ranges,
 };

@@ -123,9 +123,51 @@ static void assert_common(const koksma_spec *spec, const koksma_points *points, 
     koksma_points_fini(&again);
 }
 
+/* Points first .. first + count - 1, made alone, are those of the whole. */
+static void assert_range(const koksma_spec *spec, const koksma_points *points, uint64_t seed, size_t first,
+                         size_t count)
+{
+    koksma_points range;
+    const size_t dim = (size_t)points->dim;
+    assert_ok(koksma_points_init(&range, count, points->dim));
+    memset(range.xs, 0x5a, count * dim * sizeof *range.xs);
+    assert_ok(koksma_generate_range(spec, seed, points->n, first, NULL, &range));
+    if (memcmp(range.xs, points->xs + first * dim, count * dim * sizeof *range.xs)) {
+        fail_claim(spec, points, "points %zu to %zu alone are others", first, first + count - 1);
+    }
+    koksma_points_fini(&range);
+}
+
+/* Also one point at the end, and ranges that begin and end at, before and behind the lengths at which work is cut. */
+static void assert_ranges(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
+{
+    static const size_t cuts[] = {0, 1, 2, 63, 64, 65, 511, 512, 513, 1000, 4095, 4097, 32767, 32769, 40000, 65537};
+    const size_t n = points->n, n_cuts = sizeof cuts / sizeof *cuts;
+    koksma_points past;
+    if (!koksma_has_ranges(spec)) {
+        assert_ok(koksma_points_init(&past, 1, points->dim));
+        assert_int_equal(koksma_generate_range(spec, seed, n, 0, NULL, &past), KOKSMA_UNSUPPORTED);
+        koksma_points_fini(&past);
+        return;
+    }
+    assert_range(spec, points, seed, n - 1, 1);
+    for (size_t a = 0; a < n_cuts && cuts[a] < n; a++) {
+        assert_range(spec, points, seed, cuts[a], n - cuts[a]);
+        for (size_t b = a + 1; b < n_cuts && cuts[b] <= n; b++) {
+            assert_range(spec, points, seed, cuts[a], cuts[b] - cuts[a]);
+        }
+    }
+    assert_ok(koksma_points_init(&past, 2, points->dim));
+    const uint64_t end = spec->pattern->claims & KOKSMA_CLAIM_SEQUENCE ? KOKSMA_MAX_INDEX + 1 : n;
+    assert_refusal(spec, koksma_generate_range(spec, seed, n, end - 1, NULL, &past));
+    assert_refusal(spec, koksma_generate_range(spec, seed, n, UINT64_MAX, NULL, &past));
+    koksma_points_fini(&past);
+}
+
 static void check_set(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     assert_common(spec, points, seed);
+    assert_ranges(spec, points, seed);
     for (size_t c = 0; c < n_claims; c++) {
         if (spec->pattern->claims & claims[c].claim) {
             claims[c].check(spec, points, seed);
@@ -215,6 +257,7 @@ static void large_sets_are_equal_on_any_threads(void **state)
             assert_ok(koksma_points_init(&points, 65536, dim));
             if (!koksma_generate(&specs[s], 5, &run, &points)) {
                 assert_common(&specs[s], &points, 5);
+                assert_ranges(&specs[s], &points, 5);
             }
             koksma_points_fini(&points);
         }

@@ -13,12 +13,12 @@
 #include "kernels/kernels.h"
 #include "patterns/shared/fill.h"
 
-/* m^dim, or SIZE_MAX when that is too large for any set. */
+/* m^dim, or SIZE_MAX when that is no number of points. */
 static size_t power(size_t m, int dim)
 {
     size_t product = 1;
     for (int k = 0; k < dim; k++) {
-        if (product > KOKSMA_MAX_COORDINATES / m) {
+        if (product > SIZE_MAX / m) {
             return SIZE_MAX;
         }
         product *= m;
@@ -79,20 +79,31 @@ koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_a
                                  koksma_points *out)
 {
     size_t along_x, along_rest;
-    koksma_status status = koksma__cells(name, out, args->params[0], &along_x, &along_rest);
+    const koksma_points whole = {(size_t)args->n, out->dim, NULL};
+    const size_t count = out->n * (size_t)out->dim;
+    koksma_status status = koksma__cells(name, &whole, args->params[0], &along_x, &along_rest);
     if (!status && width > 0) {
-        status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, out->n * (size_t)out->dim, out->xs);
+        status = koksma__range_uniform(seed, KOKSMA__PURPOSE_POINT, args->run, args->first * (uint64_t)out->dim,
+                                       count, out->xs);
     }
     if (status) {
         return status;
     }
     const double start = (1 - width) / 2, m_x = (double)along_x, m_rest = (double)along_rest;
     double *x = out->xs;
-    if (out->dim == 2) {
+    for (size_t i = 0; i < count && width == 0; i++) {
+        x[i] = 0;
+    }
+    if (out->dim == 2 && out->n == args->n) {
         koksma__kernels()->cells_2d(start, width, along_x, along_rest, x);
         return KOKSMA_OK;
     }
-    size_t cell[KOKSMA_MAX_DIM] = {0};
+    size_t cell[KOKSMA_MAX_DIM];
+    uint64_t rest = args->first;
+    for (int k = out->dim - 1; k >= 0; k--) {
+        cell[k] = (size_t)(k ? rest % along_rest : rest);
+        rest /= along_rest;
+    }
     for (size_t i = 0; i < out->n; i++) {
         x[0] = koksma__in_cell((double)cell[0], start + width * x[0], m_x);
         for (int k = 1; k < out->dim; k++) {

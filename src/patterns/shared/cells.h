@@ -34,8 +34,8 @@ koksma_status koksma__divisors(const char *name, size_t n, double wanted, size_t
 koksma_status koksma__cells(const char *name, const koksma_points *out, double columns, size_t *along_x,
                             size_t *along_rest);
 
-/* A point of [0,1)^dim in every cell, in order of the cells (the last coordinate's changes fastest): the point is
-   at centre + (u - 1/2) * width of its cell, with u uniform; width in [0,1]. */
+/* The range of points that args wants of those with one in every cell, in order of the cells (the last coordinate's
+   changes fastest): the point is at centre + (u - 1/2) * width of its cell, with u uniform; width in [0,1]. */
 koksma_status koksma__fill_cells(const char *name, uint64_t seed, const koksma_args *args, double width,
                                  koksma_points *out);
 

@@ -6,6 +6,7 @@
 #include "patterns/shared/columns.h"
 
 #include "core/parallel.h"
+#include "core/status.h"
 #include "kernels/kernels.h"
 
 enum { GROUP = 1 << 15, COLUMNS = 8, STREAM_BYTES = 1 << 23 };
@@ -13,6 +14,7 @@ enum { GROUP = 1 << 15, COLUMNS = 8, STREAM_BYTES = 1 << 23 };
 typedef struct job {
     koksma__block f;
     const void *context;
+    uint64_t first; /* the index of point 0 of out */
     koksma_points *out;
 } job;
 
@@ -44,32 +46,58 @@ void koksma__store_columns(size_t count, int some, const double *columns, size_t
     }
 }
 
-static void block(const job *j, size_t first, size_t count)
+/* Points at .. at + count - 1, all of one block of indices. */
+static void block(const job *j, uint64_t at, size_t count)
 {
     double columns[COLUMNS][KOKSMA__COLUMN_BLOCK];
     const int dim = j->out->dim;
+    const size_t skip = (size_t)(at % KOKSMA__COLUMN_BLOCK);
     for (int k = 0; k < dim; k += COLUMNS) {
         const int some = dim - k < COLUMNS ? dim - k : COLUMNS;
-        j->f(j->context, k, some, first, count, columns);
-        koksma__store_columns(count, some, columns[0], first, k, j->out);
+        j->f(j->context, k, some, at - skip, skip + count, columns);
+        koksma__store_columns(count, some, columns[0] + skip, (size_t)(at - j->first), k, j->out);
     }
+}
+
+/* Groups are of indices, not of out's points. */
+static size_t groups_of(uint64_t first, size_t n)
+{
+    return (size_t)((first + n - 1) / GROUP - first / GROUP + 1);
+}
+
+/* Group g of the points first .. first + n - 1. */
+static void group_of(uint64_t first, size_t n, size_t g, uint64_t *at, uint64_t *end)
+{
+    const uint64_t start = (first / GROUP + g) * GROUP;
+    *at = start < first ? first : start;
+    *end = start + GROUP < first + n ? start + GROUP : first + n;
 }
 
 static koksma_status group(void *context, size_t g)
 {
     const job *j = context;
-    const size_t end = (g + 1) * GROUP < j->out->n ? (g + 1) * GROUP : j->out->n;
-    for (size_t first = g * GROUP; first < end; first += KOKSMA__COLUMN_BLOCK) {
-        block(j, first, end - first < KOKSMA__COLUMN_BLOCK ? end - first : KOKSMA__COLUMN_BLOCK);
+    uint64_t at, end;
+    group_of(j->first, j->out->n, g, &at, &end);
+    while (at < end) {
+        const size_t left = (size_t)(end - at), some = KOKSMA__COLUMN_BLOCK - (size_t)(at % KOKSMA__COLUMN_BLOCK);
+        const size_t count = left < some ? left : some;
+        block(j, at, count);
+        at += count;
     }
     return KOKSMA_OK;
 }
 
+koksma_status koksma__range_blocks(const koksma_args *args, koksma_points *out, koksma__block f, const void *context)
+{
+    job j = {f, context, args->first, out};
+    const size_t n_groups = groups_of(j.first, out->n);
+    return n_groups == 1 ? group(&j, 0) : koksma__parallel(args->run, n_groups, group, &j);
+}
+
 koksma_status koksma__fill_blocks(const koksma_run *run, koksma_points *out, koksma__block f, const void *context)
 {
-    job j = {f, context, out};
-    const size_t n_groups = (out->n + GROUP - 1) / GROUP;
-    return n_groups == 1 ? group(&j, 0) : koksma__parallel(run, n_groups, group, &j);
+    const koksma_args args = {.run = run};
+    return koksma__range_blocks(&args, out, f, context);
 }
 
 typedef struct single {
@@ -77,7 +105,7 @@ typedef struct single {
     const void *context;
 } single;
 
-static void one_by_one(const void *context, int k, int some, size_t first, size_t count, koksma__columns xs)
+static void one_by_one(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const single *s = context;
     for (int c = 0; c < some; c++) {
@@ -85,10 +113,72 @@ static void one_by_one(const void *context, int k, int some, size_t first, size_
     }
 }
 
-koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
+koksma_status koksma__range_columns(const koksma_args *args, koksma_points *out, koksma__column f,
+                                    const void *context)
 {
     const single s = {f, context};
-    return koksma__fill_blocks(run, out, one_by_one, &s);
+    return koksma__range_blocks(args, out, one_by_one, &s);
+}
+
+koksma_status koksma__fill_columns(const koksma_run *run, koksma_points *out, koksma__column f, const void *context)
+{
+    const koksma_args args = {.run = run};
+    return koksma__range_columns(&args, out, f, context);
+}
+
+typedef struct digital_job {
+    const uint32_t *const *directions;
+    const uint32_t *starts;
+    uint64_t first;
+    koksma_points *out;
+} digital_job;
+
+uint32_t koksma__digital_start(const uint32_t *directions, uint64_t first)
+{
+    uint32_t start = 0;
+    for (int b = 0; first; b++, first >>= 1) {
+        start ^= first & 1 ? directions[b] : 0;
+    }
+    return start;
+}
+
+/* The kernel takes points whose index is that of the first with some of its last zeros set: a group that begins amid
+   is cut at the ends of longer and longer such runs. */
+static koksma_status group_of_digits(void *context, size_t g)
+{
+    const digital_job *j = context;
+    const int dim = j->out->dim;
+    uint64_t at, end;
+    group_of(j->first, j->out->n, g, &at, &end);
+    while (at < end) {
+        const uint64_t run = at % GROUP ? at & -at : GROUP, left = end - at;
+        const size_t count = (size_t)(left < run ? left : run);
+        uint32_t starts[KOKSMA__DIGITAL_DIM];
+        for (int k = 0; k < dim; k++) {
+            starts[k] = j->starts[k] ^ koksma__digital_start(j->directions[k], at);
+        }
+        koksma__kernels()->digital_rows(count, dim, j->directions, starts, koksma__is_large(j->out),
+                                        j->out->xs + (size_t)(at - j->first) * (size_t)dim);
+        at += count;
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__range_digital(const koksma_args *args, const uint32_t *const *directions,
+                                    const uint32_t *starts, koksma_points *out)
+{
+    digital_job j = {directions, starts, args->first, out};
+    const size_t n_groups = groups_of(j.first, out->n);
+    return n_groups == 1 ? group_of_digits(&j, 0) : koksma__parallel(args->run, n_groups, group_of_digits, &j);
+}
+
+koksma_status koksma__range_fits(const char *name, const koksma_args *args, const koksma_points *out)
+{
+    const uint64_t most = (uint64_t)1 << 32;
+    KOKSMA__FAIL_IF(args->first > most - out->n, KOKSMA_N,
+                    "%s: point %llu: with these parameters its points end at number 2^32 - 1", name,
+                    (unsigned long long)(args->first + out->n - 1));
+    return KOKSMA_OK;
 }
 
 typedef struct whole {

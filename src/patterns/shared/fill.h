@@ -8,6 +8,10 @@
    Over threads when there are many; the bits are the same. */
 koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, size_t count, double *xs);
 
+/* The numbers first .. first + count - 1 of those. */
+koksma_status koksma__range_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, uint64_t first,
+                                    size_t count, double *xs);
+
 /* koksma__random_permutation, the same bits, faster. n >= 1. */
 void koksma__fill_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
 

@@ -8,6 +8,7 @@
 
 #include <koksma/sampler.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/pages.h"
 #include "core/parallel.h"
@@ -15,7 +16,7 @@
 #include "kernels/kernels.h"
 #include "patterns/shared/columns.h"
 
-enum { COLUMNS = 8, FEW = 256, WORDS = 1024, BLOCK = 1 << 16 };
+enum { COLUMNS = 8, FEW = 256, WORDS = 1024, BLOCK = 1 << 16, LEAST_BLOCK = 64, FAR_BLOCK = 4096 };
 
 typedef struct growth {
     uint64_t seed;
@@ -157,14 +158,100 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
     return grow_and_store(&g, NULL, run, out);
 }
 
-koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
-                                    const koksma_run *run, koksma_points *out)
+/* ---- Ranges ---------------------------------------------------------------------------------------------- */
+
+/* Points first .. of out, in aligned blocks of a power of two of points: what a level does to an index, one xor, keeps
+   such blocks together. The first block is grown as ever. */
+typedef struct range {
+    const growth *g;       /* n and v: of the first block */
+    const uint32_t *order; /* or NULL */
+    uint64_t first;
+    koksma_points *out;
+} range;
+
+/* Column c of the points block .. block + n - 1. The bits that a point has from its partner are those that the partner
+   has, from its own, and so on down to the first block. */
+static void grow_far(const growth *g, int c, uint32_t block, uint32_t *v)
 {
-    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = 1};
-    while (g.n < out->n) {
+    const uint32_t *partners = g->partners + 32 * (g->k + c), inside = (uint32_t)g->n - 1;
+    uint32_t word[FAR_BLOCK], above = 0xffffffffu, turn = 0, flips = 0;
+    memset(v, 0, g->n * sizeof *v);
+    while (block) {
+        const int level = 31 - __builtin_clz(block);
+        const uint32_t own = level < 31 ? 0xffffffffu >> (level + 1) : 0, bits = above & own;
+        koksma__kernels()->words(g->seed, g->purpose, block / 4, (uint32_t)(g->k + c), g->n / 4, word);
+        for (uint32_t i = 0; i <= inside; i++) {
+            v[i] ^= word[i ^ turn] >> level >> 1 & bits;
+        }
+        above &= ~own;
+        flips ^= 0x80000000u >> level;
+        turn ^= partners[level] & inside;
+        block = (block ^ (uint32_t)1 << level ^ partners[level]) & ~inside;
+    }
+    const uint32_t *start = g->v + (size_t)c * g->n;
+    for (uint32_t i = 0; i <= inside; i++) {
+        v[i] ^= (start[i ^ turn] & above) ^ flips;
+    }
+}
+
+static koksma_status grow_range_block(void *context, size_t b)
+{
+    const range *r = context;
+    const growth *g = r->g;
+    const uint64_t block = (r->first / g->n + b) * g->n, end = r->first + r->out->n;
+    uint32_t index[FAR_BLOCK], v[COLUMNS][FAR_BLOCK], from = (uint32_t)block;
+    if (r->order) {
+        const uint32_t zero = koksma_mirror(koksma_owen_hash(0, *r->order));
+        for (size_t i = 0; i < g->n; i++) {
+            index[i] = (uint32_t)(block + i);
+        }
+        koksma__kernels()->owen_hash(g->n, index, true, true, *r->order, index);
+        for (size_t i = 0; i < g->n; i++) {
+            index[i] ^= zero;
+        }
+        from = index[0] & ~(uint32_t)(g->n - 1);
+    }
+    for (int c = 0; c < g->dim; c++) {
+        uint32_t grown[FAR_BLOCK];
+        grow_far(g, c, from, r->order ? grown : v[c]);
+        for (size_t i = 0; r->order && i < g->n; i++) {
+            v[c][i] = grown[index[i] - from];
+        }
+    }
+    uint64_t at = block < r->first ? r->first : block;
+    const uint64_t stop = block + g->n < end ? block + g->n : end;
+    for (size_t count; at < stop; at += count) {
+        count = stop - at < KOKSMA__COLUMN_BLOCK ? (size_t)(stop - at) : KOKSMA__COLUMN_BLOCK;
+        store(g, v[0] + (at - block), FAR_BLOCK, r->out, (size_t)(at - r->first), count);
+    }
+    return KOKSMA_OK;
+}
+
+koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const uint32_t *order,
+                                 const koksma_args *args, koksma_points *out)
+{
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n};
+    while (order && g.n & (g.n - 1)) {
+        g.n += g.n & -g.n;
+    }
+    if (args->first == 0) {
+        return grow_and_store(&g, order, args->run, out);
+    }
+    for (g.n = LEAST_BLOCK; g.n < FAR_BLOCK && g.n < out->n;) {
         g.n *= 2;
     }
-    return grow_and_store(&g, &order, run, out);
+    g.v = malloc(COLUMNS * g.n * sizeof *g.v);
+    KOKSMA__REQUIRE_MEMORY(g.v, COLUMNS * g.n * sizeof *g.v);
+    const range r = {&g, order, args->first, out};
+    const size_t blocks = (size_t)((args->first + out->n - 1) / g.n - args->first / g.n + 1);
+    koksma_status status = KOKSMA_OK;
+    for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {
+        g.dim = out->dim - g.k < COLUMNS ? out->dim - g.k : COLUMNS;
+        status = grow_columns(&g, args->run);
+        status = status ? status : koksma__parallel(args->run, blocks, grow_range_block, (void *)&r);
+    }
+    free(g.v);
+    return status;
 }
 
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,

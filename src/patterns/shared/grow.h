@@ -14,10 +14,10 @@
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
 
-/* The same in another order: point i of out is point koksma_shuffled_from_0(i, order) of koksma__grow (the function
-   of koksma/sampler.h). Needs memory for the next power of two of points. */
-koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
-                                    const koksma_run *run, koksma_points *out);
+/* Points args->first .. of those, up to 2^32 - 1. order: in another order, point i is point koksma_shuffled_from_0(i,
+   *order) of koksma__grow (the function of koksma/sampler.h); NULL: in this one. */
+koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const uint32_t *order,
+                                 const koksma_args *args, koksma_points *out);
 
 /* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times that of point i. partners has the
    partner of each of the 32 levels. */

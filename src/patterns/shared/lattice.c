@@ -22,11 +22,21 @@ typedef struct job {
     const uint64_t *z;
 } job;
 
-static void column(const void *context, int k, size_t first, size_t count, double *xs)
+/* a b modulo n < 2^52, a and b below n. */
+static uint64_t product_modulo(uint64_t a, uint64_t b, uint64_t n)
+{
+    uint64_t sum = 0;
+    for (; a; a >>= 1, b = 2 * b % n) {
+        sum = a & 1 ? (sum + b) % n : sum;
+    }
+    return sum;
+}
+
+static void column(const void *context, int k, uint64_t first, size_t count, double *xs)
 {
     const job *j = context;
     const uint64_t z = j->z[k];
-    uint64_t numerator = first * z % j->n; /* below 2^56 */
+    uint64_t numerator = product_modulo(first, z, j->n);
     for (size_t i = 0; i < count; i++) {
         xs[i] = (double)(int64_t)numerator / (double)j->n;
         numerator += z;
@@ -34,10 +44,15 @@ static void column(const void *context, int k, size_t first, size_t count, doubl
     }
 }
 
+koksma_status koksma__range_lattice(const koksma_args *args, const uint64_t *z, koksma_points *out)
+{
+    const job j = {args->n, z};
+    return koksma__range_columns(args, out, column, &j);
+}
+
 koksma_status koksma__fill_lattice(const koksma_run *run, const uint64_t *z, koksma_points *out)
 {
-    const job j = {out->n, z};
-    return koksma__fill_columns(run, out, column, &j);
+    return koksma__range_lattice(&(koksma_args){.run = run, .n = out->n}, z, out);
 }
 
 static double bernoulli(uint64_t numerator, size_t n)

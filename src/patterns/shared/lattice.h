@@ -8,6 +8,9 @@
 /* z[k] < n for each coordinate. */
 koksma_status koksma__fill_lattice(const koksma_run *run, const uint64_t *z, koksma_points *out);
 
+/* The range that args wants of those of args->n points. */
+koksma_status koksma__range_lattice(const koksma_args *args, const uint64_t *z, koksma_points *out);
+
 /* What the searches minimise is the mean over i of the product over k of 1 + gamma 2 pi^2 B_2({i z_k / n}), with
    B_2(x) = x^2 - x + 1/6 and gamma = 3/(8 pi^2): the worst-case error P_2 with one weight for all coordinates, and
    the square of l2-wraparound over (4/3)^dim, plus 1. The term of i = 0 is the same for all multipliers and grows as

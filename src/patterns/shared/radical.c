@@ -17,14 +17,14 @@ static uint32_t digit_of(const koksma__radical *r, int j, uint32_t a)
     return r->digit ? r->digit(r->context, r->base, j, a) : a;
 }
 
-/* The most indices of a set on any machine (KOKSMA_MAX_COORDINATES is less with 32 bits). */
-#define MOST 0x1p28
+/* Mapped digits: those of indices below this are of the numerator, which is exact; those above are of the tail. */
+#define MAPPED 0x1p28
 
-/* The digits and the size of the table for indices below n. With mapped digits the place where the row of zeros
-   begins must not depend on n, nor on the machine, so that the values do not either. */
-static void measure(koksma__radical *r, uint32_t base, size_t n, bool mapped)
+/* The digits and the size of the table for indices below n. With mapped digits the place where the tail begins must not
+   depend on n, so that the values do not either. */
+static void measure(koksma__radical *r, uint32_t base, uint64_t n, bool mapped)
 {
-    const double most = mapped ? MOST : (double)n;
+    const double most = mapped ? MAPPED : (double)n;
     r->base = base;
     r->whole = base;
     r->digits = 1;
@@ -43,6 +43,19 @@ static void measure(koksma__radical *r, uint32_t base, size_t n, bool mapped)
     for (int j = r->low_digits; j < r->digits; j++) {
         r->high_scale *= base;
     }
+}
+
+/* What the digits of `rest`, which are those above the numerator's, add to it; behind the last, zeros without end. */
+static double tail_of(const koksma__radical *r, uint64_t rest)
+{
+    double place = 1, tail = 0;
+    for (int j = r->digits; r->digit && place > 0x1p-60; j++, rest /= r->base) {
+        place /= r->base;
+        tail += place * digit_of(r, j, (uint32_t)(rest % r->base));
+    }
+    /* Every sum of numerators and tail is exact, and the tail below 1, so that values are, too. */
+    const double grid = exp2(floor(52 - log2(r->whole)));
+    return fmin(floor(tail * grid + 0.5), grid - 1) / grid;
 }
 
 /* table[a] = the mirrored low digits of a, as a whole number, times high_scale. */
@@ -70,18 +83,10 @@ static void fill_table(koksma__radical *r)
             done = end;
         }
     }
-    double place = 1;
-    r->tail = 0;
-    for (int j = r->digits; r->digit && place > 0x1p-60; j++) {
-        place /= r->base;
-        r->tail += place * digit_of(r, j, 0);
-    }
-    /* Every sum of numerators and tail is exact, and the tail below 1, so that values are, too. */
-    const double grid = exp2(floor(52 - log2(r->whole)));
-    r->tail = fmin(floor(r->tail * grid + 0.5), grid - 1) / grid;
+    r->tail = tail_of(r, 0);
 }
 
-koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, koksma__digit digit,
+koksma_status koksma__radicals_init(koksma__radicals *r, int count, uint64_t n, koksma__digit digit,
                                     const void *context)
 {
     size_t entries = 0;
@@ -90,6 +95,10 @@ koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, ko
     koksma__radical one;
     for (int k = 0; k < count; k++) {
         measure(&one, koksma__prime(k), n, digit != NULL);
+        const double last = digit ? 0x1p53 / one.base : one.whole <= 0x1p53 ? one.whole : one.whole / one.base;
+        KOKSMA__FAIL_IF((double)n > last, KOKSMA_N,
+                        "point %llu: radical inverses in base %u are exact up to point %.0f",
+                        (unsigned long long)(n - 1), one.base, floor(last) - 1);
         entries += one.size;
     }
     double *table = r->room;
@@ -117,12 +126,12 @@ void koksma__radicals_fini(koksma__radicals *r)
     free(r->memory);
 }
 
-void koksma__radical_column(const koksma__radical *r, size_t first, size_t count, double *out)
+void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out)
 {
     const koksma__kernel_table *kernels = koksma__kernels();
     while (count) {
-        const size_t low = first % r->size;
-        size_t rest = first / r->size;
+        const size_t low = (size_t)(first % r->size);
+        uint64_t rest = first / r->size;
         double high = 0, scale = r->high_scale;
         for (int j = r->low_digits; j < r->digits; j++) {
             scale /= r->base;
@@ -130,7 +139,8 @@ void koksma__radical_column(const koksma__radical *r, size_t first, size_t count
             rest /= r->base;
         }
         const size_t some = count < r->size - low ? count : r->size - low;
-        kernels->quotients(some, r->table + low, high + r->tail, r->whole, out);
+        high += rest ? tail_of(r, rest) : r->tail;
+        kernels->quotients(some, r->table + low, high, r->whole, out);
         out += some;
         first += some;
         count -= some;

@@ -26,7 +26,8 @@ typedef struct koksma__radical {
     double *table;
 } koksma__radical;
 
-/* Prepares coordinates for the prime bases of [first, first + count) (0: base 2) and indices below n.
+/* Prepares coordinates for the first `count` prime bases and indices below n. Error: N, past the largest power of a base
+   up to 2^53, beyond which numerators are not exact.
    All memory is one block that the caller frees with koksma__radicals_fini. */
 typedef struct koksma__radicals {
     koksma__radical few[8];
@@ -35,12 +36,12 @@ typedef struct koksma__radicals {
     void *memory;
 } koksma__radicals;
 
-koksma_status koksma__radicals_init(koksma__radicals *r, int count, size_t n, koksma__digit digit,
+koksma_status koksma__radicals_init(koksma__radicals *r, int count, uint64_t n, koksma__digit digit,
                                     const void *context);
 void koksma__radicals_fini(koksma__radicals *r);
 
 /* out[i] = the value for index first + i, i < count. */
-void koksma__radical_column(const koksma__radical *r, size_t first, size_t count, double *out);
+void koksma__radical_column(const koksma__radical *r, uint64_t first, size_t count, double *out);
 
 /* The k-th prime, 0: 2. k < KOKSMA_MAX_DIM. */
 uint32_t koksma__prime(int k);
