@@ -395,8 +395,8 @@ const cli_command cli_command_integrate = {
                "coordinates, total that of all components with any of them; pairs up to 16 dimensions. Without a "
                "closed form\n"
                "they are estimated, with 95 % intervals.\n",
-    .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,sobol:scramble=owen -n 16,64,256\n"
-                "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton:scramble=affine -n 64,256,1024 -t 16\n"
+    .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
+                "koksma integrate genz-gaussian:difficulty=3 -d 5 -p r-sequence:shift=1 -n 64,256\n"
                 "koksma integrate asian:path=bridge -d 4 --anova\n"
                 "koksma integrate disk points.txt --json\n",
     .options = options,
