@@ -396,7 +396,7 @@ const cli_command cli_command_integrate = {
                "closed form\n"
                "they are estimated, with 95 % intervals.\n",
     .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
-                "koksma integrate genz-gaussian:difficulty=3 -d 5 -p r-sequence:shift=1 -n 64,256\n"
+                "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
                 "koksma integrate asian:path=bridge -d 4 --anova\n"
                 "koksma integrate disk points.txt --json\n",
     .options = options,
