@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/integrate.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
 
@@ -40,6 +41,7 @@ static const struct {
 } nouns[] = {
     {"PATTERN", "patterns", NULL, false},
     {"MEASURE", "measures", NULL, false},
+    {"INTEGRAND", "integrands", NULL, false},
     {"SCENE", "scenes", NULL, true},
     {"INTEGRATOR", "integrators", NULL, false},
     {"FILTER", "filters", NULL, false},
@@ -359,13 +361,18 @@ static void put_fish(void)
     }
 }
 
-/* The parameters of a pattern, measure or adaptive method; NULL: there is none of that name. */
+/* The parameters of a pattern, measure, integrand or adaptive method; NULL: there is none of that name. */
 static const koksma_param *params_of(const char *name)
 {
     const koksma_pattern *pattern = koksma_pattern_find(name);
     const koksma_measure *measure = koksma_measure_find(name);
     const koksma_adaptive *adaptive = koksma_adaptive_find(name);
-    return pattern ? pattern->params : measure ? measure->params : adaptive ? adaptive->params : NULL;
+    const koksma_integrand *integrand = koksma_integrand_find(name);
+    return pattern     ? pattern->params
+           : measure   ? measure->params
+           : integrand ? integrand->params
+           : adaptive  ? adaptive->params
+                       : NULL;
 }
 
 /* Words that go on with one that ends in a spec, "-p a,sobol:scr": "NAME=" of a parameter, or its choices; the names of

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <koksma/adaptive.h>
+#include <koksma/integrate.h>
 #include <koksma/optimise.h>
 #include <koksma/study.h>
 #include <koksma/verify.h>
@@ -100,6 +101,9 @@ LIST(modifiers, "modifier", const koksma_modifier *, (x = koksma_modifier_at(i))
       cli_row_text(rows, "measures", strcmp(x->measures, "*") ? x->measures : "all"), SOURCE))
 LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name, x->title,
      (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "cost", x->cost),
+      SOURCE))
+LIST(integrands, "integrand", const koksma_integrand *, (x = koksma_integrand_at(i)), x->name, x->title,
+     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "integral", x->known),
       SOURCE))
 LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name, x->meaning, (void)x)
 LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name, x->meaning, (void)x)
@@ -199,6 +203,7 @@ static void list_parameters(cli_rows *rows)
     const koksma_pattern *p;
     const koksma_modifier *x;
     const koksma_measure *m;
+    const koksma_integrand *f;
     const koksma_adaptive *a;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         list_parameters_of(rows, p->name, p->params);
@@ -210,6 +215,9 @@ static void list_parameters(cli_rows *rows)
     for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
         list_parameters_of(rows, m->name, m->params);
     }
+    for (size_t i = 0; (f = koksma_integrand_at(i)); i++) {
+        list_parameters_of(rows, f->name, f->params);
+    }
     for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
         list_parameters_of(rows, a->name, a->params);
     }
@@ -219,18 +227,18 @@ static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},       {"modifiers", list_modifiers},
-    {"measures", list_measures},       {"claims", list_claims},
-    {"properties", list_properties},   {"warps", list_warps},
-    {"curves", list_curves},           {"scenes", list_scenes},
-    {"materials", list_materials},     {"lights", list_lights},
-    {"shapes", list_shapes},           {"formats", list_formats},
-    {"integrators", list_integrators}, {"pipelines", list_pipelines},
-    {"filters", list_filters},         {"uses", list_uses},
-    {"adaptive", list_adaptive},       {"methods", list_methods},
-    {"records", list_records},         {"plans", list_plans},
-    {"questions", list_questions},     {"sections", list_sections},
-    {"parameters", list_parameters},
+    {"patterns", list_patterns},   {"modifiers", list_modifiers},
+    {"measures", list_measures},   {"integrands", list_integrands},
+    {"claims", list_claims},       {"properties", list_properties},
+    {"warps", list_warps},         {"curves", list_curves},
+    {"scenes", list_scenes},       {"materials", list_materials},
+    {"lights", list_lights},       {"shapes", list_shapes},
+    {"formats", list_formats},     {"integrators", list_integrators},
+    {"pipelines", list_pipelines}, {"filters", list_filters},
+    {"uses", list_uses},           {"adaptive", list_adaptive},
+    {"methods", list_methods},     {"records", list_records},
+    {"plans", list_plans},         {"questions", list_questions},
+    {"sections", list_sections},   {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)

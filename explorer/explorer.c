@@ -4,11 +4,10 @@
  * One set of points is the one that is looked at. Texts go in through explorer_text_in(), results come out as JSON or
  * as arrays; a NULL or a status other than 0 means that koksma_error_text() has the reason.
  */
+#include <koksma/integrate.h>
 #include <koksma/koksma.h>
 #include <koksma/series.h>
 #include <koksma/spectrum.h>
-
-#include "study/report/integrands.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -383,13 +382,18 @@ static double star_of(const int *axes, int dim, koksma_points *made)
                                                                                                    : value.value;
 }
 
-static double error_of(const koksma__integrand *f, const koksma_points *of)
+/* What is known of integrand f, and its error over points of as many dimensions as it has axes. NaN when it fails. */
+static double error_of(const koksma_integrand *f, const koksma_points *of, koksma_integral_facts *facts)
 {
-    double sum = 0;
-    for (size_t i = 0; i < of->n; i++) {
-        sum += f->at(&of->xs[i * (size_t)of->dim]);
+    koksma_integral *integral;
+    double mean = NAN;
+    *facts = (koksma_integral_facts){.variation = NAN};
+    if (!koksma_integral_open(f->name, f->axes, &integral)) {
+        koksma_integral_about(integral, facts);
+        mean = koksma_integrate(integral, of, NULL, &mean) ? NAN : mean;
+        koksma_integral_close(integral);
     }
-    return fabs(sum / (double)of->n - f->integral);
+    return fabs(mean - facts->value);
 }
 
 /* The error of every function of known variation over coordinates x and y of the points, beside V(f) D*; functions of
@@ -403,16 +407,19 @@ const char *explorer_inequality(int x, int y)
         star[d] = star_of(axes, d + 1, &of[d]);
     }
     const bool good = !isnan(star[0]) && (dims == 1 || !isnan(star[1]));
-    const koksma__integrand *f;
+    const koksma_integrand *f;
     put("{\"functions\":[");
-    for (size_t i = 0, n = 0; good && (f = koksma__integrand_at(i)); i++) {
-        if (f->dim <= dims) {
-            put("%s{\"title\":\"%s\",\"dim\":%d,\"range\":%.17g,", n++ ? "," : "", f->title, f->dim, f->range);
-            put_value("variation", f->variation);
+    for (size_t i = 0, n = 0; good && (f = koksma_integrand_at(i)); i++) {
+        koksma_integral_facts facts;
+        if (f->axes && f->axes <= dims) {
+            const double error = error_of(f, &of[f->axes - 1], &facts);
+            put("%s{\"title\":\"%s\",\"dim\":%d,\"range\":%.17g,", n++ ? "," : "", f->title, f->axes,
+                facts.highest - facts.lowest);
+            put_value("variation", facts.variation);
             put(",");
-            put_value("error", error_of(f, &of[f->dim - 1]));
+            put_value("error", error);
             put(",");
-            put_value("bound", f->variation * star[f->dim - 1]);
+            put_value("bound", facts.variation * star[f->axes - 1]);
             put("}");
         }
     }

@@ -10,6 +10,7 @@
 #include <koksma/warp.h>
 
 #include "image/formats.h"
+#include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"
@@ -40,7 +41,7 @@ static void expect_name(const char *file, const char *name, const void *member, 
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    size_t n[10] = {0};
+    size_t n[11] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
                 koksma_pattern_find(koksma__pattern_##line.name));                                                   \
@@ -60,6 +61,11 @@ static void names_are_those_of_files(void **state)
                 koksma_method_find(koksma__method_##line.name));                                                     \
     n[9]++;
 #include "optimise/methods.def"
+#define INTEGRAND(line)                                                                                              \
+    expect_name(#line, koksma__integrand_##line.name, &koksma__integrand_##line,                                     \
+                koksma_integrand_find(koksma__integrand_##line.name));                                               \
+    n[10]++;
+#include "integrands/integrands.def"
 #define FILTER(line)                                                                                                 \
     expect_name(#line, koksma__filter_##line.name, &koksma__filter_##line,                                           \
                 koksma_filter_find(koksma__filter_##line.name));                                                     \
@@ -98,9 +104,10 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma__light_types[n[7]]);
     assert_null(koksma__shape_types[n[8]]);
     assert_null(koksma_method_at(n[9]));
+    assert_null(koksma_integrand_at(n[10]));
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 11; i++) {
         assert_true(n[i] > 0);
     }
 }

@@ -36,6 +36,7 @@ MAY_USE = {
     "patterns": "core kernels stats",
     "measures": "core kernels stats warps",
     "api": "core patterns measures warps",
+    "integrands": "core stats patterns api",
     "verify": "core patterns measures api",
     "optimise": "core kernels measures api",
     "modules": "core",
@@ -44,15 +45,16 @@ MAY_USE = {
     "plot": "core patterns measures image api modules",
     "render": "core modules json kernels stats patterns warps image meshes api",
     "scene": "core json image meshes warps render",
-    "study/plan": "core json patterns measures warps scene render api",
+    "study/plan": "core json patterns measures warps integrands scene render api",
     "study/store": "core study/plan",
-    "study/run": "core modules stats patterns measures warps image scene render study/plan study/store api",
+    "study/run": "core modules stats patterns measures warps integrands image scene render study/plan study/store api",
     "study/ranking": "core stats image scene render study/plan study/run api",
     "study/images": "core stats image study/plan study/run",
-    "study/report": "core stats patterns measures warps image plot render study/plan study/store study/run api",
-    "study/sheet": "core stats patterns measures verify api image scene render study/plan study/ranking study/report",
-    "cli": "core kernels stats patterns measures warps api verify optimise image scene plot render study/plan study/run "
-           "study/ranking study/images study/report study/sheet",
+    "study/report": "core stats patterns measures warps integrands image plot render study/plan study/store study/run "
+                    "api",
+    "study/sheet": "core stats patterns measures integrands verify api image scene render study/plan study/ranking study/report",
+    "cli": "core kernels stats patterns measures warps integrands api verify optimise image scene plot render "
+           "study/plan study/run study/ranking study/images study/report study/sheet",
 }
 
 
@@ -321,7 +323,8 @@ ABOUT = {
     "kernels": "fast loops per instruction set",
     "warps": "maps of the square to a domain", "json": "JSON reader with line numbers",
     "stats": "statistics", "patterns": "one file a pattern", "measures": "one file a measure",
-    "api": "generate, evaluate", "verify": "proved properties", "optimise": "searches for points", "image": "images, formats, spectra",
+    "api": "generate, evaluate", "verify": "proved properties",
+    "integrands": "functions, errors", "optimise": "searches for points", "image": "images, formats, spectra",
     "meshes": "mesh readers", "scene": "scene files", "plot": "plots of points, charts", "render": "the renderer",
     "study/plan": "what to run", "study/store": "results (SQLite)", "study/run": "jobs, threads, MPI",
     "study/ranking": "order of patterns", "study/images": "images of a study", "study/report": "the report", "study/sheet": "the datasheet",

@@ -17,6 +17,7 @@ except ModuleNotFoundError:
 from ._compare import Comparison, compare
 from ._datasheet import Datasheet, datasheet
 from ._engine import Engine
+from ._integrate import Integrand, Integration, Sensitivity, Share, integrand, integrands, integrate, sensitivity
 from ._library import (ArgumentError, Error, MalformedError, MissingError, OutOfMemoryError,
                        SystemError as SystemError, UnsupportedError)
 from ._optimise import Optimum, optimise
@@ -32,9 +33,9 @@ from ._study import Audit, Cost, Study, Summary, TableRow, audit, plans
 # Without SystemError: `from koksma import *` would put it in the place of Python's own.
 __all__ = [
     "ArgumentError", "Asked", "Audit", "Comparison", "Convergence", "Cost", "Datasheet", "Engine", "Error", "Finding",
-    "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
-    "Ranked", "Ranking", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
-    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "measure", "measures",
+    "Integrand", "Integration", "MalformedError", "Member", "MissingError", "Modifier", "Optimum", "OutOfMemoryError", "PairCorrelation", "Picture",
+    "Ranked", "Ranking", "Sensitivity", "Share", "SizeCheck", "Spectrum", "Study", "Summary", "TableRow", "Trials", "UnsupportedError", "Value",
+    "Witness", "audit", "canonical", "compare", "convergence", "datasheet", "generate", "integrand", "integrands", "integrate", "measure", "measures",
     "modifiers", "optimise", "pair_correlation", "patterns", "plans", "plot", "plot_compare", "plot_convergence",
-    "rank", "read", "read_image", "render", "scenes", "spectrum", "trials", "verify", "version", "write",
+    "rank", "read", "read_image", "render", "scenes", "sensitivity", "spectrum", "trials", "verify", "version", "write",
 ]

@@ -22,7 +22,7 @@ _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 
 @dataclass(frozen=True)
 class Member:
-    """A line of the table of patterns or measures."""
+    """A line of the table of patterns, measures or integrands."""
 
     name: str
     title: str
@@ -99,7 +99,8 @@ class Finding:
     detail: str
 
 
-def _table(at: object) -> List[Member]:
+def table(at: object) -> List[Member]:
+    """The members of a table of patterns, measures or integrands, by the function that returns member i."""
     members = []
     while at(len(members)):
         m = at(len(members)).contents
@@ -113,7 +114,7 @@ def _table(at: object) -> List[Member]:
 
 def patterns() -> List[Member]:
     """All patterns, in the table's order."""
-    return _table(core().koksma_pattern_at)
+    return table(core().koksma_pattern_at)
 
 
 def modifiers() -> List[Modifier]:
@@ -127,7 +128,7 @@ def modifiers() -> List[Modifier]:
 
 def measures() -> List[Member]:
     """All measures, in the table's order."""
-    return _table(core().koksma_measure_at)
+    return table(core().koksma_measure_at)
 
 
 def view(array: PointArray) -> s.Points:

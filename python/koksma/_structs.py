@@ -9,6 +9,7 @@ MAX_USE_GROUPS = N_USES // 2
 MAX_DIM, MAX_COORDINATES, MAX_HALF = 4096, 1 << (28 if sizeof(c_size_t) > 4 else 24), 4096
 MAX_SPP, MAX_IMAGE_SIDE = 1 << 20, 65536
 MAX_RANK_TRIALS, RANK_CHECKS, RANK_REASON = 65536, 2, 256
+MAX_SIZES = 64
 MAX_INT, MAX_SEED = (1 << 31) - 1, (1 << 64) - 1
 
 KeepGoing = CFUNCTYPE(c_bool, c_void_p, c_double)
@@ -114,6 +115,50 @@ class CoherenceValues(Structure):
                 ("noise_high", c_double), ("p", c_double), ("coherent", c_bool)]
 class Line(Structure):
     _fields_ = [("count", c_size_t), ("slope", c_double), ("slope_error", c_double), ("intercept", c_double)]
+
+
+FunctionAt = CFUNCTYPE(c_double, POINTER(c_double), c_int, c_void_p)
+
+
+class Integrand(Structure):
+    _fields_ = [("name", c_char_p), ("title", c_char_p), ("cite", c_char_p), ("known", c_char_p), ("min_dim", c_int),
+                ("max_dim", c_int), ("axes", c_int), ("params", POINTER(Param)), ("prepare", c_void_p), ("at", c_void_p),
+                ("constants", c_void_p), ("revision", c_int)]
+
+
+class Function(Structure):
+    _fields_ = [("name", c_char_p), ("min_dim", c_int), ("max_dim", c_int), ("at", FunctionAt), ("context", c_void_p),
+                ("integral", c_double)]
+
+
+class IntegralFacts(Structure):
+    _fields_ = [("text", c_char * MAX_SPEC), ("dim", c_int), ("axes", c_int), ("value", c_double), ("variance", c_double),
+                ("variation", c_double), ("lowest", c_double), ("highest", c_double)]
+
+
+class IntegrationRow(Structure):
+    _fields_ = [("n", c_size_t), ("trials", c_uint64), ("mean", c_double), ("sd", c_double), ("rmse", c_double),
+                ("low", c_double), ("high", c_double), ("gain", c_double)]
+
+
+class IntegrationSlope(Structure):
+    _fields_ = [("count", c_size_t), ("value", c_double), ("standard_error", c_double), ("low", c_double), ("high", c_double)]
+
+
+class Integration(Structure):
+    _fields_ = [("rows", IntegrationRow * MAX_SIZES), ("slope", IntegrationSlope)]
+
+
+class IntegrationOptions(Structure):
+    _fields_ = [("sizes", c_size_t * MAX_SIZES), ("n_sizes", c_size_t), ("seed", c_uint64), ("trials", c_uint64)]
+
+
+class Share(Structure):
+    _fields_ = [("value", c_double), ("low", c_double), ("high", c_double)]
+
+
+class Sensitivity(Structure):
+    _fields_ = [("component", Share), ("closed", Share), ("total", Share), ("variance", c_double), ("exact", c_bool)]
 
 
 class ScatterOptions(Structure):
@@ -244,7 +289,7 @@ CONSTANTS = [
     ("image.h", "KOKSMA_MAX_IMAGE_SIDE", MAX_IMAGE_SIDE), ("koksma.h", "(size_t)INT_MAX", MAX_INT),
     ("study.h", "KOKSMA_MAX_RANK_TRIALS", MAX_RANK_TRIALS), ("study.h", "KOKSMA_RANK_CHECKS", RANK_CHECKS),
     ("study.h", "KOKSMA_RANK_REASON", RANK_REASON),
-    ("koksma.h", "UINT64_MAX", MAX_SEED),
+    ("koksma.h", "UINT64_MAX", MAX_SEED), ("series.h", "KOKSMA_MAX_SIZES", MAX_SIZES),
 ]
 
 #: Header, C name and class of every struct above.
@@ -254,6 +299,11 @@ LAYOUTS = [
     ("koksma.h", "koksma_modifier", Modifier), ("koksma.h", "koksma_spec", Spec), ("koksma.h", "koksma_witness", Witness), ("koksma.h", "koksma_value", Value),
     ("verify.h", "koksma_finding", Finding), ("verify.h", "koksma_findings", Findings),
     ("optimise.h", "koksma_optimum", Optimum), ("optimise.h", "koksma_optimise_options", OptimiseOptions),
+    ("integrate.h", "koksma_integrand", Integrand), ("integrate.h", "koksma_function", Function),
+    ("integrate.h", "koksma_integral_facts", IntegralFacts), ("integrate.h", "koksma_integration_row", IntegrationRow),
+    ("integrate.h", "koksma_integration_slope", IntegrationSlope), ("integrate.h", "koksma_integration", Integration),
+    ("integrate.h", "koksma_integration_options", IntegrationOptions), ("integrate.h", "koksma_share", Share),
+    ("integrate.h", "koksma_sensitivity", Sensitivity),
     ("spectrum.h", "koksma_spectrum", Spectrum),
     ("spectrum.h", "koksma_spectrum_quality_values", SpectrumQuality),
     ("spectrum.h", "koksma_ring", Ring),

@@ -89,6 +89,13 @@ VALID = {
     "koksma_datasheet_options *": "datasheet_options()", "char **": "a_buffer(sizeof(char *))",
     "koksma_datasheet_page.json": "\"{\\\"format\\\":\\\"koksma-datasheet\\\"}\"",
     "koksma_joint *": "a_zero(sizeof(koksma_joint))", "koksma_joint_line.n": "3", "koksma_joint_add.n": "3",
+    "koksma_integral *": "open_integral()", "koksma_integral **": "a_buffer(sizeof(void *))",
+    "koksma_integral_facts *": "a_buffer(sizeof(koksma_integral_facts))", "koksma_function *": "a_function()",
+    "koksma_integration_options *": "integration_options()", "koksma_integration *": "a_buffer(sizeof(koksma_integration))",
+    "koksma_sensitivity *": "a_buffer(sizeof(koksma_sensitivity))", "const int *": "two_axes()",
+    "koksma_integrand_find.name": "\"disk\"", "koksma_integral_open.text": "\"disk\"", "koksma_integral_open.dim": "2",
+    "koksma_integral_of_function.dim": "2", "koksma_integral_sensitivity.n_axes": "2", "koksma_integral_sensitivity.samples": "16",
+    "koksma_integration_errors.pattern": "a_pattern(\"gaussian-jittered:sigma=0.2\")",
     "koksma_audit_options *": "audit_options()", "koksma_audit *": "a_buffer(sizeof(koksma_audit))",
     "koksma_rank_picture *": "a_rank_picture()",
     "koksma_rank_by_command.context": "a_copy(\"printf 'Pf\\n1 1\\n-1\\nabcd' >{out.pfm}\", 35)",
@@ -101,9 +108,9 @@ VALID = {
 }
 
 # Members of the library's tables: a caller has them from the library, and only a missing one can be noticed.
-TABLES = {"koksma_pattern", "koksma_measure", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_param"}
+TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_param"}
 # Structs that a function only writes: what is in them before the call means nothing.
-RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring)$")
+RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity)$")
 WRONG = {
     "size_t": ["0", "SIZE_MAX", "SIZE_MAX / 2 + 1"], "int": ["0", "-1", "INT_MIN", "INT_MAX"],
     "long long": ["-1", "LLONG_MIN", "LLONG_MAX"], "uint64_t": ["0", "UINT64_MAX"],
@@ -131,6 +138,8 @@ ALLOWED = [
     # A pattern has no measure, a measure no pattern; the path is of patterns that read a file, which have no parameters.
     r"\w+ (spec|pattern)->measure = NULL .*", r"\w+ (spec|measure)->pattern = NULL .*l2-disk.*", r"\w+ measure->pattern = NULL .*",
     r"\w+ \w+->path = .*(l2-disk|edge).*", r"\w+ \w+->params.* = 0 .*", r"\w+ \w+->params.*file:.*",
+    r"koksma_integral_of_function function->(name = \"[/%n]|max_dim = INT_MAX).*", r"koksma_integral_sensitivity samples = 0.*",
+    r"koksma_integration_summary (value|variance|estimates|options->sizes).*",
     r"koksma_generate_whole dim = 0 .*", r"koksma_local_discrepancy x\[0\] = 0 .*", r"\w+ n_sizes = 0 .*",
     r"koksma_warp_evaluate measure->params.*", r"\w+ (options->witness->|panels->scatter\.)(dim|count|columns|rows) = .*",
     r"koksma_plot_panels panels->spectrum = NULL .*", r"\w+ chart->curves->(xs|ys|errors|colour).*(\d|NAN|X|INFINITY|2 \+ 1) a_chart.*",

@@ -24,6 +24,7 @@ static void asserted(const char *condition);
 
 #include <koksma/adaptive.h>
 #include <koksma/datasheet.h>
+#include <koksma/integrate.h>
 #include <koksma/mask.h>
 #include <koksma/optimise.h>
 #include <koksma/series.h>
@@ -120,6 +121,36 @@ static void *a_measure(const char *text)
     koksma_spec spec;
     must(koksma_measure_spec(text, &spec));
     return a_copy(&spec, sizeof spec);
+}
+
+static void *open_integral(void)
+{
+    koksma_integral *integral;
+    must(koksma_integral_open("bilinear", 2, &integral));
+    return integral;
+}
+
+static double first_coordinate(const double *x, int dim, void *context)
+{
+    (void)dim;
+    (void)context;
+    return x[0];
+}
+
+static void *a_function(void)
+{
+    return COPY(koksma_function,
+                {.name = "first", .min_dim = 1, .max_dim = 4, .at = first_coordinate, .integral = 0.5});
+}
+
+static void *integration_options(void)
+{
+    return COPY(koksma_integration_options, {.sizes = {4, 9, 16}, .n_sizes = 3, .seed = 1, .trials = 1});
+}
+
+static void *two_axes(void)
+{
+    return a_copy((const int[]){0, 1}, 2 * sizeof(int));
 }
 
 static void *a_tally(void)

@@ -106,7 +106,7 @@ study images x --reference ^ FILES
 reproduce ^ shirley1991 mitchell1992 open-questions FILES
 reproduce shirley1991 --table ^ all none
 reproduce shirley1991 -o ^ FILES
-list ^ patterns modifiers measures claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses adaptive methods records plans questions sections parameters
+list ^ patterns modifiers measures integrands claims properties warps curves scenes materials lights shapes formats integrators pipelines filters uses adaptive methods records plans questions sections parameters
 list patterns ^
 completion ^ bash zsh fish spec
 manual scen^ scene

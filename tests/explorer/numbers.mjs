@@ -85,7 +85,7 @@ const definitions = {
 for (const [spec, n, dim, axes] of [["random", 64, 2, [0, 1]], ["halton", 50, 3, [2, 0]], ["random", 30, 1, [0, 0]]]) {
   const { points } = koksma.generate({ spec, n, dim, seed: 4n }), { functions } = koksma.inequality({ points, axes });
   const at = (i, k) => points.xs[i * dim + axes[k]], of = Math.min(dim, 2);
-  check(functions.length === (dim === 1 ? 4 : 12), `${spec}: ${functions.length} functions`);
+  check(functions.length === (dim === 1 ? 5 : 17), `${spec}: ${functions.length} functions`);
   for (const f of functions.filter(g => definitions[g.title])) {
     const [value, integral, variation] = definitions[f.title], over = f.dim === 1 ? 1 : of;
     const xs = Float64Array.from({ length: n * over }, (_, i) => at(Math.floor(i / over), i % over));

@@ -201,8 +201,8 @@ async function comparing(page) {
   check(await page.locator("#decay-chart .dots").count() === 2, "two curves are not drawn");
   // Koksma's inequality: a row a function, an error and a bound a set; the slanted edge has no bound.
   const inequality = await page.locator("#inequality tr").evaluateAll(rows => rows.map(row => [...row.cells].map(cell => cell.innerText)));
-  check(inequality.length === 12 && inequality.every(row => row.length === 6), "the inequality has other rows: " + JSON.stringify(inequality));
-  check(inequality.filter(row => row[1] === "infinite" && row[3] === "none" && row[5] === "none").length === 3, "bounds of infinite variation");
+  check(inequality.length === 17 && inequality.every(row => row.length === 6), "the inequality has other rows: " + JSON.stringify(inequality));
+  check(inequality.filter(row => row[1] === "infinite" && row[3] === "none" && row[5] === "none").length === 5, "bounds of infinite variation");
   await page.locator(".set-b button", { hasText: "Remove" }).click();
   await idle(page);
   check(!(await page.evaluate(() => koksmaExplorer.hash())).includes("&b="), "set B is not removed");

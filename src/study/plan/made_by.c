@@ -8,10 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/integrate.h>
 #include <koksma/warp.h>
 
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
+#include "study/plan/plan.h"
 
 /* Appends "name revision", unless it is there. The text holds all uses of an image (KOKSMA_MAX_PATTERNS_TEXT). */
 static void add(char text[KOKSMA__MADE_BY], const char *name, int revision)
@@ -33,6 +35,18 @@ static void add_pattern(char text[KOKSMA__MADE_BY], const koksma_spec *spec, boo
     }
 }
 
+static koksma_status of_integrand(const char *measure, bool first, koksma__made_by *out)
+{
+    char name[KOKSMA_MAX_SPEC];
+    const char *spec = koksma__integrand_of(measure);
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(spec, ":"), spec);
+    const koksma_integrand *integrand = koksma_integrand_find(name);
+    KOKSMA__FAIL_IF(!integrand, KOKSMA_UNKNOWN, "no integrand '%.64s'", name);
+    snprintf(name, sizeof name, "error of %s", integrand->name);
+    add(out->value, name, first ? 0 : integrand->revision);
+    return KOKSMA_OK;
+}
+
 static koksma_status of_points(const char *pattern, const char *warp_name, const char *measure, bool first,
                                koksma__made_by *out)
 {
@@ -40,6 +54,9 @@ static koksma_status of_points(const char *pattern, const char *warp_name, const
     koksma_status status = koksma_pattern_spec(pattern, &spec);
     if (!status) {
         add_pattern(out->points, &spec, first);
+        if (koksma__integrand_of(measure)) {
+            return of_integrand(measure, first, out);
+        }
         status = koksma_measure_spec(measure, &spec);
     }
     if (status) {

@@ -60,6 +60,7 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
         for (size_t m = 0; m < b->measures.n; m++) {
             koksma_spec spec;
             koksma_value value;
+            KOKSMA__JSON_FAIL_IF(koksma__integrand_of(b->measures.at[m]), node, "warps take measures, no integrands");
             koksma_status status = koksma_measure_spec(b->measures.at[m], &spec);
             status = status ? status : koksma_warp_evaluate(warp, &spec, &point, NULL, &value);
             if (status) {
@@ -70,16 +71,33 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
     return b->warps.n && b->dim != 2 ? koksma__json_fail(node, "warps take dim 2") : KOKSMA_OK;
 }
 
+/* "measures", "integrands", or both. */
+static koksma_status parse_measures(const koksma__json_node *node, koksma__discrepancy_block *b)
+{
+    koksma__texts errors = {0};
+    koksma_status status = KOKSMA_OK;
+    const bool integrands = koksma__json_has(node, "integrands");
+    if (!integrands || koksma__json_has(node, "measures")) {
+        status = koksma__plan_specs(node, "measures", koksma__measure_text, &b->measures);
+    }
+    if (!status && integrands) {
+        status = koksma__plan_specs(node, "integrands", koksma__error_text, &errors);
+        status = status ? status : koksma__plan_join(&b->measures, &errors);
+    }
+    koksma__texts_fini(&errors);
+    return status;
+}
+
 static koksma_status parse_discrepancy(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
-    static const char *const keys[] = {"comment", "id",     "patterns", "measures", "warps", "n",
-                                       "dim",     "trials", "quick",    "skip",     NULL};
+    static const char *const keys[] = {"comment", "id",  "patterns", "measures", "integrands", "warps",
+                                       "n",       "dim", "trials",   "quick",    "skip",       NULL};
     koksma__discrepancy_block *b = item;
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
     status = status ? status : koksma__plan_specs(node, "patterns", koksma__pattern_text, &b->patterns);
-    status = status ? status : koksma__plan_specs(node, "measures", koksma__measure_text, &b->measures);
+    status = status ? status : parse_measures(node, b);
     if (!status && koksma__json_has(node, "warps")) {
         status = koksma__plan_texts(node, "warps", &b->warps);
     }

@@ -5,6 +5,8 @@
 
 #include <koksma/koksma.h>
 
+#include <string.h>
+
 typedef struct koksma__texts {
     size_t n;
     char **at;
@@ -23,9 +25,10 @@ typedef struct koksma__left_out {
 
 /* patterns x n x warps x measures x trials */
 typedef struct koksma__discrepancy_block {
-    char *id;                         /* what questions call it; may be NULL */
-    koksma__texts patterns, measures; /* canonical specs */
-    koksma__texts warps;              /* names of maps of the square onto a domain; none: the square itself */
+    char *id;               /* what questions call it; may be NULL */
+    koksma__texts patterns; /* canonical specs */
+    koksma__texts measures; /* likewise; behind them integrands, as koksma__integrand_of() knows them */
+    koksma__texts warps;    /* names of maps of the square onto a domain; none: the square itself */
     koksma__wholes n;
     koksma__left_out left_out;
     int dim;
@@ -176,6 +179,14 @@ koksma_status koksma__plan_parse(const char *name, const char *text, size_t size
 
 /* The text of a plan that ships, or NULL. */
 const char *koksma__plan_shipped(const char *name, size_t *size);
+
+/* An integrand stands among the measures of a block, and in results, as "error of SPEC": its value is the absolute error
+   of the mean over the points. Returns SPEC; NULL: the text is that of a measure. */
+static inline const char *koksma__integrand_of(const char *measure)
+{
+    static const char head[] = "error of ";
+    return strncmp(measure, head, sizeof head - 1) ? NULL : measure + sizeof head - 1;
+}
 
 /* Whether size k of `sizes` of pattern p is left out. */
 static inline bool koksma__is_left_out(const koksma__left_out *of, size_t p, size_t sizes, size_t k)

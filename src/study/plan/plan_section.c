@@ -3,8 +3,11 @@
    function of its section; texts, numbers of trials and lists of patterns are read and checked here. */
 #include "study/plan/plan_section.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <koksma/integrate.h>
 
 #include "core/status.h"
 
@@ -34,6 +37,24 @@ koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC])
         koksma_spec_text(&spec, out);
     }
     return status;
+}
+
+/* The canonical text does not depend on the dimension: the first that it has. */
+koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC])
+{
+    koksma_integral *integral;
+    koksma_integral_facts facts;
+    koksma_status status = KOKSMA_DIM;
+    for (int dim = 1; dim <= KOKSMA_MAX_DIM && status == KOKSMA_DIM; dim *= 2) {
+        status = koksma_integral_open(text, dim, &integral);
+    }
+    if (status) {
+        return status;
+    }
+    koksma_integral_about(integral, &facts);
+    koksma_integral_close(integral);
+    const int length = snprintf(out, KOKSMA_MAX_SPEC, "error of %s", facts.text);
+    return length < KOKSMA_MAX_SPEC ? KOKSMA_OK : koksma__fail(KOKSMA_ARGUMENT, "%.64s...: too long", text);
 }
 
 /* Whether a path may begin at `at`: after "file:" that is a whole text, or a single use's or group's (";lens=file:"). */
@@ -162,6 +183,18 @@ koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key,
                                  koksma__texts *out)
 {
     return read_texts(node, key, parser, out);
+}
+
+koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more)
+{
+    char **at = realloc(to->at, (to->n + more->n + 1) * sizeof *at);
+    KOKSMA__REQUIRE_MEMORY(at, (to->n + more->n + 1) * sizeof *at);
+    to->at = at;
+    memcpy(at + to->n, more->at, more->n * sizeof *at);
+    to->n += more->n;
+    free(more->at);
+    *more = (koksma__texts){0};
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,

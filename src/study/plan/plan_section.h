@@ -21,6 +21,9 @@ koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char *
 koksma_status koksma__pattern_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 koksma_status koksma__measure_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
+/* "error of SPEC" of an integrand. */
+koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
+
 /* The same for a spec, checked, in its canonical form. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                 bool needed, char **out);
@@ -29,6 +32,8 @@ koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, 
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__texts *out);
 koksma_status koksma__plan_specs(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
                                  koksma__texts *out);
+/* Moves the texts of `more` behind those of `to`. */
+koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);
 koksma_status koksma__plan_wholes(const koksma__json_node *node, const char *key, long long min, long long max,
                                   koksma__wholes *out);
 

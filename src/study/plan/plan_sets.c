@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/integrate.h>
+
 #include "core/status.h"
 #include "study/plan/image_patterns.h"
 #include "study/plan/plan_section.h"
@@ -147,26 +149,39 @@ koksma_status koksma__plan_check_sets(const koksma__json_node *node, koksma__dis
     return check(&t, &block->left_out);
 }
 
+/* Whether a measure or integrand serves a point of so many dimensions. */
+static koksma_status serves(const char *measure, const koksma_points *point)
+{
+    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
+    koksma_integral *integral;
+    koksma_spec spec;
+    koksma_value value;
+    if (koksma__integrand_of(measure)) {
+        KOKSMA__TRY(koksma_integral_open(koksma__integrand_of(measure), point->dim, &integral));
+        koksma_integral_close(integral);
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma_measure_spec(measure, &spec));
+    return koksma_evaluate(&spec, point, &briefly, &value) == KOKSMA_DIM ? KOKSMA_DIM : KOKSMA_OK;
+}
+
 /* Whether each measure serves the block's dim: that shows at one point. */
 koksma_status koksma__plan_check_measures(const koksma__json_node *node, const koksma__discrepancy_block *block)
 {
-    const koksma_run briefly = {.threads = 1, .keep_going = stop_at_once};
-    koksma__json_node list;
     koksma_points point;
-    koksma_status status = koksma__json_member(node, "measures", &list);
-    if (status || (status = koksma_points_init(&point, 1, block->dim))) {
-        return status;
-    }
-    for (int k = 0; k < block->dim; k++) {
+    koksma_status status = koksma_points_init(&point, 1, block->dim);
+    for (int k = 0; !status && k < block->dim; k++) {
         point.xs[k] = 0.5;
     }
-    for (size_t m = 0; !status && m < block->measures.n; m++) {
-        koksma_spec spec;
-        koksma_value value;
-        status = koksma_measure_spec(block->measures.at[m], &spec);
-        if (!status && koksma_evaluate(&spec, &point, &briefly, &value) == KOKSMA_DIM) {
-            const koksma__json_node item = koksma__json_item(&list, m);
-            status = koksma__json_fail_in(&item, KOKSMA_DIM);
+    for (size_t m = 0, first = 0; !status && m < block->measures.n; m++) {
+        const bool error = koksma__integrand_of(block->measures.at[m]);
+        first = error ? first : m + 1; /* of the integrands */
+        status = serves(block->measures.at[m], &point);
+        if (status) {
+            koksma__json_node list;
+            const koksma_status found = koksma__json_member(node, error ? "integrands" : "measures", &list);
+            const koksma__json_node item = koksma__json_item(&list, error ? m - first : m);
+            status = found ? found : koksma__json_fail_in(&item, status);
         }
     }
     koksma_points_fini(&point);

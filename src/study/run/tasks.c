@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <koksma/integrate.h>
 #include <koksma/warp.h>
 
 #include "api/generate.h"
@@ -322,6 +323,22 @@ static koksma_status check_value(const koksma_spec *measure, const koksma_value 
                         text, value->lower, value->upper);
 }
 
+/* The absolute error of the mean over the points. */
+static koksma_status integrate(const char *spec, const koksma_points *points, const koksma_run *run, double *error)
+{
+    koksma_integral *integral;
+    koksma_integral_facts facts;
+    double mean = NAN;
+    KOKSMA__TRY(koksma_integral_open(spec, points->dim, &integral));
+    koksma_integral_about(integral, &facts);
+    koksma_status status = koksma_integrate(integral, points, run, &mean);
+    koksma_integral_close(integral);
+    *error = fabs(mean - facts.value);
+    KOKSMA__FAIL_IF(!status && !isfinite(*error), KOKSMA_IMPOSSIBLE, "%s: its error is %g; a study takes finite ones",
+                    spec, *error);
+    return status;
+}
+
 static koksma_status measure(const koksma__task *t, const koksma_points *points, const koksma_run *run,
                              koksma__result *results)
 {
@@ -330,6 +347,12 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
     for (size_t m = 0; !status && m < t->n_series; m++) {
         koksma_spec spec;
         koksma_value value = {0};
+        const char *integrand = koksma__integrand_of(t->discrepancy->measures.at[m]);
+        results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
+        if (integrand) {
+            status = integrate(integrand, points, run, &results[m].values[0]);
+            continue;
+        }
         status = koksma_measure_spec(t->discrepancy->measures.at[m], &spec);
         if (!status) {
             status = warp ? koksma_warp_evaluate(warp, &spec, points, run, &value)
@@ -337,7 +360,6 @@ static koksma_status measure(const koksma__task *t, const koksma_points *points,
         }
         status = status ? status : check_value(&spec, &value);
         results[m].values[0] = value.value;
-        results[m].values[1] = results[m].values[2] = results[m].values[3] = NAN;
     }
     return status;
 }

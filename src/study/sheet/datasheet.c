@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "core/status.h"
 #include "study/report/page.h"
+#include "study/sheet/sheet_integrals.h"
 #include "study/sheet/sheet_measures.h"
 #include "study/sheet/sheet_points.h"
 #include "study/sheet/sheet_samplers.h"
@@ -81,7 +82,8 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     if (!status) {
         koksma__sheet_put_rankings(sheet, d);
         koksma__sheet_put_measures(sheet, d);
-        status = koksma__sheet_spectra(sheet, d);
+        status = koksma__sheet_integrals(sheet, d);
+        status = status ? status : koksma__sheet_spectra(sheet, d);
     }
     status = status ? status : koksma__sheet_verify(sheet, d);
     status = status ? status : koksma__sheet_projections(sheet, d);

@@ -199,7 +199,7 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
 koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d)
 {
     spectra *all = calloc(KOKSMA__SHEET_SAMPLERS, sizeof *all);
-    const koksma_run run = koksma__sheet_part(sheet, 0.1, 1);
+    const koksma_run run = koksma__sheet_part(sheet, 0.08, 1);
     koksma_status status = all ? KOKSMA_OK : koksma__fail_memory(KOKSMA__SHEET_SAMPLERS * sizeof *all);
     for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
         all[s] = (spectra){.sampler = sheet->samplers[s],

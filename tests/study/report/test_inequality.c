@@ -1,11 +1,55 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Koksma's inequality over a table of functions: their integrals and variations by definition, then the theorem. */
+/* Koksma's inequality over all integrands of the line and the plane: their integrals, ranges and variations by definition,
+   then the theorem. */
+#include "integrands/integrands.h"
 #include "sets.h"
-#include "study/report/integrands.h"
+
+/* Every integrand that depends on all of one or two coordinates. */
+typedef struct function {
+    const koksma_integral *integral;
+    const char *name;
+    int dim;
+    double value, variation, range;
+} function;
+
+static function functions[64];
+static size_t n_functions;
+
+static int open_functions(void **state)
+{
+    (void)state;
+    const koksma_integrand *member;
+    for (size_t i = 0; (member = koksma_integrand_at(i)); i++) {
+        for (int dim = 1; dim <= 2; dim++) {
+            koksma_integral *f;
+            if (dim >= member->min_dim && (member->axes == 0 || member->axes == dim)) {
+                assert_ok(koksma_integral_open(member->name, dim, &f));
+                functions[n_functions++] =
+                    (function){f, member->name, dim, f->value, f->variation, f->highest - f->lowest};
+            }
+        }
+    }
+    assert_true(n_functions >= 12 + 5 + 2 * 8);
+    return 0;
+}
+
+static int close_functions(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < n_functions; i++) {
+        koksma_integral_close((koksma_integral *)functions[i].integral);
+    }
+    return 0;
+}
+
+static double at(const function *f, const double *x)
+{
+    return f->integral->integrand->at(f->integral, x);
+}
 
 /* The largest sum of differences over grids of m cells, ends included: Hardy and Krause's variation anchored at 1 is
    what it goes to. offset moves the inner lines, so that steps are between lines. */
-static double variation_on_grid(const koksma__integrand *f, int m)
+static double variation_on_grid(const function *f, int m)
 {
     double lines[513], total = 0;
     for (int i = 0; i <= m; i++) {
@@ -16,13 +60,13 @@ static double variation_on_grid(const koksma__integrand *f, int m)
             double a[2] = {1, 1}, b[2] = {1, 1};
             a[axis] = lines[i];
             b[axis] = lines[i + 1];
-            total += fabs(f->at(b) - f->at(a));
+            total += fabs(at(f, b) - at(f, a));
         }
     }
     for (int c = 0; f->dim == 2 && c < m * m; c++) {
         const double *x = lines + c % m, *y = lines + c / m;
-        total += fabs(f->at((double[2]){x[1], y[1]}) - f->at((double[2]){x[0], y[1]}) -
-                      f->at((double[2]){x[1], y[0]}) + f->at((double[2]){x[0], y[0]}));
+        total += fabs(at(f, (double[2]){x[1], y[1]}) - at(f, (double[2]){x[0], y[1]}) -
+                      at(f, (double[2]){x[1], y[0]}) + at(f, (double[2]){x[0], y[0]}));
     }
     return total;
 }
@@ -30,16 +74,20 @@ static double variation_on_grid(const koksma__integrand *f, int m)
 static void variations_are_sums_of_differences(void **state)
 {
     (void)state;
-    for (size_t i = 0; koksma__integrand_at(i); i++) {
-        const koksma__integrand *f = koksma__integrand_at(i);
+    for (size_t i = 0; i < n_functions; i++) {
+        const function *f = &functions[i];
+        const double missed = f->integral->integrand->axes ? 1e-4 : 0.05; /* of a peak between two lines */
         const double coarse = variation_on_grid(f, 128), fine = variation_on_grid(f, 512);
+        if (isnan(f->variation) || isinf(f->range)) {
+            continue; /* not known, or of the range */
+        }
         if (isinf(f->variation)) {
             if (!(fine > 3 * coarse)) {
                 fail_msg("%s: %g with 128 lines, %g with 512", f->name, coarse, fine);
             }
             continue;
         }
-        if (!(fine <= f->variation * (1 + 1e-12) && fine >= f->variation * (1 - 1e-4))) {
+        if (!(fine <= f->variation * (1 + 1e-12) && fine >= f->variation * (1 - missed))) {
             fail_msg("%s: variation %.10g, on a grid %.10g", f->name, f->variation, fine);
         }
         assert_true(coarse <= f->variation * (1 + 1e-12));
@@ -51,17 +99,19 @@ static void integrals_and_ranges_hold(void **state)
 {
     (void)state;
     enum { SIDE = 1000 };
-    for (size_t i = 0; koksma__integrand_at(i); i++) {
-        const koksma__integrand *f = koksma__integrand_at(i);
+    for (size_t i = 0; i < n_functions; i++) {
+        const function *f = &functions[i];
         double sum = 0, low = HUGE_VAL, high = -HUGE_VAL;
         for (int c = 0; c < SIDE * SIDE; c++) {
-            const double y = f->at((double[2]){(c % SIDE + 0.5) / SIDE, (c / SIDE + 0.5) / SIDE});
+            const double y = at(f, (double[2]){(c % SIDE + 0.5) / SIDE, (c / SIDE + 0.5) / SIDE});
             sum += y / (SIDE * SIDE);
             low = fmin(low, y);
             high = fmax(high, y);
         }
-        if (!(fabs(sum - f->integral) <= 5e-4 && high - low <= f->range && high - low >= 0.98 * f->range)) {
-            fail_msg("%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->integral, sum, high - low,
+        const double scale = isinf(f->range) ? high - low : fmax(f->range, 1);
+        if (!(fabs(sum - f->value) <= 6e-4 * scale && high - low <= f->range * (1 + 1e-14) &&
+              (isinf(f->range) || high - low >= 0.97 * f->range))) {
+            fail_msg("%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->value, sum, high - low,
                      f->range);
         }
     }
@@ -70,14 +120,14 @@ static void integrals_and_ranges_hold(void **state)
 static void check_inequality(const koksma_points *points, const char *pattern, double *closest)
 {
     const double star = test_measure("star", points).value;
-    for (size_t i = 0; koksma__integrand_at(i); i++) {
-        const koksma__integrand *f = koksma__integrand_at(i);
+    for (size_t i = 0; i < n_functions; i++) {
+        const function *f = &functions[i];
         double sum = 0;
         for (size_t k = 0; k < points->n && f->dim == points->dim; k++) {
-            sum += f->at(points->xs + k * (size_t)points->dim) / (double)points->n;
+            sum += at(f, points->xs + k * (size_t)points->dim) / (double)points->n;
         }
-        const double error = fabs(sum - f->integral), bound = f->variation * star;
-        if (f->dim == points->dim && !(error <= bound + 1e-13)) {
+        const double error = fabs(sum - f->value), bound = f->variation * star;
+        if (f->dim == points->dim && !isnan(bound) && !(error <= bound + 1e-13 * fmax(1, fabs(f->value)))) {
             fail_msg("%s over %zu points of %s: error %.10g, V(f) D* %.10g", f->name, points->n, pattern, error,
                      bound);
         }
@@ -125,5 +175,5 @@ int main(void)
         cmocka_unit_test(integrals_and_ranges_hold),
         cmocka_unit_test(the_theorem_holds),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, open_functions, close_functions);
 }

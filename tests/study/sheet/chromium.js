@@ -27,7 +27,7 @@ async function look(browser, width, colorScheme) {
   page.on("console", message => expect(message.type() !== "error", `${at}: ${message.text()}`));
   await page.goto("file://" + path.resolve(process.argv[2]));
   const heads = await page.locator("h2").allTextContents();
-  const wanted = ["Verdict", "Points", "Errors in scenes", "Discrepancies and distances", "Spectra and distances", "Verified properties", "How this was made"];
+  const wanted = ["Verdict", "Points", "Errors in scenes", "Discrepancies and distances", "Errors of integration", "Spectra and distances", "Verified properties", "How this was made"];
   expect(heads.filter(h => wanted.includes(h)).join() === wanted.join(), `${at}: sections ${heads}`);
   // One at a time, by the keyboard: the focus goes to a list of commands, Enter opens it.
   await page.locator(".commands summary").first().focus();

@@ -97,6 +97,23 @@ def check_measure(command, rows, data):
     return bool(rows)
 
 
+def check_integrate(command, rows, data):
+    mine = {(r["integrand"], r["sampler"]): r for r in tables(data)["integrals"]}
+    charts = {b["title"]: b for b in blocks(data["content"]) if b["kind"] == "chart" and b["title"] in {m[0] for m in mine}}
+    for row in rows:
+        if "slope_of" in row:
+            own, theirs = mine[row["slope_of"], row["source"]]["slope"], (row["slope"], row["low"], row["high"])
+            expect(all(same(a, b) for a, b in zip(own, theirs)), f"{command}: {own} is {theirs}")
+            continue
+        series = next(s for s in charts[row["integrand"]]["series"] if s["label"] == row["source"])
+        point = next(p for p in series["points"] if p[0] == row["n"])
+        expect(all(same(a, b) for a, b in zip(point[1:], (row["rmse"], row["low"], row["high"]))), f"{command}: {point} is {row}")
+        if row["n"] == max(p[0] for p in series["points"]):
+            own = mine[row["integrand"], row["source"]]
+            expect(same(own["RMSE"][0], row["rmse"]) and same(own["gain"], row["gain"]) and own["sets"] == row["trials"], f"{command}: {own} is {row}")
+    return bool(rows)
+
+
 def check_rank(command, rows, data):
     mine = {(r["samples a pixel"], r["sampler"]): r for r in tables(data)["scene-" + rows[0]["scene"]]}
     expect(len(mine) == len(rows), f"{command}: {len(rows)} rows, {len(mine)} on the sheet")
@@ -157,7 +174,7 @@ def check_commands(data):
             else:
                 rows = rows_of(command)
                 expect(rows, f"{command}: no rows")
-                checked = rows and {"measure": check_measure, "rank": check_rank, "verify": check_verify}[words[1]](command, rows, data) \
+                checked = rows and {"measure": check_measure, "rank": check_rank, "verify": check_verify, "integrate": check_integrate}[words[1]](command, rows, data) \
                     if words[1] != "curve" else check_curve(command, rows, data, words[2])
             done[words[1]] = done.get(words[1], 0) + bool(checked)
     return done
@@ -191,9 +208,9 @@ def check_patterns():
     expect(percents and percents == sorted(percents) and percents[-1] <= 100, f"progress goes back: {percents}")
     again, _ = sheet("sobol:scramble=owen", "--beside", "random,jittered", "--scenes", "ball", "--quick", "--threads", "1")
     expect(text.rsplit("\n", 1)[0] == again.rsplit("\n", 1)[0] or text.split('"seconds"')[0] == again.split('"seconds"')[0], "threads change the sheet")
-    expect([b["id"] for b in data["content"]] == ["verdict", "points", "scenes", "measures", "spectra", "properties", "projections", "origin"], "sections")
+    expect([b["id"] for b in data["content"]] == ["verdict", "points", "scenes", "measures", "integrals", "spectra", "properties", "projections", "origin"], "sections")
     done = check_commands(data)
-    expect(done == {"plot": 3, "rank": 1, "measure": 6, "curve": 9, "verify": 4}, f"commands: {done}")
+    expect(done == {"plot": 3, "rank": 1, "measure": 6, "integrate": 3, "curve": 9, "verify": 4}, f"commands: {done}")
     expect(check_verdict(data) >= 12, "the verdict says little of sobol")
 
 

@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * `koksma integrate`: the error of the mean of functions over patterns and files, against n, and the analysis of
+ * variance of the functions. Operands are integrands, then sources as `measure` takes them; sources of one pattern that
+ * differ in their size become one series with a slope. Rows are printed in three tables: errors, slopes, variance.
+ * A function may come from a shared library that an operand names; nothing but the command line can name one.
+ */
+#include <dlfcn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/integrate.h>
+
+#include "source.h"
+
+enum { MOST_TRIALS = 1000000, MOST_PAIRED_AXES = 16 };
+
+/* A pattern with its sizes, or a file. */
+typedef struct series {
+    const char *operand;
+    cli_source source;
+    char text[KOKSMA_MAX_SPEC]; /* of a pattern, without its size; of a file its name */
+    koksma_integration_options options;
+    koksma_points points; /* of a file */
+    int dim;
+} series;
+
+/* What is printed after all errors. */
+typedef struct slope {
+    char integrand[KOKSMA_MAX_SPEC], source[KOKSMA_MAX_SPEC];
+    int dim;
+    size_t from, to;
+    koksma_integration_slope line;
+} slope;
+
+typedef struct job {
+    const cli_arguments *arguments;
+    cli_work work;
+    cli_rows *rows;
+    uint64_t seed, trials;
+    series *series;
+    size_t n_series;
+    slope *slopes;
+    size_t n_slopes;
+    size_t n_deterministic;              /* patterns of one set instead of trials */
+    char deterministic[KOKSMA_MAX_SPEC]; /* the first of them */
+    void *libraries[16];
+    size_t n_libraries;
+} job;
+
+/* ---- Integrands --------------------------------------------------------------------------------------------- */
+
+/* Function NAME, or the first, of "PATH.so[:NAME]". The exit code. */
+static int open_library(job *j, const char *text, int dim, koksma_integral **out)
+{
+    char path[KOKSMA_MAX_SPEC];
+    snprintf(path, sizeof path, "%s", text);
+    char *name = strrchr(path, ':');
+    if (name && !strchr(name, '/')) {
+        *name++ = 0;
+    } else {
+        name = NULL;
+    }
+    const size_t most = sizeof j->libraries / sizeof *j->libraries;
+    void *library = j->n_libraries < most ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
+    if (!library) {
+        cli_say(j->arguments->command->name, "%s: %s", path,
+                j->n_libraries < most ? dlerror() : "a command takes 16 libraries at most");
+        return koksma_status_exit_code(KOKSMA_MISSING);
+    }
+    j->libraries[j->n_libraries++] = library;
+    const koksma_function *(*at)(size_t) = NULL;
+    void *symbol = dlsym(library, "koksma_function_at");
+    memcpy(&at, &symbol, sizeof at); /* ISO C has no cast from an object to a function */
+    const koksma_function *function = NULL;
+    for (size_t i = 0; at && (function = at(i)) && name && strcmp(name, function->name) != 0; i++) {
+    }
+    if (!function) {
+        cli_say(j->arguments->command->name,
+                at ? "%s: its koksma_function_at has no function%s%s"
+                   : "%s: it exports no koksma_function_at (koksma/integrate.h)%s%s",
+                path, at && name ? " " : "", at && name ? name : "");
+        return koksma_status_exit_code(KOKSMA_MALFORMED);
+    }
+    const koksma_status status = koksma_integral_of_function(function, dim, out);
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
+/* Integrand i of the first operand, "all" or a list; *out is NULL past the end, and for those of "all" that have no such
+   dimension. The exit code. */
+static int open_integrand(job *j, size_t i, int dim, bool *end, koksma_integral **out)
+{
+    const char *list = j->arguments->operands[0];
+    const bool all = !strcmp(list, "all");
+    const koksma_integrand *member = all ? koksma_integrand_at(i) : NULL;
+    char item[KOKSMA_MAX_SPEC];
+    *out = NULL;
+    *end = all ? !member : !cli_list_item(list, i, item, sizeof item);
+    if (*end) {
+        return CLI_YES;
+    }
+    if (!all && strchr(item, '/')) {
+        return open_library(j, item, dim, out);
+    }
+    const koksma_status status = koksma_integral_open(all ? member->name : item, dim, out);
+    return status && !(all && status == KOKSMA_DIM) ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
+/* ---- Errors ------------------------------------------------------------------------------------------------- */
+
+static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
+{
+    cli_row_text(j->rows, "integrand", facts->text);
+    cli_row_text(j->rows, "source", s->text);
+    cli_row_whole(j->rows, "n", row->n);
+    cli_row_whole(j->rows, "dim", (uint64_t)facts->dim);
+    cli_row_whole(j->rows, "trials", row->trials);
+    cli_row_number(j->rows, "rmse", row->rmse);
+    cli_row_number(j->rows, "low", row->low);
+    cli_row_number(j->rows, "high", row->high);
+    cli_row_number(j->rows, "gain", row->gain);
+    cli_row_number(j->rows, "mean", row->mean);
+    cli_row_number(j->rows, "sd", row->sd);
+    cli_row_number(j->rows, "integral", facts->value);
+    cli_row_end(j->rows);
+}
+
+static void put_slope(job *j, const slope *s)
+{
+    cli_row_text(j->rows, "slope_of", s->integrand);
+    cli_row_text(j->rows, "source", s->source);
+    cli_row_whole(j->rows, "dim", (uint64_t)s->dim);
+    cli_row_whole(j->rows, "from_n", s->from);
+    cli_row_whole(j->rows, "to_n", s->to);
+    cli_row_whole(j->rows, "sizes", s->line.count);
+    cli_row_number(j->rows, "slope", s->line.value);
+    cli_row_number(j->rows, "standard_error", s->line.standard_error);
+    cli_row_number(j->rows, "low", s->line.low);
+    cli_row_number(j->rows, "high", s->line.high);
+    cli_row_end(j->rows);
+}
+
+static koksma_status errors_of(job *j, const koksma_integral *integral, series *s, koksma_integration *out)
+{
+    if (s->source.is_pattern) {
+        return koksma_integration_errors(integral, &s->source.spec, &s->options, &j->work.run, out);
+    }
+    double mean = 0;
+    koksma_integral_facts facts;
+    const koksma_status status = koksma_integrate(integral, &s->points, &j->work.run, &mean);
+    koksma_integral_about(integral, &facts);
+    return status ? status : koksma_integration_summary(facts.value, facts.variance, &s->options, &mean, out);
+}
+
+static int integrate(job *j, const koksma_integral *integral, series *s)
+{
+    koksma_integration *result = malloc(sizeof *result);
+    koksma_integral_facts facts;
+    if (!result) {
+        return cli_no_memory();
+    }
+    koksma_integral_about(integral, &facts);
+    const koksma_status status = errors_of(j, integral, s, result);
+    const size_t last = s->options.n_sizes - 1;
+    for (size_t i = 0; !status && i <= last; i++) {
+        put_error(j, &facts, s, &result->rows[i]);
+    }
+    if (!status && last >= 2) {
+        slope *to = &j->slopes[j->n_slopes++];
+        *to = (slope){.dim = facts.dim, .from = SIZE_MAX, .line = result->slope};
+        for (size_t i = 0; i <= last; i++) {
+            to->from = s->options.sizes[i] < to->from ? s->options.sizes[i] : to->from;
+            to->to = s->options.sizes[i] > to->to ? s->options.sizes[i] : to->to;
+        }
+        snprintf(to->integrand, sizeof to->integrand, "%s", facts.text);
+        snprintf(to->source, sizeof to->source, "%s", s->text);
+    }
+    if (!status && s->source.is_pattern && j->trials > 1 && result->rows[0].trials == 1 &&
+        strcmp(j->deterministic, s->text) != 0) {
+        snprintf(j->deterministic, sizeof j->deterministic, "%s", s->text);
+        j->n_deterministic++;
+    }
+    free(result);
+    return status ? cli_fail(j->arguments, status) : CLI_YES;
+}
+
+/* ---- Analysis of variance ------------------------------------------------------------------------------------ */
+
+static int put_share(job *j, const koksma_integral *integral, const char *name, const int *axes, size_t n_axes,
+                     uint64_t samples)
+{
+    koksma_sensitivity s;
+    char text[32], json[40];
+    const koksma_status status =
+        koksma_integral_sensitivity(integral, axes, n_axes, samples, j->seed, &j->work.run, &s);
+    if (status) {
+        return cli_fail(j->arguments, status);
+    }
+    snprintf(text, sizeof text, n_axes == 1 ? "%d" : "%d,%d", axes[0], axes[n_axes - 1]);
+    snprintf(json, sizeof json, "[%s]", text);
+    cli_row_text(j->rows, "variance_of", name);
+    cli_row_json(j->rows, "axes", json, text);
+    cli_row_number(j->rows, "share", s.component.value);
+    cli_row_number(j->rows, "low", s.component.low);
+    cli_row_number(j->rows, "high", s.component.high);
+    cli_row_number(j->rows, "total", s.total.value);
+    cli_row_number(j->rows, "total_low", s.total.low);
+    cli_row_number(j->rows, "total_high", s.total.high);
+    cli_row_flag(j->rows, "exact", s.exact);
+    cli_row_number(j->rows, "variance", s.variance);
+    cli_row_end(j->rows);
+    return CLI_YES;
+}
+
+static int put_variance(job *j, const koksma_integral *integral, uint64_t samples)
+{
+    koksma_integral_facts facts;
+    koksma_integral_about(integral, &facts);
+    int code = CLI_YES;
+    for (int a = 0; a < facts.axes && !code; a++) {
+        code = put_share(j, integral, facts.text, &a, 1, samples);
+    }
+    for (int a = 0; facts.axes <= MOST_PAIRED_AXES && a < facts.axes; a++) {
+        for (int b = a + 1; b < facts.axes && !code; b++) {
+            code = put_share(j, integral, facts.text, (int[]){a, b}, 2, samples);
+        }
+    }
+    return code;
+}
+
+/* ---- The command --------------------------------------------------------------------------------------------- */
+
+/* The sizes of one pattern go together. */
+static int open_series(job *j, const char *operand)
+{
+    series *s = &j->series[j->n_series], *before = j->n_series ? s - 1 : NULL;
+    *s = (series){.operand = operand, .options = {.seed = j->seed, .trials = j->trials}};
+    int code = cli_source_open(j->arguments, operand, &s->source);
+    if (code) {
+        return code;
+    }
+    if (!s->source.is_pattern) {
+        code = cli_source_points(j->arguments, operand, j->seed, &j->work.run, &s->points);
+        s->options.trials = 1;
+    }
+    koksma_spec_text(&s->source.spec, s->text);
+    if (!s->source.is_pattern) {
+        snprintf(s->text, sizeof s->text, "%s", operand);
+    }
+    s->dim = s->source.is_pattern ? s->source.dim : s->points.dim;
+    s->options.sizes[0] = s->source.is_pattern ? s->source.n : s->points.n;
+    s->options.n_sizes = 1;
+    if (before && s->source.is_pattern && before->source.is_pattern && before->dim == s->dim &&
+        !strcmp(before->text, s->text)) {
+        if (before->options.n_sizes == KOKSMA_MAX_SIZES) {
+            return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", s->text, KOKSMA_MAX_SIZES);
+        }
+        before->options.sizes[before->options.n_sizes++] = s->options.sizes[0];
+        return code;
+    }
+    j->n_series++;
+    return code;
+}
+
+static int run_series(job *j, series *s)
+{
+    int code = CLI_YES;
+    bool end = false;
+    for (size_t i = 0; !code && !end; i++) {
+        koksma_integral *integral;
+        code = open_integrand(j, i, s->dim, &end, &integral);
+        if (!code && integral) {
+            slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
+            j->slopes = more ? more : j->slopes;
+            code = more ? integrate(j, integral, s) : cli_no_memory();
+        }
+        koksma_integral_close(integral);
+    }
+    return code;
+}
+
+static int run_variance(job *j, int dim)
+{
+    uint64_t samples;
+    if (!cli_whole(j->arguments, "samples", 0, 1, 1 << 20, &samples)) {
+        return CLI_USAGE;
+    }
+    int code = CLI_YES;
+    bool end = false;
+    for (size_t i = 0; !code && !end; i++) {
+        koksma_integral *integral;
+        code = open_integrand(j, i, dim, &end, &integral);
+        if (!code && integral) {
+            code = put_variance(j, integral, samples);
+        }
+        koksma_integral_close(integral);
+    }
+    return code;
+}
+
+static int run_all(job *j)
+{
+    const cli_arguments *arguments = j->arguments;
+    int code = CLI_YES;
+    uint64_t dim;
+    if (!cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim)) {
+        return CLI_USAGE;
+    }
+    for (int i = 1; i < arguments->n_operands && !code; i++) {
+        code = open_series(j, arguments->operands[i]);
+    }
+    j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
+    for (size_t i = 0; i < j->n_series && !code; i++) {
+        cli_work_part(&j->work, i, j->n_series);
+        code = run_series(j, &j->series[i]);
+    }
+    for (size_t i = 0; i < j->n_slopes; i++) {
+        put_slope(j, &j->slopes[i]);
+    }
+    if (!code && cli_flag(arguments, "anova")) {
+        code = run_variance(j, j->n_series ? j->series[0].dim : (int)dim);
+    }
+    cli_work_end();
+    const int rows_code = j->rows ? cli_rows_close(j->rows) : CLI_YES;
+    if (!code && j->n_deterministic && !cli_flag(arguments, "quiet")) {
+        cli_say(arguments->command->name,
+                "%s%s is deterministic: its error is that of one set; :shift=1 shifts at random", j->deterministic,
+                j->n_deterministic > 1 ? ", as others," : "");
+    }
+    return code ? code : rows_code;
+}
+
+static int run(const cli_arguments *arguments)
+{
+    job j = {.arguments = arguments};
+    if (arguments->n_operands == 0) {
+        return cli_usage_error(arguments, "it takes an integrand, such as disk or genz-gaussian:difficulty=5, and "
+                                          "patterns or files; 'koksma list integrands' names them");
+    }
+    if (arguments->n_operands == 1 && !cli_flag(arguments, "anova")) {
+        return cli_usage_error(arguments, "it takes patterns, -p PATTERN,.. -n N,.., or files beside the integrand");
+    }
+    if (!cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j.seed) ||
+        !cli_whole(arguments, "trials", 32, 1, MOST_TRIALS, &j.trials) || !cli_sources_check(arguments, 1, 1, 1) ||
+        !cli_work_begin(arguments, "integrating", &j.work)) {
+        return CLI_USAGE;
+    }
+    j.series = calloc((size_t)arguments->n_operands + 1, sizeof *j.series);
+    const int code = j.series ? run_all(&j) : cli_no_memory();
+    for (size_t i = 0; j.series && i < (size_t)arguments->n_operands; i++) {
+        koksma_points_fini(&j.series[i].points);
+    }
+    for (size_t i = 0; i < j.n_libraries; i++) {
+        dlclose(j.libraries[i]);
+    }
+    free(j.series);
+    free(j.slopes);
+    return code;
+}
+
+static const cli_option options[] = {
+    CLI_SOURCE_OPTIONS,
+    {'t', "trials", "T", "T sets of each random pattern, seeds S, S+1, .. (default: 32)"},
+    {'s', "seed", "S", "seed of patterns (default: 0)"},
+    {0, "anova", NULL, "the share of each coordinate and pair of coordinates in the variance"},
+    {0, "samples", "N", "with --anova: estimate shares by N points, also where a closed form is known"},
+    CLI_ROW_OPTIONS,
+    CLI_RUN_OPTIONS,
+    {0},
+};
+
+const cli_command cli_command_integrate = {
+    .name = "integrate",
+    .summary = "integrate functions with known integrals, errors against n",
+    .synopsis =
+        "INTEGRAND,..|all [FILE|-|SPEC@N[@DIM]]... [-p PATTERN,..|all -n N,..] [-d DIM] [--trials T] [--anova]",
+    .details = "rmse is the root mean square of estimate minus integral over the trials, with its 95 % interval; of "
+               "one set,\n"
+               "and of deterministic patterns, the absolute error. gain is the variance of as many random points "
+               "divided by\n"
+               "the mean squared error: so many times more random points give this error. Three sizes or more give "
+               "the slope\n"
+               "of log rmse against log n with its interval.\n"
+               "\n"
+               "INTEGRAND is a name of 'koksma list integrands' with its parameters, or ./LIBRARY.so[:NAME], a "
+               "function of a\n"
+               "shared library that exports koksma_function_at (koksma/integrate.h). Where its integral is not "
+               "known, rmse is\n"
+               "the standard deviation over the trials.\n"
+               "\n"
+               "--anova prints Sobol' indices, coordinates numbered from 0: share is that of the component of "
+               "exactly these\n"
+               "coordinates, total that of all components with any of them; pairs up to 16 dimensions. Without a "
+               "closed form\n"
+               "they are estimated, with 95 % intervals.\n",
+    .examples = "koksma integrate quarter-disk,quarter-gaussian -p random,halton -n 16,64,256\n"
+                "koksma integrate genz-gaussian:difficulty=3 -d 5 -p halton -n 64,256,1024\n"
+                "koksma integrate asian:path=bridge -d 4 --anova\n"
+                "koksma integrate disk points.txt --json\n",
+    .options = options,
+    .run = run,
+};

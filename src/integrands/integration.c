@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Errors of integration over trials and sizes. With e_t the error of trial t, the mean of e_t^2 is that of squared errors,
+ * RMSE its root. Its interval is that of the logarithm of the mean by the delta method, log rmse +- t_{T-1} sd(e^2) /
+ * (2 sqrt(T) mean(e^2)): squared errors are skew, and a bound stays positive. Slopes are half those of the mean squared
+ * errors, with the error of koksma_joint_line.
+ *
+ * The sets of all trials and sizes are independent jobs. Where there are fewer jobs than threads, each set is made on all
+ * threads in turn; the bits are the same either way.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "api/generate.h"
+#include "core/parallel.h"
+#include "core/status.h"
+#include "integrands/integrands.h"
+
+enum { MOST_TRIALS = 1000000 };
+
+static koksma_status check_options(const koksma_integration_options *o)
+{
+    KOKSMA__FAIL_IF(o->n_sizes < 1 || o->n_sizes > KOKSMA_MAX_SIZES, KOKSMA_ARGUMENT,
+                    "koksma_integration_options: n_sizes: it takes 1 to %d", KOKSMA_MAX_SIZES);
+    KOKSMA__FAIL_IF(o->trials < 1 || o->trials > MOST_TRIALS, KOKSMA_ARGUMENT,
+                    "koksma_integration_options: trials: it takes 1 to %d", MOST_TRIALS);
+    for (size_t i = 0; i < o->n_sizes; i++) {
+        KOKSMA__FAIL_IF(o->sizes[i] < 1 || o->sizes[i] > KOKSMA_MAX_COORDINATES, KOKSMA_ARGUMENT,
+                        "koksma_integration_options: sizes: it takes 1 to %zu points", KOKSMA_MAX_COORDINATES);
+    }
+    return KOKSMA_OK;
+}
+
+/* ---- The statistics ----------------------------------------------------------------------------------------- */
+
+/* The estimates of a size. */
+static koksma_tally tally_of(const koksma_integration_options *o, const double *estimates, size_t size)
+{
+    koksma_tally tally = {0};
+    for (uint64_t t = 0; t < o->trials; t++) {
+        koksma_tally_add(&tally, estimates[t * o->n_sizes + size]);
+    }
+    return tally;
+}
+
+/* The squared error of an estimate; of an unknown integral the squared difference from the mean, times T / (T - 1). */
+static double squared(double estimate, double value, const koksma_tally *tally)
+{
+    const double error = estimate - (isnan(value) ? tally->mean : value);
+    return isnan(value) ? error * error * tally->count / (tally->count - 1) : error * error;
+}
+
+static koksma_integration_row row_of(const koksma_integration_options *o, const double *estimates, size_t size,
+                                     double value, double variance)
+{
+    const koksma_tally tally = tally_of(o, estimates, size);
+    koksma_tally squares = {0};
+    for (uint64_t t = 0; t < o->trials; t++) {
+        koksma_tally_add(&squares, squared(estimates[t * o->n_sizes + size], value, &tally));
+    }
+    const double n = (double)o->sizes[size], half = koksma_tally_interval(&squares) / (2 * squares.mean);
+    koksma_integration_row row = {.n = o->sizes[size],
+                                  .trials = o->trials,
+                                  .mean = tally.mean,
+                                  .sd = koksma_tally_sd(&tally),
+                                  .rmse = sqrt(squares.mean),
+                                  .gain = variance / n / squares.mean};
+    row.low = squares.mean > 0 ? row.rmse * exp(-half) : row.rmse + 0 * half;
+    row.high = squares.mean > 0 ? row.rmse * exp(half) : row.rmse + 0 * half;
+    return row;
+}
+
+/* The mean squared errors that are no rounding; NaN for the others. */
+static void fit_slope(double value, const koksma_integration_options *o, const double *estimates,
+                      koksma_integration *out)
+{
+    double squares[KOKSMA_MAX_SIZES], sizes[KOKSMA_MAX_SIZES], means[KOKSMA_MAX_SIZES], scale = fabs(value);
+    koksma_tally tallies[KOKSMA_MAX_SIZES];
+    koksma_joint joint = {0};
+    koksma_line line;
+    for (size_t i = 0; i < o->n_sizes; i++) {
+        tallies[i] = tally_of(o, estimates, i);
+        scale = fmax(scale, fmax(fabs(tallies[i].min), fabs(tallies[i].max)));
+    }
+    for (size_t i = 0; i < o->n_sizes; i++) {
+        const double rmse = out->rows[i].rmse;
+        sizes[i] = (double)o->sizes[i];
+        means[i] = rmse > 0x1p-44 * scale ? rmse * rmse : (double)NAN;
+    }
+    for (uint64_t t = 0; t < o->trials; t++) {
+        for (size_t i = 0; i < o->n_sizes; i++) {
+            squares[i] = squared(estimates[t * o->n_sizes + i], value, &tallies[i]);
+        }
+        koksma_joint_add(&joint, o->n_sizes, squares);
+    }
+    koksma_integration_slope *s = &out->slope;
+    *s = (koksma_integration_slope){0, NAN, NAN, NAN, NAN};
+    if (koksma_joint_line(&joint, o->n_sizes, sizes, means, &line)) {
+        const size_t degrees = o->trials > 1 ? (size_t)o->trials - 1 : line.count - 2;
+        s->count = line.count;
+        s->value = line.slope / 2;
+        s->standard_error = line.slope_error / 2;
+        s->low = s->value - koksma_student_975(degrees) * s->standard_error;
+        s->high = s->value + koksma_student_975(degrees) * s->standard_error;
+    }
+}
+
+koksma_status koksma_integration_summary(double value, double variance, const koksma_integration_options *options,
+                                         const double *estimates, koksma_integration *out)
+{
+    KOKSMA__REQUIRE(options, estimates, out);
+    KOKSMA__TRY(check_options(options));
+    for (size_t i = 0; i < options->n_sizes; i++) {
+        out->rows[i] = row_of(options, estimates, i, value, variance);
+    }
+    fit_slope(value, options, estimates, out);
+    return KOKSMA_OK;
+}
+
+/* ---- Sets of a pattern -------------------------------------------------------------------------------------- */
+
+typedef struct job {
+    const koksma_integral *f;
+    const koksma_spec *pattern;
+    const koksma_integration_options *options;
+    const koksma_run *run; /* of a set */
+    double *estimates;
+} job;
+
+/* Job `block`, the largest sets first. */
+static koksma_status integrate_set(void *context, size_t block)
+{
+    const job *j = context;
+    const size_t n_sizes = j->options->n_sizes, last = j->options->trials * n_sizes - 1 - block;
+    koksma_points points;
+    KOKSMA__TRY(koksma_points_init(&points, j->options->sizes[last % n_sizes], j->f->dim));
+    koksma_status status = koksma_generate(j->pattern, j->options->seed + last / n_sizes, j->run, &points);
+    status = status ? status : koksma_integrate(j->f, &points, j->run, &j->estimates[last]);
+    koksma_points_fini(&points);
+    return status;
+}
+
+/* Within a set only whether to go on is asked; how far the work is, is counted in sets. */
+static bool go_on(void *context, double fraction)
+{
+    (void)fraction;
+    return koksma__keep_going(context, 0);
+}
+
+koksma_status koksma_integration_errors(const koksma_integral *integral, const koksma_spec *pattern,
+                                        const koksma_integration_options *options, const koksma_run *run,
+                                        koksma_integration *out)
+{
+    KOKSMA__REQUIRE(integral, pattern, options, out);
+    KOKSMA__REQUIRE_RUN(run);
+    KOKSMA__TRY(check_options(options));
+    KOKSMA__FAIL_IF(!pattern->pattern, KOKSMA_ARGUMENT, "koksma_integration_errors: it takes the spec of a pattern");
+    koksma_integration_options o = *options;
+    o.trials = koksma__spec_is_deterministic(pattern) ? 1 : o.trials;
+    const size_t jobs = (size_t)o.trials * o.n_sizes;
+    const bool together = jobs >= (size_t)koksma__threads(run);
+    const koksma_run one = {.threads = 1},
+                     all = {.threads = run ? run->threads : 0, .keep_going = go_on, .context = (void *)run};
+    job j = {integral, pattern, &o, together ? &one : &all, calloc(jobs, sizeof(double))};
+    KOKSMA__REQUIRE_MEMORY(j.estimates, jobs * sizeof *j.estimates);
+    koksma_run outer = run ? *run : (koksma_run){0};
+    outer.threads = together ? outer.threads : 1;
+    koksma_status status = koksma__parallel(&outer, jobs, integrate_set, &j);
+    koksma_integral_facts facts;
+    koksma_integral_about(integral, &facts);
+    status = status ? status : koksma_integration_summary(facts.value, facts.variance, &o, j.estimates, out);
+    free(j.estimates);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What is known of a function of the plane that is no product. */
+#ifndef KOKSMA_INTEGRANDS_PLANE_H
+#define KOKSMA_INTEGRANDS_PLANE_H
+
+#include "integrands/product.h"
+
+/* square: the integral of f^2; of_x, of_y: of E(f | x)^2 and E(f | y)^2. Its range is [0,1], its variation infinite. */
+typedef struct koksma__plane {
+    double value, square, of_x, of_y;
+} koksma__plane;
+
+/* prepare() of members whose constants are a koksma__plane. */
+koksma_status koksma__integral_of_plane(koksma_integral *f);
+
+/* Defines a member of so many axes; then comes what is known: ROWS of factors, PLANE, or initialisers. */
+#define KOKSMA__CLOSED_MEMBER(id, text, says, source, n_axes, function, ...)                                         \
+    const koksma_integrand koksma__integrand_##id = {                                                                \
+        .name = text,                                                                                                \
+        .title = says,                                                                                               \
+        .cite = source,                                                                                              \
+        .known = "closed form",                                                                                      \
+        .min_dim = n_axes,                                                                                           \
+        .max_dim = KOKSMA_MAX_DIM,                                                                                   \
+        .axes = n_axes,                                                                                              \
+        .at = function,                                                                                              \
+        __VA_ARGS__,                                                                                                 \
+    }
+#define KOKSMA__ROWS(...)                                                                                            \
+    .prepare = koksma__integral_of_rows, .constants = (const koksma__factor[])                                       \
+    {                                                                                                                \
+        __VA_ARGS__                                                                                                  \
+    }
+#define KOKSMA__PLANE(...)                                                                                           \
+    .prepare = koksma__integral_of_plane, .constants = &(const koksma__plane)                                        \
+    {                                                                                                                \
+        __VA_ARGS__                                                                                                  \
+    }
+
+#endif

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Functions offset + scale g_1(x_1) .. g_d(x_d): with m the mean of a factor, q that of its square, V its variation,
+ *
+ *     integral             offset + scale prod m
+ *     Var(E(f | x_u))      scale^2 (prod_{i in u} q_i prod_{i not in u} m_i^2 - prod m_i^2)
+ *     Hardy and Krause     |scale| (prod (V_i + |g_i(1)|) - prod |g_i(1)|)
+ *
+ * The last, anchored at 1, is the sum over all u of Vitali's variations of f(x_u, 1), each a product.
+ */
+#include "integrands/product.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/status.h"
+
+koksma_status koksma__integral_factors(koksma_integral *f)
+{
+    f->factors = calloc((size_t)f->axes, sizeof *f->factors);
+    KOKSMA__REQUIRE_MEMORY(f->factors, (size_t)f->axes * sizeof *f->factors);
+    f->scale = 1;
+    return KOKSMA_OK;
+}
+
+static double explained(const koksma_integral *f, const bool *held)
+{
+    double closed = 1, mean = 1;
+    for (int i = 0; i < f->axes; i++) {
+        const double square = f->factors[i].mean * f->factors[i].mean;
+        closed *= held[i] ? f->factors[i].square : square;
+        mean *= square;
+    }
+    return f->scale * f->scale * (closed - mean);
+}
+
+void koksma__integral_of_product(koksma_integral *f)
+{
+    double mean = 1, all = 1, end = 1, low = 1, high = 1, squares = 1;
+    for (int i = 0; i < f->axes; i++) {
+        const koksma__factor *g = &f->factors[i];
+        const double corners[] = {low * g->lowest, low * g->highest, high * g->lowest, high * g->highest};
+        low = fmin(fmin(corners[0], corners[1]), fmin(corners[2], corners[3]));
+        high = fmax(fmax(corners[0], corners[1]), fmax(corners[2], corners[3]));
+        mean *= g->mean;
+        squares *= g->square;
+        all *= g->variation + g->end;
+        end *= g->end;
+    }
+    f->value = f->offset + f->scale * mean;
+    f->variance = f->scale * f->scale * (squares - mean * mean);
+    f->variation = fabs(f->scale) * (all - end);
+    f->lowest = f->offset + f->scale * (f->scale < 0 ? high : low);
+    f->highest = f->offset + f->scale * (f->scale < 0 ? low : high);
+    f->explained = explained;
+}
+
+koksma_status koksma__integral_of_rows(koksma_integral *f)
+{
+    const koksma__factor *rows = f->integrand->constants;
+    KOKSMA__TRY(koksma__integral_factors(f));
+    for (int i = 0; i < f->axes; i++) {
+        f->factors[i] = rows[i];
+    }
+    koksma__integral_of_product(f);
+    return KOKSMA_OK;
+}

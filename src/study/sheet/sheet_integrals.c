@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Errors of integration of all samplers over the integrands of Christensen et al. (2018), which other papers on sampling
+ * have taken over: RMSE against n with intervals, slopes, and how many times more random points give the same error. The
+ * numbers are those of `koksma integrate`.
+ */
+#include "study/sheet/sheet_integrals.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <koksma/integrate.h>
+
+#include "core/status.h"
+#include "study/sheet/sheet_samplers.h"
+
+enum { N_INTEGRANDS = 5 };
+
+static const char *const integrands[N_INTEGRANDS] = {"quarter-disk", "triangle", "step-pi", "quarter-gaussian",
+                                                     "bilinear"};
+
+/* results[i * n_samplers + s] is of integrand i and sampler s. */
+static koksma_status compute(const koksma__sheet *sheet, const koksma_run *run, koksma_integration *results)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; i < N_INTEGRANDS && !status; i++) {
+        koksma_integral *integral;
+        KOKSMA__TRY(koksma_integral_open(integrands[i], 2, &integral));
+        for (size_t s = 0; s < sheet->n_samplers && !status; s++) {
+            const koksma__sheet_sampler *sampler = sheet->samplers[s];
+            koksma_integration_options options = {.n_sizes = sheet->n_sizes,
+                                                  .seed = sampler->seed,
+                                                  .trials = koksma__sheet_trials(sampler, sheet->trials)};
+            memcpy(options.sizes, sheet->sizes, sheet->n_sizes * sizeof *sheet->sizes);
+            status = koksma_integration_errors(integral, &sampler->spec, &options, run,
+                                               &results[i * sheet->n_samplers + s]);
+        }
+        koksma_integral_close(integral);
+    }
+    return status;
+}
+
+static koksma__estimate rmse_of(const koksma_integration_row *row)
+{
+    return (koksma__estimate){row->rmse, row->low, row->high};
+}
+
+static void put_chart(const koksma__sheet *sheet, const char *name, const koksma_integration *results,
+                      koksma__document *d)
+{
+    bool positive = true; /* a logarithmic axis has no 0, which exact estimates have */
+    for (size_t k = 0; k < sheet->n_samplers * sheet->n_sizes; k++) {
+        positive = positive && results[k / sheet->n_sizes].rows[k % sheet->n_sizes].rmse > 0;
+    }
+    koksma__doc_chart_begin(d, &(koksma__chart){name, "points n", "RMSE", true, positive});
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        koksma__doc_series_begin(d, sheet->samplers[s]->text, KOKSMA__SERIES_LINE);
+        for (size_t i = 0; i < sheet->n_sizes; i++) {
+            const koksma_integration_row *row = &results[s].rows[i];
+            koksma__doc_point(d, (double)row->n, row->rmse, row->low, row->high);
+        }
+        koksma__doc_end(d);
+    }
+    koksma__doc_end(d);
+}
+
+static void put_table(const koksma__sheet *sheet, const koksma_integration *results, koksma__document *d)
+{
+    koksma__doc_table_begin(d, "integrals");
+    koksma__doc_column(d, &(koksma__column){.name = "integrand", .merged = true});
+    koksma__doc_head(d, "sampler");
+    koksma__doc_head_interval(d, "RMSE", 3);
+    koksma__doc_column(
+        d, &(koksma__column){.name = "slope", .type = KOKSMA__COLUMN_INTERVAL, .digits = 2, .fixed = true});
+    koksma__doc_head_number(d, "gain", 3);
+    koksma__doc_head_number(d, "sets", 9);
+    for (size_t k = 0; k < N_INTEGRANDS * sheet->n_samplers; k++) {
+        const koksma_integration *r = &results[k];
+        const koksma_integration_row *last = &r->rows[sheet->n_sizes - 1];
+        koksma__doc_row(d);
+        koksma__doc_text(d, integrands[k / sheet->n_samplers]);
+        koksma__doc_text(d, sheet->samplers[k % sheet->n_samplers]->text);
+        koksma__doc_interval(d, rmse_of(last));
+        koksma__doc_interval(d, (koksma__estimate){r->slope.value, r->slope.low, r->slope.high});
+        koksma__doc_number(d, last->gain);
+        koksma__doc_number(d, (double)last->trials);
+    }
+    koksma__doc_table_end(d);
+}
+
+static void put_commands(koksma__sheet *sheet, koksma__document *d)
+{
+    char list[128] = "", sources[KOKSMA__SHEET_COMMAND], source[2 * KOKSMA_MAX_SPEC];
+    for (size_t i = 0; i < N_INTEGRANDS; i++) {
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? "," : "", integrands[i]);
+    }
+    for (size_t s = 0; s < sheet->n_samplers; s++) {
+        sources[0] = '\0';
+        for (size_t i = 0; i < sheet->n_sizes; i++) {
+            const size_t used = strlen(sources);
+            koksma__sheet_source(sheet->samplers[s], sheet->sizes[i], 2, source, sizeof source);
+            snprintf(sources + used, sizeof sources - used, " %s", source);
+        }
+        koksma__sheet_command(sheet, "integrate %s%s --trials %zu --seed %llu", list, sources,
+                              koksma__sheet_trials(sheet->samplers[s], sheet->trials),
+                              (unsigned long long)sheet->samplers[s]->seed);
+    }
+    koksma__sheet_put_commands(sheet, d);
+}
+
+koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)
+{
+    const size_t count = N_INTEGRANDS * sheet->n_samplers;
+    koksma_integration *results = calloc(count, sizeof *results);
+    KOKSMA__REQUIRE_MEMORY(results, count * sizeof *results);
+    const koksma_run run = koksma__sheet_part(sheet, 0.02, 0.1);
+    const koksma_status status = compute(sheet, &run, results);
+    if (!status) {
+        koksma__doc_section(d, "integrals", "Errors of integration");
+        koksma__doc_paragraph(
+            d,
+            "Root mean square errors of the mean of five functions at n = %zu, slopes of log RMSE over "
+            "log n, with 95 %% intervals. Gain: so many times more random points give this error. "
+            "Of a sampler with one set the error is that of this set.",
+            sheet->sizes[sheet->n_sizes - 1]);
+        put_table(sheet, results, d);
+        for (size_t i = 0; i < N_INTEGRANDS; i++) {
+            put_chart(sheet, integrands[i], results + i * sheet->n_samplers, d);
+        }
+        put_commands(sheet, d);
+        koksma__doc_end(d);
+    }
+    free(results);
+    return status;
+}

@@ -1,0 +1,569 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Walks the table of integrands, with each choice of a parameter and some of its numbers, in 1 to 3 dimensions: values
+ * against the definitions below, integral, variance and Sobol' indices against sums over fine grids, estimated indices
+ * against exact ones, threads, and what a pattern's errors must be.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include "integrands/integrands.h"
+#include "test.h"
+
+/* ---- Definitions, from the papers ----------------------------------------------------------------------------- */
+
+/* B_r by the recursion B_r' = r B_{r-1} and mean 0, as sums of powers from Abramowitz & Stegun 1964, 23.1. */
+static double bernoulli(int r, double x)
+{
+    switch (r) {
+    case 1:
+        return x - 0.5;
+    case 2:
+        return x * x - x + 1.0 / 6;
+    case 3:
+        return x * (x - 0.5) * (x - 1);
+    case 4:
+        return x * x * (x - 1) * (x - 1) - 1.0 / 30;
+    default:
+        fail_msg("no definition of B_%d", r);
+        return 0;
+    }
+}
+
+/* The normal number of probability p, by bisection. */
+static double normal_of(double p)
+{
+    double low = -10, high = 10;
+    for (int i = 0; i < 80; i++) {
+        const double z = (low + high) / 2;
+        *(erfc(-z / sqrt(2)) / 2 < p ? &low : &high) = z;
+    }
+    return low;
+}
+
+/* The path itself, price by price. */
+static double asian(const koksma_integral *f, const double *x)
+{
+    double w[4] = {0}, sum = 0; /* W at step 0 .. d */
+    const int d = f->dim;
+    const double dt = 1.0 / d, v = f->params[1];
+    if (f->params[2] == 1) {
+        w[d] = normal_of(x[0]);
+        if (d == 2) {
+            w[1] = w[2] / 2 + normal_of(x[1]) / 2; /* sqrt(.5 .5 / 1) */
+        } else if (d == 3) {
+            w[1] = w[3] / 3 + sqrt(2.0 / 9) * normal_of(x[1]);
+            w[2] = (w[1] + w[3]) / 2 + sqrt(1.0 / 6) * normal_of(x[2]);
+        }
+    } else {
+        for (int k = 0; k < d; k++) {
+            w[k + 1] = w[k] + sqrt(dt) * normal_of(x[k]);
+        }
+    }
+    for (int k = 1; k <= d; k++) {
+        sum += log(100 * exp((0.05 - v * v / 2) * k * dt + v * w[k])) / d;
+    }
+    return exp(-0.05) * fmax(exp(sum) - f->params[0], 0);
+}
+
+static double genz(const char *name, const koksma_integral *f, const double *x)
+{
+    const double *a = f->a, *u = f->b;
+    double sum = 0, product = 1;
+    for (int i = 0; i < f->dim; i++) {
+        if (!strcmp(name, "gaussian")) {
+            sum += a[i] * a[i] * (x[i] - u[i]) * (x[i] - u[i]);
+        } else if (!strcmp(name, "continuous")) {
+            sum += a[i] * fabs(x[i] - u[i]);
+        } else {
+            sum += a[i] * x[i];
+        }
+        product /= 1 / (a[i] * a[i]) + (x[i] - u[i]) * (x[i] - u[i]);
+    }
+    if (!strcmp(name, "oscillatory")) {
+        return cos(2 * M_PI * u[0] + sum);
+    }
+    if (!strcmp(name, "product-peak")) {
+        return product;
+    }
+    if (!strcmp(name, "corner-peak")) {
+        return pow(1 + sum, -(f->dim + 1.0));
+    }
+    if (!strcmp(name, "discontinuous")) {
+        return x[0] > u[0] || (f->dim > 1 && x[1] > u[1]) ? 0 : exp(sum);
+    }
+    return exp(-sum);
+}
+
+/* Whether 8 x 8 squares, or the diagonals' of side sqrt(2)/8, are white. */
+static double checker(double u, double v)
+{
+    return (long)(floor(u) + floor(v) + 100) % 2;
+}
+
+static double defined(const koksma_integral *f, const double *x)
+{
+    const char *name = f->integrand->name;
+    const double r2 = f->dim > 1 ? x[0] * x[0] + x[1] * x[1] : 0,
+                 c2 = f->dim > 1 ? pow(x[0] - 0.5, 2) + pow(x[1] - 0.5, 2) : 0;
+    if (!strncmp(name, "genz-", 5)) {
+        return genz(name + 5, f, x);
+    }
+    if (!strcmp(name, "asian")) {
+        return asian(f, x);
+    }
+    if (!strcmp(name, "bernoulli")) {
+        double product = 1;
+        for (int j = 0; j < f->dim; j++) {
+            product *= 1 + f->params[1] / pow(j + 1, f->params[2]) * bernoulli((int)f->params[0], x[j]);
+        }
+        return product;
+    }
+    const double y = f->dim > 1 ? x[1] : 0;
+    const struct {
+        const char *name;
+        double value;
+    } plane[] = {
+        {"x", x[0]},
+        {"x2", x[0] * x[0]},
+        {"wave", sin(2 * M_PI * x[0])},
+        {"step", x[0] < 1.0 / 3},
+        {"step-pi", x[0] < 1 / M_PI},
+        {"saddle", (x[0] - 0.5) * (y - 0.5)},
+        {"exp", exp(x[0]) * exp(y)},
+        {"corner", x[0] < 0.6 && y < 0.7},
+        {"box", x[0] >= 0.2 && x[0] < 0.7 && y >= 0.3 && y < 0.9},
+        {"checker", checker(8 * x[0], 8 * y)},
+        {"edge", y - x[0] / 2 < 0.2},
+        {"disk", sqrt(c2) < 0.4},
+        {"turned", checker(4 * (x[0] + y), 4 * (x[0] - y))},
+        {"quarter-disk", r2 < 2 / M_PI},
+        {"triangle", y > x[0]},
+        {"quarter-gaussian", exp(-r2)},
+        {"bilinear", x[0] * y},
+    };
+    for (size_t i = 0; i < sizeof plane / sizeof *plane; i++) {
+        if (!strcmp(plane[i].name, name)) {
+            return plane[i].value;
+        }
+    }
+    fail_msg("%s has no definition here", name);
+    return 0;
+}
+
+/* ---- The walk -------------------------------------------------------------------------------------------------- */
+
+static const char *const more[] = {"bernoulli:r=1",
+                                   "bernoulli:r=3,w=3",
+                                   "bernoulli:r=4,decay=0,w=10",
+                                   "asian:path=bridge",
+                                   "asian:strike=120,volatility=0.5",
+                                   "genz-oscillatory:seed=5,difficulty=3",
+                                   "genz-corner-peak:seed=7,difficulty=6",
+                                   "genz-product-peak:seed=2,difficulty=2",
+                                   "genz-gaussian:seed=3,difficulty=2",
+                                   "genz-continuous:seed=4,difficulty=3",
+                                   "genz-discontinuous:seed=8,difficulty=1"};
+
+typedef void visit(const char *spec, koksma_integral *f);
+
+/* Calls visit with every integrand in 1 to 3 dimensions. */
+static void walk(visit *look)
+{
+    const koksma_integrand *member;
+    const size_t n_more = sizeof more / sizeof *more;
+    size_t count = 0;
+    for (size_t i = 0; i < n_more || koksma_integrand_at(i - n_more); i++) {
+        const char *spec = i < n_more ? more[i] : koksma_integrand_at(i - n_more)->name;
+        for (int dim = 1; dim <= 3; dim++) {
+            koksma_integral *f;
+            const koksma_status status = koksma_integral_open(spec, dim, &f);
+            if (status == KOKSMA_DIM) {
+                continue;
+            }
+            assert_ok(status);
+            member = f->integrand;
+            assert_true(dim >= member->min_dim && dim <= member->max_dim);
+            look(spec, f);
+            koksma_integral_close(f);
+            count++;
+        }
+    }
+    assert_true(count > 90);
+}
+
+static void look_at_values(const char *spec, koksma_integral *f)
+{
+    const koksma_points points = test_points("random", 500, f->dim, 11);
+    double values[500];
+    assert_ok(koksma_integral_values(f, &points, NULL, values));
+    double sum = 0, mean;
+    for (size_t i = 0; i < points.n; i++) {
+        const double *x = points.xs + i * (size_t)f->dim, expected = defined(f, x);
+        if (!(fabs(values[i] - expected) <= 1e-11 * (1 + fabs(expected)) &&
+              values[i] >= f->lowest * (1 - 1e-14) - 1e-300 && values[i] <= f->highest * (1 + 1e-14))) {
+            fail_msg("%s in %d dimensions at %.17g, ..: %.17g, by definition %.17g; range %g to %g", spec, f->dim,
+                     x[0], values[i], expected, f->lowest, f->highest);
+        }
+        sum += values[i] / 500;
+    }
+    assert_ok(koksma_integrate(f, &points, NULL, &mean));
+    assert_near(mean, sum, 1e-13 * (1 + fabs(sum)));
+    koksma_points dirty = points;
+    dirty.xs[3] = 1.5;
+    assert_int_equal(koksma_integrate(f, &dirty, NULL, &mean), KOKSMA_ARGUMENT);
+    koksma_points_fini(&dirty);
+}
+
+static void values_are_those_of_the_definitions(void **state)
+{
+    (void)state;
+    walk(look_at_values);
+}
+
+/* Parameters of Genz's families: a of the given sum, all in range, others with another seed. */
+static void genz_parameters_are_scaled(void **state)
+{
+    (void)state;
+    koksma_integral *f, *g;
+    assert_ok(koksma_integral_open("genz-gaussian:difficulty=3", 7, &f));
+    assert_ok(koksma_integral_open("genz-gaussian:difficulty=3,seed=1", 7, &g));
+    double sum = 0;
+    for (int i = 0; i < 7; i++) {
+        sum += f->a[i];
+        assert_true(f->a[i] > 0 && f->b[i] >= 0 && f->b[i] < 1 && f->b[i] != g->b[i]);
+    }
+    assert_near(sum, 3, 1e-14);
+    koksma_integral_close(f);
+    koksma_integral_close(g);
+}
+
+enum { CELLS_3 = 96, CELLS_2 = 800, CELLS_1 = 400000 };
+
+/* Mean, mean square, and for each axis the mean square of the conditional mean, by the midpoint rule. */
+typedef struct sums {
+    double mean, square, of_axis[3];
+} sums;
+
+static sums sums_of(const koksma_integral *f)
+{
+    const int cells = f->dim == 1 ? CELLS_1 : f->dim == 2 ? CELLS_2 : CELLS_3;
+    double *conditional = calloc(3 * (size_t)cells, sizeof *conditional), x[3];
+    sums s = {0};
+    int at[3] = {0};
+    const double volume = pow(cells, -f->dim);
+    assert_non_null(conditional);
+    for (bool more_cells = true; more_cells;) {
+        for (int k = 0; k < f->dim; k++) {
+            x[k] = (at[k] + 0.5) / cells;
+        }
+        const double value = f->integrand->at(f, x);
+        s.mean += value * volume;
+        s.square += value * value * volume;
+        for (int k = 0; k < f->dim; k++) {
+            conditional[k * cells + at[k]] += value * volume * cells;
+        }
+        int k = 0;
+        while (k < f->dim && ++at[k] == cells) {
+            at[k++] = 0;
+        }
+        more_cells = k < f->dim;
+    }
+    for (int i = 0; i < 3 * cells; i++) {
+        s.of_axis[i / cells] += conditional[i] * conditional[i] / cells;
+    }
+    free(conditional);
+    return s;
+}
+
+/* A cut cell of an edge is wrong by half at most. */
+static void look_at_sums(const char *spec, koksma_integral *f)
+{
+    const sums s = sums_of(f);
+    const double tail = isinf(f->highest) ? 10 : 1; /* the grid ends half a cell before the singularity */
+    const double sd = sqrt(f->variance), part = tail * (f->dim == 1 ? 2e-5 : f->dim == 2 ? 3e-3 : 2e-2);
+    koksma_sensitivity exact;
+    if (!(fabs(s.mean - f->value) <= part * sd &&
+          fabs(s.square - s.mean * s.mean - f->variance) <= 2 * part * f->variance)) {
+        fail_msg("%s in %d dimensions: integral %.10g, on a grid %.10g; variance %.10g, on a grid %.10g", spec,
+                 f->dim, f->value, s.mean, f->variance, s.square - s.mean * s.mean);
+    }
+    for (int k = 0; k < f->dim && f->explained; k++) {
+        assert_ok(koksma_integral_sensitivity(f, &k, 1, 0, 0, NULL, &exact));
+        const double share = (s.of_axis[k] - s.mean * s.mean) / f->variance;
+        if (!exact.exact || !(fabs(share - exact.closed.value) <= 4 * part)) {
+            fail_msg("%s in %d dimensions: share of coordinate %d %.6g, on a grid %.6g", spec, f->dim, k,
+                     exact.closed.value, share);
+        }
+    }
+}
+
+static void integrals_variances_and_shares_hold(void **state)
+{
+    (void)state;
+    walk(look_at_sums);
+}
+
+/* What cannot be seen on a grid: components add up to the variance, of one coordinate less than total. */
+static void look_at_components(const char *spec, koksma_integral *f)
+{
+    const int axes[] = {0, 1, 2};
+    double sum = 0;
+    if (f->dim != 3 || !f->explained) {
+        return;
+    }
+    koksma_sensitivity s;
+    for (unsigned bits = 1; bits < 8; bits++) {
+        int some[3];
+        size_t n = 0;
+        for (int k = 0; k < 3; k++) {
+            if (bits >> k & 1) {
+                some[n++] = axes[k];
+            }
+        }
+        assert_ok(koksma_integral_sensitivity(f, some, n, 0, 0, NULL, &s));
+        if (!(s.component.value >= -1e-9 && s.component.value <= s.closed.value + 1e-9 &&
+              s.closed.value <= s.total.value + 1e-9 && s.total.value <= 1 + 1e-9)) {
+            fail_msg("%s: component %g, closed %g, total %g", spec, s.component.value, s.closed.value, s.total.value);
+        }
+        sum += s.component.value;
+    }
+    assert_near(sum, 1, 1e-9);
+}
+
+static void components_add_up(void **state)
+{
+    (void)state;
+    walk(look_at_components);
+}
+
+/* Of estimates' 95 % intervals about a twentieth miss. */
+static size_t n_shares, n_missed;
+
+static void look_at_estimates(const char *spec, koksma_integral *f)
+{
+    (void)spec;
+    koksma_sensitivity exact, estimate;
+    const int axes[] = {1, 0};
+    for (size_t n = 1; f->axes >= 2 && f->dim == 3 && f->explained && n <= 2; n++) {
+        assert_ok(koksma_integral_sensitivity(f, axes, n, 0, 0, NULL, &exact));
+        assert_ok(koksma_integral_sensitivity(f, axes, n, 1024, 3, NULL, &estimate));
+        assert_true(!estimate.exact);
+        const koksma_share pairs[][2] = {
+            {exact.component, estimate.component}, {exact.closed, estimate.closed}, {exact.total, estimate.total}};
+        for (int k = 0; k < 3; k++) {
+            assert_near(pairs[k][0].value, pairs[k][1].value, 0.05);
+            n_missed += pairs[k][0].value < pairs[k][1].low - 1e-12 || pairs[k][0].value > pairs[k][1].high + 1e-12;
+            n_shares++;
+        }
+    }
+}
+
+static void estimated_shares_hold_the_exact_ones(void **state)
+{
+    (void)state;
+    walk(look_at_estimates);
+    assert_true(n_shares >= 100);
+    if (n_missed > n_shares / 8) {
+        fail_msg("%zu of %zu intervals miss", n_missed, n_shares);
+    }
+}
+
+/* ---- Numbers that others have published ------------------------------------------------------------------------ */
+
+static void known_numbers(void **state)
+{
+    (void)state;
+    const struct {
+        const char *spec;
+        int dim;
+        double value;
+    } all[] = {
+        {"asian", 1, 10.450583572185565},           /* Black & Scholes, S = K = 100, r = .05, v = .2, T = 1 */
+        {"quarter-gaussian", 2, 0.557746285351034}, /* pi / 4 erf(1)^2 */
+        {"quarter-disk", 2, 0.5},
+        {"bernoulli:r=6,w=2", 5, 1},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        koksma_integral *f;
+        assert_ok(koksma_integral_open(all[i].spec, all[i].dim, &f));
+        assert_near(f->value, all[i].value, 1e-13 * fmax(1, all[i].value));
+        koksma_integral_close(f);
+    }
+}
+
+/* In many dimensions, where sums over corners would cancel: by random points, within four standard errors. */
+static void look_in_high_dimensions(const char *spec, int dim)
+{
+    koksma_integral *f;
+    koksma_spec pattern;
+    koksma_integration result;
+    const koksma_integration_options options = {.sizes = {4096}, .n_sizes = 1, .seed = 5, .trials = 16};
+    assert_ok(koksma_integral_open(spec, dim, &f));
+    assert_ok(koksma_pattern_spec("random", &pattern));
+    assert_ok(koksma_integration_errors(f, &pattern, &options, NULL, &result));
+    const koksma_integration_row *row = &result.rows[0];
+    if (!(fabs(row->mean - f->value) <= 4 * sqrt(f->variance / 4096 / 16) && row->gain > 0.3 && row->gain < 3)) {
+        fail_msg("%s in %d dimensions: %g, estimated %g; gain of random points %g", spec, dim, f->value, row->mean,
+                 row->gain);
+    }
+    koksma_integral_close(f);
+}
+
+static void many_dimensions_hold(void **state)
+{
+    (void)state;
+    static const char *const specs[] = {"genz-corner-peak:difficulty=0.5",
+                                        "genz-oscillatory:difficulty=3",
+                                        "genz-gaussian:difficulty=3",
+                                        "genz-continuous:difficulty=3",
+                                        "asian",
+                                        "asian:path=bridge",
+                                        "bernoulli",
+                                        "disk"};
+    for (size_t i = 0; i < sizeof specs / sizeof *specs; i++) {
+        look_in_high_dimensions(specs[i], 20);
+        look_in_high_dimensions(specs[i], 64);
+    }
+}
+
+/* The bridge's path and that by steps have one distribution. */
+static void paths_of_asian_options_agree(void **state)
+{
+    (void)state;
+    for (int dim = 1; dim <= 4096; dim = dim * 2 + dim % 7) {
+        koksma_integral *steps, *bridge;
+        assert_ok(koksma_integral_open("asian", dim, &steps));
+        assert_ok(koksma_integral_open("asian:path=bridge", dim, &bridge));
+        assert_near(steps->value, bridge->value, 1e-10);
+        assert_near(steps->variance, bridge->variance, 1e-8);
+        koksma_integral_close(steps);
+        koksma_integral_close(bridge);
+    }
+}
+
+/* ---- Errors over trials ------------------------------------------------------------------------------------------ */
+
+/* Random points: E of the squared error is variance / n, the slope -1/2. */
+static void random_points_have_gain_one(void **state)
+{
+    (void)state;
+    koksma_integral *f;
+    koksma_spec pattern;
+    koksma_integration one, three;
+    const koksma_integration_options options = {.sizes = {16, 64, 256, 1024}, .n_sizes = 4, .seed = 9, .trials = 400};
+    assert_ok(koksma_integral_open("quarter-gaussian", 2, &f));
+    assert_ok(koksma_pattern_spec("random", &pattern));
+    const koksma_run threads[] = {{.threads = 1}, {.threads = 3}};
+    assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[0], &one));
+    assert_ok(koksma_integration_errors(f, &pattern, &options, &threads[1], &three));
+    assert_memory_equal(one.rows, three.rows, 4 * sizeof *one.rows);
+    assert_memory_equal(&one.slope, &three.slope, sizeof one.slope);
+    for (int i = 0; i < 4; i++) {
+        assert_near(one.rows[i].gain, 1, 0.3);
+        assert_true(one.rows[i].low < sqrt(f->variance / (double)one.rows[i].n) * 1.1);
+        assert_true(one.rows[i].low < one.rows[i].rmse && one.rows[i].rmse < one.rows[i].high);
+    }
+    assert_true(one.slope.low < -0.5 && one.slope.high > -0.5 && one.slope.high - one.slope.low < 0.1);
+    koksma_integral_close(f);
+}
+
+/* Rows of estimates that are made up: mean, deviation and RMSE by hand; an unknown integral; rounding. */
+static void summaries_are_those_of_the_estimates(void **state)
+{
+    (void)state;
+    koksma_integration out;
+    const koksma_integration_options options = {.sizes = {10, 100, 1000}, .n_sizes = 3, .trials = 2};
+    const double estimates[] = {1.3, 0.99, 1.001, 0.9, 1.01, 0.999};
+    assert_ok(koksma_integration_summary(1, 2, &options, estimates, &out));
+    assert_near(out.rows[0].rmse, sqrt((0.09 + 0.01) / 2), 1e-14);
+    assert_near(out.rows[0].mean, 1.1, 1e-14);
+    assert_near(out.rows[0].sd, 0.2 * sqrt(2), 1e-14);
+    assert_near(out.rows[0].gain, 2.0 / 10 / 0.05, 1e-11);
+    assert_near(out.rows[1].rmse, 0.01, 1e-14);
+    assert_near(out.slope.value, log(0.001 / sqrt(0.05)) / log(100), 1e-12); /* the middle has no weight */
+    assert_ok(koksma_integration_summary(NAN, NAN, &options, estimates, &out));
+    assert_near(out.rows[0].rmse, out.rows[0].sd, 1e-14);
+    assert_true(isnan(out.rows[0].gain));
+    const double rounding[] = {1.3, 1.01, 1 + 1e-15, 0.9, 0.99, 1 - 1e-15};
+    assert_ok(koksma_integration_summary(1, 2, &options, rounding, &out));
+    assert_int_equal(out.slope.count, 0);
+    assert_true(isnan(out.slope.value));
+}
+
+/* ---- Functions of a caller, and what is refused ------------------------------------------------------------------ */
+
+static double corner(const double *x, int dim, void *context)
+{
+    return x[0] * x[dim - 1] * *(const double *)context;
+}
+
+static void functions_of_a_caller(void **state)
+{
+    (void)state;
+    double factor = 4, mean, expected;
+    koksma_integral *f, *g;
+    koksma_integral_facts facts;
+    const koksma_function function = {"mine", 2, 2, corner, &factor, NAN}, nameless = {"", 1, 1, corner, NULL, 0};
+    assert_ok(koksma_integral_of_function(&function, 2, &f));
+    koksma_integral_about(f, &facts);
+    assert_string_equal(facts.text, "mine");
+    assert_true(isnan(facts.value) && facts.axes == 2);
+    koksma_points points = test_points("sobol", 4096, 2, 0);
+    assert_ok(koksma_integral_open("bilinear", 2, &g));
+    assert_ok(koksma_integrate(f, &points, NULL, &mean));
+    assert_ok(koksma_integrate(g, &points, NULL, &expected));
+    assert_near(mean, 4 * expected, 1e-13);
+    koksma_sensitivity mine, exact;
+    assert_ok(koksma_integral_sensitivity(f, (int[]){1}, 1, 0, 0, NULL, &mine));
+    assert_ok(koksma_integral_sensitivity(g, (int[]){1}, 1, 0, 0, NULL, &exact));
+    assert_near(mine.total.value, exact.total.value, 5e-3);
+    assert_false(mine.exact);
+    koksma_points_fini(&points);
+    koksma_integral_close(f);
+    koksma_integral_close(g);
+    assert_int_equal(koksma_integral_of_function(&function, 3, &f), KOKSMA_DIM);
+    assert_int_equal(koksma_integral_of_function(&nameless, 1, &f), KOKSMA_ARGUMENT);
+}
+
+static void wrong_arguments_are_refused(void **state)
+{
+    (void)state;
+    koksma_integral *f;
+    koksma_sensitivity s;
+    double mean;
+    assert_int_equal(koksma_integral_open("dsik", 2, &f), KOKSMA_UNKNOWN);
+    assert_non_null(strstr(koksma_error_text(), "did you mean 'disk'"));
+    assert_int_equal(koksma_integral_open("disk", 1, &f), KOKSMA_DIM);
+    assert_non_null(strstr(koksma_error_text(), "2 to 4096"));
+    assert_int_equal(koksma_integral_open("bernoulli:r=9", 1, &f), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_integral_open("bernoulli:s=2", 1, &f), KOKSMA_ARGUMENT);
+    assert_null(f);
+    assert_ok(koksma_integral_open("disk", 3, &f));
+    koksma_points points = test_points("random", 4, 2, 0);
+    assert_int_equal(koksma_integrate(f, &points, NULL, &mean), KOKSMA_DIM);
+    koksma_points_fini(&points);
+    assert_int_equal(koksma_integral_sensitivity(f, (int[]){0, 0}, 2, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
+    assert_int_equal(koksma_integral_sensitivity(f, (int[]){3}, 1, 0, 0, NULL, &s), KOKSMA_ARGUMENT);
+    koksma_integral_close(f);
+    koksma_integral_close(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_are_those_of_the_definitions),
+        cmocka_unit_test(genz_parameters_are_scaled),
+        cmocka_unit_test(integrals_variances_and_shares_hold),
+        cmocka_unit_test(components_add_up),
+        cmocka_unit_test(estimated_shares_hold_the_exact_ones),
+        cmocka_unit_test(known_numbers),
+        cmocka_unit_test(many_dimensions_hold),
+        cmocka_unit_test(paths_of_asian_options_agree),
+        cmocka_unit_test(random_points_have_gain_one),
+        cmocka_unit_test(summaries_are_those_of_the_estimates),
+        cmocka_unit_test(functions_of_a_caller),
+        cmocka_unit_test(wrong_arguments_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""koksma.integrate against the program KOKSMA (in the environment), closed forms, and scipy's quadrature of the
+definitions."""
+import json
+import math
+import os
+import subprocess
+import unittest
+
+import numpy as np
+
+import koksma
+
+SCRAMBLED = "sobol:scramble=owen"
+
+
+def rows(*arguments):
+    output = subprocess.run([os.environ["KOKSMA"], "integrate", *arguments, "--json", "-q"], check=True, capture_output=True,
+                            text=True).stdout
+    return [json.loads(line) for line in output.splitlines()]
+
+
+class Integrate(unittest.TestCase):
+    def test_same_numbers_as_the_program(self):
+        said = rows("genz-gaussian:difficulty=3", "-p", SCRAMBLED, "-n", "16,64,256", "-d", "3", "-t", "8", "-s", "5")
+        ours = koksma.integrate("genz-gaussian:difficulty=3", SCRAMBLED, [16, 64, 256], 3, trials=8, seed=5)
+        for i, row in enumerate(said[:3]):
+            self.assertEqual([row[k] for k in ("n", "rmse", "low", "high", "mean", "sd", "gain")],
+                             [ours.sizes[i], ours.rmse[i], ours.low[i], ours.high[i], ours.mean[i], ours.sd[i], ours.gain[i]])
+        self.assertEqual((said[3]["slope"], said[3]["low"], said[3]["high"]), (ours.slope, ours.slope_low, ours.slope_high))
+        self.assertIn("genz-gaussian:difficulty=3", repr(ours))
+
+    def test_callables_are_integrands(self):
+        known = koksma.integrand("quarter-gaussian")
+        ours = koksma.integrate(lambda x: np.exp(-(x**2).sum(axis=1)), SCRAMBLED, [16, 64, 256], trials=6,
+                                integral=known.value, variance=known.variance)
+        table = koksma.integrate("quarter-gaussian", SCRAMBLED, [16, 64, 256], trials=6)
+        np.testing.assert_allclose(ours.rmse, table.rmse, rtol=1e-9)
+        self.assertAlmostEqual(ours.slope, table.slope, places=9)
+        unknown = koksma.integrate(lambda x: x[:, 0], "random", 64, trials=10)
+        self.assertAlmostEqual(unknown.rmse[0], unknown.sd[0], places=15)
+        self.assertTrue(math.isnan(unknown.integral))
+        self.assertEqual(koksma.integrate(lambda x: x[:, 0], "hammersley", 16, integral=0.5).trials, 1)
+
+    def test_sensitivity(self):
+        for axes in (0, [0, 1]):
+            exact, estimate = koksma.sensitivity("exp", axes), koksma.sensitivity(lambda x: np.exp(x.sum(axis=1)), axes, samples=256)
+            self.assertTrue(exact.exact and not estimate.exact)
+            for name in ("component", "closed", "total"):
+                self.assertAlmostEqual(float(getattr(exact, name)), float(getattr(estimate, name)), places=1)
+
+    def test_wrong_arguments(self):
+        for wrong in (lambda: koksma.integrate("dsik", "random", 4), lambda: koksma.integrate("disk", "random", 4, dim=1),
+                      lambda: koksma.integrate("disk", "random", []), lambda: koksma.integrate("disk", "random", 0),
+                      lambda: koksma.integrate(lambda x: x, "random", 4), lambda: koksma.sensitivity("disk", [0, 0]),
+                      lambda: koksma.sensitivity("disk", 2), lambda: koksma.integrate("disk", "random", 4, trials=0)):
+            with self.assertRaises(koksma.Error):
+                wrong()
+        with self.assertRaises(ZeroDivisionError):
+            koksma.integrate(lambda x: 1 // 0, "random", 4)
+        with self.assertRaises(ZeroDivisionError):
+            koksma.sensitivity(lambda x: 1 // 0, 0, samples=16)
+        self.assertEqual([m.name for m in koksma.integrands()][:2], ["x", "x2"])
+
+
+def bernoulli(r, x):
+    return [x - 1 / 2, x**2 - x + 1 / 6, x**3 - 1.5 * x**2 + x / 2, x**4 - 2 * x**3 + x**2 - 1 / 30][r - 1]
+
+
+class Definitions(unittest.TestCase):
+    """Integral and variance, by scipy, of functions written down here. Lines are where a function is not smooth."""
+
+    def setUp(self):
+        try:
+            from scipy import integrate, stats
+        except ImportError:
+            self.skipTest("scipy is not installed")
+        self.quad, self.normal = integrate.quad, stats.norm
+
+    def mean(self, f, lines=()):
+        edges = [0, *sorted(lines), 1]
+        return math.fsum(self.quad(f, a, b, epsabs=1e-13, epsrel=1e-12, limit=200)[0] for a, b in zip(edges, edges[1:]))
+
+    def test_products(self):
+        """One factor each: (f, lines), the integral of the product is the product of the means."""
+        gauss = (lambda x: math.exp(-x * x), ())
+        for spec, factors, scale, offset in [
+                ("x", [(lambda x: x, ())], 1, 0), ("x2", [(lambda x: x * x, ())], 1, 0),
+                ("wave", [(lambda x: math.sin(2 * math.pi * x), ())], 1, 0), ("step", [(lambda x: x < 1 / 3, (1 / 3,))], 1, 0),
+                ("step-pi", [(lambda x: x < 1 / math.pi, (1 / math.pi,))], 1, 0), ("saddle", [(lambda x: x - 0.5, ())] * 2, 1, 0),
+                ("exp", [(math.exp, ())] * 2, 1, 0), ("bilinear", [(lambda x: x, ())] * 2, 1, 0),
+                ("corner", [(lambda x: x < 0.6, (0.6,)), (lambda x: x < 0.7, (0.7,))], 1, 0),
+                ("box", [(lambda x: 0.2 <= x < 0.7, (0.2, 0.7)), (lambda x: 0.3 <= x < 0.9, (0.3, 0.9))], 1, 0),
+                ("quarter-gaussian", [gauss] * 2, 1, 0),
+                ("checker", [(lambda x: 1 - 2 * (int(8 * x) % 2), [k / 8 for k in range(1, 8)])] * 2, -0.5, 0.5),
+                *((f"bernoulli:r={r},w=0.7,decay=1", [(lambda x, r=r, j=j: 1 + 0.7 / j * bernoulli(r, x), ()) for j in (1, 2, 3)], 1, 0)
+                  for r in (1, 2, 3, 4))]:
+            means = [self.mean(f, lines) for f, lines in factors]
+            squares = [self.mean(lambda x: f(x)**2, lines) for f, lines in factors]
+            known = koksma.integrand(spec, len(factors))
+            self.assertAlmostEqual(known.value, offset + scale * math.prod(means), places=12, msg=spec)
+            self.assertAlmostEqual(known.variance, scale**2 * (math.prod(squares) - math.prod(m * m for m in means)), places=12, msg=spec)
+
+    def test_regions(self):
+        """Of the width at x: its integral, and that of its square, which is the share of x."""
+        r = math.sqrt(2 / math.pi)
+        turned = [k / 8 for k in range(1, 8)]
+        for spec, width, lines in [
+                ("edge", lambda x: 0.2 + x / 2, ()), ("triangle", lambda x: 1 - x, ()),
+                ("disk", lambda x: 2 * math.sqrt(max(0, 0.16 - (x - 0.5)**2)), (0.1, 0.9)),
+                ("quarter-disk", lambda x: math.sqrt(max(0, r * r - x * x)), (r,)),
+                ("turned", lambda x: abs(1 - 2 * (4 * x % 1)), turned)]:
+            known, square = koksma.integrand(spec), self.mean(lambda x: width(x)**2, lines)
+            self.assertAlmostEqual(known.value, self.mean(width, lines), places=9, msg=spec)
+            self.assertAlmostEqual(known.variance, known.value * (1 - known.value), places=12, msg=spec)
+            self.assertAlmostEqual(float(koksma.sensitivity(spec, 0).component), (square - known.value**2) / known.variance,
+                                   places=9, msg=spec)
+
+    def test_asian_options(self):
+        """The distribution of the geometric mean: lognormal, its variance that of the mean of a Brownian motion."""
+        for spec, dim, strike, v in [("asian", 1, 100, 0.2), ("asian:path=bridge", 7, 100, 0.2),
+                                     ("asian:strike=130,volatility=0.4", 12, 130, 0.4), ("asian", 64, 100, 0.2)]:
+            times = np.arange(1, dim + 1) / dim
+            mu = math.log(100) + (0.05 - v * v / 2) * times.mean()
+            sigma = v * math.sqrt(np.minimum.outer(times, times).mean())
+            payoff = lambda z: math.exp(-0.05) * max(math.exp(mu + sigma * z) - strike, 0)  # noqa: E731
+            low = (math.log(strike) - mu) / sigma
+            moments = [self.quad(lambda z: payoff(z)**k * self.normal.pdf(z), low, 40, epsabs=1e-12, epsrel=1e-12, limit=400)[0]
+                       for k in (1, 2)]
+            known = koksma.integrand(spec, dim)
+            self.assertAlmostEqual(known.value, moments[0], places=9, msg=spec)
+            self.assertAlmostEqual(known.variance / (moments[1] - moments[0]**2), 1, places=9, msg=spec)
+
+
+if __name__ == "__main__":
+    unittest.main()
