@@ -6,6 +6,7 @@
  */
 #include <koksma/integrate.h>
 #include <koksma/koksma.h>
+#include <koksma/optimise.h>
 #include <koksma/series.h>
 #include <koksma/spectrum.h>
 
@@ -29,6 +30,11 @@ EXPLORER_API const char *explorer_line(uint32_t n, int dim);
 EXPLORER_API double *explorer_spectrum(int half, int x, int y);
 EXPLORER_API const char *explorer_rings(void);
 EXPLORER_API const char *explorer_inequality(int x, int y);
+EXPLORER_API const char *explorer_optimise(uint32_t steps, uint32_t seed_low, uint32_t seed_high);
+
+/* A function of the page: takes the best points after each step, and returns whether to go on. */
+__attribute__((import_module("page"), import_name("step"))) bool
+page_step(const double *xs, double value, double lower, double steps, double last_gain, const char *method);
 
 static koksma_points points;
 static koksma_spectrum spectrum;
@@ -164,7 +170,8 @@ const char *explorer_tables(void)
     for (size_t i = 0; (m = koksma_measure_at(i)); i++) {
         put(i ? "," : "");
         put_head(m->name, m->title, m->cite, m->min_dim, m->max_dim);
-        put("\"family\":%d,\"cost\":", (int)m->family);
+        put("\"family\":%d,\"exact\":%s,\"larger_is_better\":%s,\"cost\":", (int)m->family,
+            m->answer == KOKSMA_ANSWER_EXACT ? "true" : "false", m->larger_is_better ? "true" : "false");
         put_text(m->cost);
         put(",");
         put_params(m->params);
@@ -428,4 +435,34 @@ const char *explorer_inequality(int x, int y)
     koksma_points_fini(&of[1]);
     const char *text = finish();
     return good ? text : NULL;
+}
+
+/* ---- Optimisation --------------------------------------------------------------------------------------- */
+
+static bool show_step(void *context, const koksma_optimum *best)
+{
+    (void)context;
+    return page_step(best->points.xs, best->value, best->lower, (double)best->steps, (double)best->last_gain,
+                     best->method);
+}
+
+/* Searches for points with a small value of the measure whose spec is the text in, beginning with the points: so many
+   steps, or, with 0, until page_step returns false. The points are the best set afterwards. */
+const char *explorer_optimise(uint32_t steps, uint32_t seed_low, uint32_t seed_high)
+{
+    koksma_spec spec;
+    koksma_optimum best;
+    const koksma_optimise_options options = {.n = points.n,
+                                             .dim = points.dim,
+                                             .first = &points,
+                                             .seed = (uint64_t)seed_high << 32 | seed_low,
+                                             .steps = steps,
+                                             .progress = show_step};
+    if (koksma_measure_spec(text_in, &spec) || koksma_optimise(&spec, &options, &one_thread, &best)) {
+        return NULL;
+    }
+    memcpy(points.xs, best.points.xs, points.n * (size_t)points.dim * sizeof(double));
+    put("{\"steps\":%lu}", (unsigned long)best.steps);
+    koksma_optimum_fini(&best);
+    return finish();
 }

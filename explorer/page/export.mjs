@@ -39,10 +39,11 @@ export function save(name, type, content) {
 const quote = word => /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 const command = (...words) => ["koksma", ...words].map(quote).join(" ");
 
-// file: the name under which the points of a set with moved points are saved. layout: the strata that are drawn, or null.
+// file: the name under which the points of a set with moved points are saved, by the reader or by the search. layout: the strata that are drawn, or null.
 export function commands({ set, file, measures, witness, axes, layout, decay, sizes }) {
   const edited = set.edits.size > 0, source = edited ? file : `pattern:${sourceOf(set)}`;
   const patternSeed = set.seed === "0" ? [] : ["--seed", set.seed], seed = edited ? [] : patternSeed, lines = [];
+  if (edited && set.search) lines.push(command("optimise", set.search.measure, "--from", sourceOf(set), ...patternSeed, "--steps", set.search.steps, "-o", file));
   if (!edited) lines.push(command("generate", set.spec, "-n", set.n, ...(set.dim === 2 ? [] : ["-d", set.dim]), ...seed, "-o", file));
   if (measures.length) lines.push(command("measure", source, ...seed, "-m", measures.join(",")));
   if (set.dim === 2 && axes[0] === 0 && axes[1] === 1) { // the program's are no other coordinates

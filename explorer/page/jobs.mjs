@@ -30,14 +30,14 @@ export class Jobs {
   }
 
   // done(answer) is called once, unless the request is replaced or dropped before. late() is called when the page has shown
-  // an older answer for late_ms. Not limited is only what the page cannot do without: a machine that is slow to start is not
-  // one that failed.
-  ask(key, rank, request, done, { limited = true, late = null } = {}) {
+  // an older answer for late_ms, progress(message) with each that comes before the answer. Not limited are searches, and what
+  // the page cannot do without: a machine that is slow to start is not one that failed.
+  ask(key, rank, request, done, { limited = true, late = null, progress = null } = {}) {
     for (const place of this.places) {
       if (place.job?.key === key) place.job.stale = true;
     }
     const serial = ++this.serial;
-    this.waiting.set(key, { key, rank, request, limited, late, serial, done: this.inOrder(key, serial, done) });
+    this.waiting.set(key, { key, rank, request, limited, late, progress, serial, done: this.inOrder(key, serial, done) });
     this.startLate(key, late);
     this.dropStale();
     this.next();
@@ -127,6 +127,10 @@ export class Jobs {
 
   answer(place, data) {
     const job = place.job;
+    if (data.progress) {
+      if (!job?.stale) job?.progress(data.progress);
+      return;
+    }
     place.job = null;
     if (job) {
       clearTimeout(job.limit);

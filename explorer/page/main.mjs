@@ -8,6 +8,7 @@ import { Jobs } from "./jobs.mjs";
 import { Measures } from "./measures.mjs";
 import { Pictures } from "./pictures.mjs";
 import { sizeFor } from "./scenes.mjs";
+import { search_s } from "./search.mjs";
 import { SetView } from "./set_view.mjs";
 import { parseSpec, prefixesAreSets } from "./specs.mjs";
 import { halfOf, halfOfQuality, radialChart, Spectrum } from "./spectrum.mjs";
@@ -15,7 +16,7 @@ import { fromHash, limits, movesFit, newSet, sourceOf, toHash } from "./state.mj
 import { exponent, strataOf } from "./strata.mjs";
 import { Tour } from "./tour.mjs";
 
-const ranks = { points: 0, picture: 2, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
+const ranks = { points: 0, search: 1.5, picture: 2, spectrum: 12, inequality: 22, quality: 25, decay: 30 };
 const names = ["a", "b"];
 const inequality = new Inequality();
 let state = fromHash(location.hash), tables, jobs, measures, decay, pictures, tour, shown = [], hashTimer = 0;
@@ -51,7 +52,7 @@ function drawSets() {
     });
     view.sentence.textContent = view.points && state.witness ? measures.sentence(state.witness, name, view.points.n) : "";
     view.showPoint();
-    if (!view.waiting) view.showCommands(commandLines(name), view.points && set.edits.size ? fileOf(name) : "");
+    if (!view.waiting) view.showCommands(commandLines(name), view.points && set.edits.size && !set.search ? fileOf(name) : "");
   }
   showChosen();
 }
@@ -198,6 +199,9 @@ function measureOne(name, measure, fresh = false) {
 function refresh(name) {
   const { spec, n, dim, seed } = state[name], view = views[name];
   jobs.drop(`${name}/`);
+  view.search.clear();
+  view.search.serve(dim, state.witness);
+  view.search.enable(false);
   view.wait(true);
   for (const measure of shown) measures.wait(measure, name);
   for (const scene of pictures.names) pictures.show(scene, name, null);
@@ -218,6 +222,7 @@ function refresh(name) {
       for (const [i, xs] of state[name].edits) view.points.xs.set(xs, i * dim);
       measureAll(name, true);
       decay.ask(name);
+      view.search.enable(!jobs.inPage, jobs.inPage ? "A search needs workers, which this browser gives the page none of." : "");
       const other = name === "a" ? "b" : "a"; // its pictures may have another size now
       if (state[other] && views[other].current) drawPictures(other, false);
     }
@@ -231,29 +236,70 @@ function refresh(name) {
 
 function moved(name, i, place) {
   if (!views[name].current) return; // the picture shows a set that is about to go
+  stopSearch(name);
   const set = state[name], { points } = views[name], at = i * points.dim;
   axesOf(set).slice(0, Math.min(points.dim, 2)).forEach((axis, k) => { points.xs[at + axis] = place[k]; });
   set.edits.set(i, [...points.xs.subarray(at, at + points.dim)]);
+  set.search = null;
   soon(drawSets);
   soon(views[name].remeasure);
   keepHash();
 }
 
 function unmoved(name) {
+  stopSearch(name);
+  views[name].search.clear();
   state[name].edits.clear();
+  state[name].search = null;
   views[name].points.xs.set(views[name].original);
   views[name].remeasure();
   soon(drawSets);
   keepHash();
 }
 
+// ---- The search for better points, of one set at a time: the other workers are for what is shown
+
+function startSearch(name, measure) {
+  const view = views[name], set = state[name], spec = measures.spec(measure), seed = BigInt(set.seed);
+  if (!view.current) return;
+  names.forEach(stopSearch);
+  const reproducible = set.edits.size === 0; // a command can start where this search starts
+  view.search.begin(spec);
+  const progress = step => {
+    if (view.search.step(step)) {
+      const { xs, dim } = step.points;
+      set.search = reproducible ? { measure: spec, steps: step.last_gain } : null;
+      view.points.xs.set(xs);
+      for (let i = 0; i < set.n; i++) {
+        const place = xs.slice(i * dim, (i + 1) * dim);
+        if (place.some((x, k) => x !== view.original[i * dim + k])) set.edits.set(i, [...place]);
+        else set.edits.delete(i);
+      }
+      soon(drawSets);
+      soon(view.remeasure);
+    }
+    if (step.value === step.lower) stopSearch(name, "No points are better.");
+    else if (view.search.late) stopSearch(name, `Ended after ${search_s} seconds. Optimise goes on from here.`);
+  };
+  jobs.ask(`${name}/search`, ranks.search, { kind: "optimise", points: view.points, measure: spec, seed },
+    answer => view.search.end(answer.error), { limited: false, progress });
+}
+
+function stopSearch(name, why = "Stopped. Optimise goes on from here.") {
+  if (!views[name]?.search.running) return;
+  jobs.drop(`${name}/search`);
+  views[name].search.end(why);
+  keepHash();
+}
+
 // ---- Wiring
 
 function openSet(name) {
-  const view = views[name] = new SetView(name, tables.patterns.filter(p => !p.takes_path && !p.alias_of), tables.references, {
+  const view = views[name] = new SetView(name, tables.patterns.filter(p => !p.takes_path && !p.alias_of), tables.measures, tables.references, {
     changed: () => refresh(name),
     moved: (i, place) => moved(name, i, place),
     unmoved: () => unmoved(name),
+    search: { start: measure => startSearch(name, measure), stop: () => stopSearch(name) },
     saveSvg: () => save(fileOf(name).replace("csv", "svg"), "image/svg+xml", svgFile(view.plane.node, titleOf(name))),
     saveCsv: () => jobs.ask(`${name}/csv`, 0, { kind: "csv", points: view.points }, answer => {
       if (answer.error) tell(answer.error);

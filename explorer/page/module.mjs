@@ -5,7 +5,7 @@
 export class KoksmaError extends Error {}
 
 // The system that the library sees: a clock, no files, no environment. 8 and 44 are WASI's and musl's "no such thing".
-function system(memory) {
+function system(memory, step) {
   const no_file = () => 8, no_entry = () => -44;
   const zeros = (...pointers) => {
     for (const pointer of pointers) new DataView(memory().buffer).setUint32(pointer, 0, true);
@@ -20,6 +20,7 @@ function system(memory) {
       environ_sizes_get: zeros, environ_get: () => 0,
       fd_write: no_file, fd_read: no_file, fd_close: no_file, fd_seek: no_file, fd_fdstat_get: no_file,
     },
+    page: { step },
     env: {
       emscripten_notify_memory_growth: () => {},
       __syscall_fstat64: no_entry, __syscall_stat64: no_entry, __syscall_fstatat64: no_entry, __syscall_lstat64: no_entry,
@@ -29,7 +30,8 @@ function system(memory) {
 
 // Starts an instance of a WebAssembly.Module.
 export async function openKoksma(module) {
-  const instance = await WebAssembly.instantiate(module, system(() => instance.exports.memory));
+  let onStep = null;
+  const instance = await WebAssembly.instantiate(module, system(() => instance.exports.memory, (...values) => onStep(...values)));
   const c = instance.exports;
   c._initialize();
   const maxText = 512;
@@ -87,6 +89,18 @@ export async function openKoksma(module) {
     inequality({ points, axes }) {
       put(points);
       return json(c.explorer_inequality(...axes));
+    },
+
+    // Searches for better points: report({ points, value, lower, steps, last_gain, method }) is called with the first set
+    // and after each step, and returns whether to go on. steps: at most so many; 0: without end.
+    optimise({ points, measure, steps = 0, seed }, report) {
+      const { n, dim } = points;
+      put(points);
+      say(measure);
+      onStep = (xs, value, lower, done, last_gain, method) => report({
+        points: { xs: numbersAt(xs, n * dim), n, dim }, value, lower: Number.isNaN(lower) ? null : lower, steps: done, last_gain, method: textAt(method),
+      });
+      return json(c.explorer_optimise(steps, Number(seed & 0xffffffffn), Number(seed >> 32n)));
     },
 
     // The slope of log value over log n, and theory's; pairs: [[n, value], ..]

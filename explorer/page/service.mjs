@@ -3,7 +3,7 @@
 import { openKoksma } from "./module.mjs";
 import { picture } from "./scenes.mjs";
 
-// A function from a request { kind, .. } to its answer; an error is an answer { error }.
+// A function from a request { kind, .. } to its answer; an error is an answer { error }. report(progress): of a search.
 export async function openService(module) {
   let koksma = await openKoksma(module);
   const ask = {
@@ -16,9 +16,9 @@ export async function openService(module) {
       n, ...koksma.measure({ points: { xs: points.xs.subarray(0, n * points.dim), n, dim: points.dim }, measure }),
     }),
   };
-  return async request => {
+  return async (request, report) => {
     try {
-      return ask[request.kind](request);
+      return ask[request.kind](request, report);
     } catch (error) {
       // After a trap (memory that ran out) the instance is in no known state: another one takes over.
       if (error instanceof WebAssembly.RuntimeError) {

@@ -2,6 +2,7 @@
 // One set on the page: its controls, its picture, what is known about its pattern, and what can be taken away.
 import { element } from "./dom.mjs";
 import { Plane } from "./plane.mjs";
+import { Search } from "./search.mjs";
 import { paramControls, parseSpec } from "./specs.mjs";
 import { limits, parseSeed } from "./state.mjs";
 
@@ -13,8 +14,8 @@ const button = (text, title, click) => {
 };
 
 export class SetView {
-  // events: changed(), moved(i, place), unmoved(), saveSvg(), saveCsv(), copy(text), removed() for a set that can go
-  constructor(name, patterns, references, events) {
+  // events: search: { start(measure), stop() }, changed(), moved(i, place), unmoved(), saveSvg(), saveCsv(), copy(text), removed() for a set that can go
+  constructor(name, patterns, measures, references, events) {
     Object.assign(this, { name, patterns, references, events, docs: document.querySelector("meta[name=docs]").content, label: name.toUpperCase() });
     this.plane = new Plane(name, (i, place) => events.moved(i, place), () => this.showPoint());
     const id = part => `${name}-${part}`;
@@ -32,6 +33,7 @@ export class SetView {
     this.sentence = element("p", { class: "note sentence" });
     Object.assign(this, { points: null, waiting: false });
     this.about = element("details", { class: "about" });
+    this.search = new Search(name, this.label, measures, events.search);
     this.makePointFields(id);
     this.makeExports(id);
     for (const input of [this.pattern, this.n, this.dim, this.seed]) input.onchange = () => this.take();
@@ -40,7 +42,7 @@ export class SetView {
         events.removed ? button("Remove", `Remove set ${this.label}`, events.removed) : null),
       element("div", { class: "controls" }, field("Pattern", this.pattern.id, this.pattern), field("Points", this.n.id, this.n),
         field("Dimensions", this.dim.id, this.dim), field("Seed", this.seed.id, this.seed, this.next), this.params),
-      this.problem, this.plane.node, this.plane.strataText, this.sentence, this.point, this.about, this.exports);
+      this.problem, this.plane.node, this.plane.strataText, this.sentence, this.point, this.search.node, this.about, this.exports);
   }
 
   makePointFields(id) {
@@ -120,6 +122,7 @@ export class SetView {
 
   change() {
     this.set.edits.clear();
+    this.set.search = null;
     this.plane.selected = -1;
     this.show(this.set);
     this.events.changed();

@@ -5,7 +5,7 @@ export const limits = { n: 16384, dim: 8, spectrum_n: 16384, rooks_n: 512, answe
 
 export const strataKinds = ["none", "grid", "rooks", "elementary"];
 
-export const newSet = (spec = "n-rooks") => ({ spec, n: 16, dim: 2, seed: "0", edits: new Map() });
+export const newSet = (spec = "n-rooks") => ({ spec, n: 16, dim: 2, seed: "0", edits: new Map(), search: null }); // search: that gave the edits
 
 export const newState = () => ({
   a: newSet(), b: null,

@@ -10,7 +10,7 @@ const steps = [
   { title: "Discrepancy", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
     text: "A box from the lower left corner should hold as large a share of the points as its area. The star discrepancy is the largest difference of the two, over all such boxes. The box that is drawn is the worst, and the line below the points counts it for you." },
   { title: "Move a point", hash: "a=random@16&a.seed=3&strata=none&witness=star", at: ".set-a .plane", values: ["star"],
-    text: "Drag a point into a hole, or go to the square, choose one with n and move it with the arrow keys. The value is the exact one at every moment: it can only be lowered by mending the worst box, and then another box is the worst." },
+    text: "Drag a point into a hole, or go to the square, choose one with n and move it with the arrow keys. The value is the exact one at every moment: only a move that changes the worst box can lower it, and then another box is the worst." },
   { title: "Strata", hash: "a=jittered@16&a.seed=1&strata=grid:4x4&witness=star", at: ".set-a .strata-text", values: ["star"],
     text: "Jittered sampling puts one random point into each cell of a grid. Within its cell a point lies anywhere: of sixteen narrow columns some have two points, and some none. Choose “rooks” under Strata to see them." },
   { title: "All shapes of cell at once", hash: "a=random@16&a.seed=3&b=sobol:scramble%3Dowen@16&strata=elementary:2,1&witness=star", at: ".set-b .strata-text", values: ["star"],

@@ -2,12 +2,14 @@
 // numbers.mjs PROGRAM WASM: what the explorer's module gives beside what the program prints. Points are equal to the last bit,
 // errors to the last letter, values to the last digit that the program shows.
 import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
 import { execFileSync } from "node:child_process";
 import { openKoksma } from "../../explorer/page/module.mjs";
 
 const [program, wasm] = process.argv.slice(2);
 const koksma = await openKoksma(new WebAssembly.Module(fs.readFileSync(wasm)));
-const problems = [];
+const problems = [], folder = fs.mkdtempSync(path.join(os.tmpdir(), "koksma-numbers-"));
 let compared = 0;
 const check = (good, text) => { compared++; if (!good) problems.push(text); };
 
@@ -98,6 +100,25 @@ for (const [spec, n, dim, axes] of [["random", 64, 2, [0, 1]], ["halton", 50, 3,
   }
 }
 
+// Searches: the program's steps, with its values and points.
+for (const [measure, n, dim, steps] of [["star", 16, 2, 2], ["l2-star", 24, 3, 2], ["edge", 12, 2, 4], ["min-distance", 32, 2, 30], ["diaphony", 16, 1, 2]]) {
+  const { points } = koksma.generate({ spec: "n-rooks", n, dim, seed: 7n }), seen = [], file = path.join(folder, "best.csv");
+  koksma.optimise({ points, measure, steps, seed: 7n }, step => { seen.push(step); return true; });
+  const { out } = run("optimise", measure, "--from", `n-rooks@${n}@${dim}`, "--seed", 7, "--steps", steps, "-o", file, "--json", "-q");
+  const theirs = JSON.parse(out), best = seen[seen.length - 1], what = `optimise ${measure} ${n} ${dim}`;
+  const xs = fs.readFileSync(file, "utf8").trim().split("\n").slice(1).flatMap(line => line.split(",").map(Number));
+  check(seen.map(step => step.steps).join() === Array.from({ length: steps + 1 }, (_, i) => i).join(), `${what}: steps ${seen.map(step => step.steps)}`);
+  check(nine(best.value) === nine(theirs.value) && best.last_gain === theirs.last_gain && best.method === theirs.method && best.lower === theirs.lower,
+    `${what}: ${best.value} ${best.last_gain} ${best.method} ${best.lower}, not ${out}`);
+  check(xs.every((x, i) => Math.abs(x - best.points.xs[i]) < 1e-9), `${what}: other points`);
+  check(koksma.measure({ points: best.points, measure }).value === best.value, `${what}: the points have another value`);
+}
+let calls = 0;
+koksma.optimise({ points: koksma.generate({ spec: "random", n: 8, dim: 2, seed: 1n }).points, measure: "min-distance", seed: 1n }, () => ++calls < 4);
+check(calls === 4, `a search without end went on for ${calls} steps`);
+check(attempt(() => koksma.optimise({ points: { xs: [0.5, 0.5], n: 1, dim: 2 }, measure: "edge-sampled", seed: 0n }, () => true)).error?.includes("exact"), "a search for an estimate");
+
+fs.rmSync(folder, { recursive: true });
 problems.forEach(text => console.log(text));
 console.log(`numbers: ${compared} compared, ${problems.length} problems`);
 process.exit(problems.length || compared < 300 ? 1 : 0);

@@ -325,6 +325,54 @@ async function pictures(browser) {
   await page.context().close();
 }
 
+// A search by keyboard: points and measure change while it runs, Stop ends it, its command gives the same, undo takes it back.
+async function searching(browser) {
+  for (const [width, colorScheme, hash, measure] of [
+    [1280, "dark", "#a=n-rooks@16&a.seed=7&witness=edge", "edge"], [400, "light", "#a=jittered@25&a.seed=2&b=sobol@16&witness=min-distance", "min-distance"]]) {
+    const page = await open(browser, { hash, width, colorScheme, limit_s: 60 }), text = page.locator(".set-a .search-text"), button = page.locator("#a-search-button");
+    const before = await values(page, "a"), path0 = await page.locator(".set-a svg.plane .points").getAttribute("d");
+    check(await page.locator("#a-search-measure").inputValue() === measure, "the search is not for the chosen measure");
+    await button.focus();
+    await page.keyboard.press("Enter");
+    await until(page, () => /in (?:[3-9]|\d\d+) steps/.test(document.querySelector(".set-a .search-text").textContent));
+    check(await button.textContent() === "Stop" && await button.evaluate(node => node === document.activeElement), "the button does not become Stop");
+    (await page.evaluate(accessibility)).forEach(found => check(false, `search, ${width} px: ${found}`));
+    if (screenshots) await page.locator("section.set-a").screenshot({ path: `${screenshots}/search-${width}.png` });
+    await page.keyboard.press("Enter");
+    await idle(page);
+    const [, from, to, steps] = /^\S+ ([\d.]+) → ([\d.]+) in (\d+) steps \(/.exec(await text.textContent()) || [];
+    const after = await values(page, "a");
+    check(+from === rounded(before[measure], 4) && +to === rounded(after[measure], 4), `${await text.textContent()}; the table ${before[measure]}, then ${after[measure]}`);
+    check(measure === "edge" ? +to < +from : +to > +from, `after ${steps} steps ${measure} went from ${from} to ${to}`);
+    check(await page.locator(".set-a svg.plane .points").getAttribute("d") !== path0, "the points stay in the picture");
+    check(await page.locator(".set-a .search .chart .line").count() > 0, "the values are not drawn");
+    check((await commandLines(page, "a"))[0].startsWith(`koksma optimise ${measure} --from`), "the command: " + await commandLines(page, "a"));
+    await commandsAgree(page, "a", `search for ${measure}`);
+    await page.waitForTimeout(300);
+    const again = await open(page.context().browser(), { hash: "#" + await page.evaluate(() => koksmaExplorer.hash()) });
+    check((await values(again, "a"))[measure] === after[measure], "the address does not bring the points back");
+    await again.context().close();
+    // It goes on from here; a set that is changed ends it.
+    await button.click();
+    await until(page, () => /in [1-9]\d* steps?/.test(document.querySelector(".set-a .search-text").textContent));
+    await page.locator(".set-a button", { hasText: "Next" }).click();
+    await idle(page);
+    check(await button.textContent() === "Optimise" && !await text.textContent(), "a search for another set goes on");
+    await page.context().close();
+  }
+  const page = await open(browser, { hash: "#a=n-rooks@16&a.seed=7&b=random@16" }), before = await values(page, "a");
+  await page.locator("#a-search-button").click();
+  await until(page, () => /in [1-9]/.test(document.querySelector(".set-a .search-text").textContent));
+  await page.locator("#b-search-button").click();
+  await until(page, () => /in [1-9]/.test(document.querySelector(".set-b .search-text").textContent));
+  check(await page.locator("#a-search-button").textContent() === "Optimise", "two searches at once");
+  await page.locator("#b-search-button").click();
+  await page.locator(".set-a button", { hasText: "Undo moves" }).click();
+  await idle(page);
+  check(JSON.stringify(await values(page, "a")) === JSON.stringify(before), "undo does not bring the set back");
+  await page.context().close();
+}
+
 // A value that is not known yet is shown as "…", and no old number stays beside it.
 async function waiting(browser) {
   const page = await open(browser, { hash: "#a=random@64&witness=edge", limit_s: 60 });
@@ -431,7 +479,7 @@ async function looks(browser) {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.textContent || ""));
   }
-  for (const name of ["start-tour", "all-measures", "all-digits", "picture-shift", "strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
+  for (const name of ["start-tour", "all-measures", "all-digits", "picture-shift", "strata", "compare", "a-pattern", "a-n", "a-seed", "a-param-shift", "a-point", "a-search-measure", "a-search-button", "Save SVG", "Save CSV", "a-commands", "decay-measure"]) {
     check(reached.has(name) || [...reached].some(text => text.startsWith(name)), `Tab does not reach ${name}`);
   }
   await page.context().close();
@@ -452,6 +500,7 @@ async function looks(browser) {
     await guards(browser);
     await pictures(browser);
     await waiting(browser);
+    await searching(browser);
     await narrow(browser);
     await tour(browser);
     await looks(browser);
