@@ -10,6 +10,7 @@
 #include <koksma/warp.h>
 
 #include "image/formats.h"
+#include "image/metrics/metrics.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"
@@ -40,7 +41,7 @@ static void expect_name(const char *file, const char *name, const void *member, 
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    size_t n[10] = {0};
+    size_t n[11] = {0};
 #define PATTERN(line)                                                                                                \
     expect_name(#line, koksma__pattern_##line.name, &koksma__pattern_##line,                                         \
                 koksma_pattern_find(koksma__pattern_##line.name));                                                   \
@@ -90,6 +91,12 @@ static void names_are_those_of_files(void **state)
     expect_name(#line, koksma__format_##line.name, NULL, NULL);                                                      \
     n[6]++;
 #include "image/formats.def"
+#define METRIC(line)                                                                                                 \
+    expect_name(#line, koksma__metric_##line.name, &koksma__metric_##line,                                           \
+                koksma_metric_find(koksma__metric_##line.name));                                                     \
+    n[10]++;
+#include "image/metrics/metrics.def"
+    assert_null(koksma_metric_at(n[10]));
     assert_null(koksma_pattern_at(n[0]));
     assert_null(koksma_measure_at(n[1]));
     assert_null(koksma_warp_at(n[2]));
@@ -100,7 +107,7 @@ static void names_are_those_of_files(void **state)
     assert_null(koksma_method_at(n[9]));
     assert_null(koksma_adaptive_at(n[5]));
     assert_null(koksma__image_format_at(n[6]));
-    for (int i = 0; i < 10; i++) {
+    for (int i = 0; i < 11; i++) {
         assert_true(n[i] > 0);
     }
 }
