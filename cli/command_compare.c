@@ -1,19 +1,46 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Compares images with a reference: the size of the error, as means over the images, and its coherence over all. */
 #include <math.h>
+#include <stdio.h>
 
 #include <koksma/image.h>
 
 #include "cli.h"
+#include "metrics.h"
 
 /* What is known of the images so far. */
 typedef struct comparison {
     koksma_image reference;
     koksma_coherence coherence;
     size_t images;
-    koksma_image_error error; /* sums over the images */
-    const char *compared;     /* the image that is being compared, NULL while none is */
+    koksma_image_error error;                    /* sums over the images */
+    cli_metrics metrics;                         /* rmse, and those asked for */
+    koksma_metric_value values[CLI_MAX_METRICS]; /* sums over the images; top: of one */
+    const char *compared;                        /* the image that is being compared, NULL while none is */
 } comparison;
+
+/* The first metric has its own column. Beside values machines have what they rest on. */
+static void put_metrics(cli_rows *rows, const comparison *c, bool json)
+{
+    for (size_t i = 0; i < c->metrics.n; i++) {
+        char name[KOKSMA_MAX_SPEC], text[KOKSMA_MAX_SPEC + 16];
+        koksma_metric_text(&c->metrics.specs[i], name);
+        const koksma_metric_value *sum = &c->values[i];
+        const double images = (double)c->images;
+        const koksma_metric_value mean = {sum->value / images, sum->robust / images, sum->top_share / images,
+                                          sum->top};
+        if (i) {
+            cli_row_number(rows, name, mean.value);
+        }
+        if (json) {
+            snprintf(text, sizeof text, "%s_robust", name);
+            cli_row_number(rows, text, mean.robust);
+            snprintf(text, sizeof text, "%s_top_share", name);
+            cli_row_number(rows, text, mean.top_share);
+        }
+        cli_warn_of_few_pixels("compare", c->images > 1 ? "mean of the images" : "image", name, &mean);
+    }
+}
 
 static int put_row(const cli_arguments *arguments, const comparison *c)
 {
@@ -26,6 +53,7 @@ static int put_row(const cli_arguments *arguments, const comparison *c)
     cli_row_number(rows, "sd", c->error.sd / images);
     cli_row_number(rows, "max", c->error.max / images);
     cli_row_number(rows, "rmse", c->error.rmse / images);
+    put_metrics(rows, c, json);
     cli_row_number(rows, "coherence", values.coherence);
     if (json) {
         cli_row_number(rows, "coherence_low", values.low);
@@ -74,6 +102,22 @@ static int fail(const cli_arguments *arguments, const comparison *c, const char 
     return koksma_status_exit_code(status);
 }
 
+static koksma_status add_metrics(comparison *c, const koksma_image *image)
+{
+    koksma_status status = KOKSMA_OK;
+    for (size_t i = 0; !status && i < c->metrics.n; i++) {
+        koksma_metric_value value;
+        status = koksma_metric_evaluate(&c->metrics.specs[i], image, &c->reference, &value);
+        if (!status) {
+            c->values[i].value += value.value;
+            c->values[i].robust += value.robust;
+            c->values[i].top_share += value.top_share;
+            c->values[i].top = value.top;
+        }
+    }
+    return status;
+}
+
 /* Adds the image of a file; difference: NULL, or where its errors are written. */
 static koksma_status add_image(comparison *c, const char *path, const char *difference)
 {
@@ -83,6 +127,7 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
     c->compared = status ? NULL : path;
     status = status ? status : koksma_image_compare(&image, &c->reference, &error);
     status = status ? status : koksma_coherence_add(&c->coherence, &image, &c->reference);
+    status = status ? status : add_metrics(c, &image);
     if (!status) {
         c->compared = NULL;
         c->images++;
@@ -98,7 +143,7 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
 
 static int run(const cli_arguments *arguments)
 {
-    comparison c = {.images = 0};
+    comparison c = {.metrics = {.n = 1, .specs = {{.metric = koksma_metric_find("rmse")}}}};
     double most;
     const char *output = cli_text(arguments, "output", NULL);
     const int last = (int)arguments->n_operands - 1;
@@ -108,7 +153,7 @@ static int run(const cli_arguments *arguments)
     if (output && last > 1) {
         return cli_usage_error(arguments, "--output: a picture of the errors of one image, not of %d", last);
     }
-    if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most)) {
+    if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) || !cli_metrics_parse(arguments, &c.metrics)) {
         return CLI_USAGE;
     }
     koksma_status status = read_numbers(arguments->operands[last], &c.reference);
@@ -124,6 +169,7 @@ static int run(const cli_arguments *arguments)
 
 static const cli_option options[] = {
     {'o', "output", "FILE{images}", "write an image of the absolute error (with one image)"},
+    {'m', "metric", "METRIC,..|all", "more metrics, such as relmse, smape or hdr-flip ('koksma list metrics')"},
     {0, "max-mean", "E", "exit with code 1 if the mean absolute error is above E"},
     CLI_ROW_OPTIONS,
     {0},
@@ -132,16 +178,24 @@ static const cli_option options[] = {
 const cli_command cli_command_compare = {
     .name = "compare",
     .summary = "compare images with a reference: size of the error, noise or bands",
-    .synopsis = "IMAGE... REFERENCE [-o DIFFERENCE] [--max-mean E]",
+    .synopsis = "IMAGE... REFERENCE [-m METRIC,..] [-o DIFFERENCE] [--max-mean E]",
     .details =
         "Prints mean, standard deviation and maximum of the absolute error in luminance, and the root mean square\n"
         "error. With several images (one pattern with several seeds) it prints their means.\n"
+        "--metric adds columns: each metric is a mean over the pixels (of rmse the root of it). A warning says when "
+        "the\n"
+        "0.1 % of the pixels with the largest error (fireflies) carry half of it or more; --json has this share, and "
+        "the\n"
+        "value without these pixels (..._robust). FLIP is what a viewer sees at ppd pixels per degree (67: 3840 "
+        "pixels\n"
+        "on 0.7 m, seen from 0.7 m).\n"
         "coherence: the peak of the error's power spectrum divided by its mean, averaged over the images. For white\n"
         "noise 95 % of the values lie from noise_low to noise_high. 'coherent' means that fewer than 0.5 % of noise\n"
         "reaches the value: the error has bands or another pattern, at frequency_x and frequency_y cycles a pixel\n"
         "(--json). Every pixel must be a finite number.\n",
     .examples = "koksma compare ball.exr reference.exr\n"
-                "koksma compare ball.exr reference.exr -o difference.png\n",
+                "koksma compare ball.exr reference.exr -o difference.png\n"
+                "koksma compare ball.exr reference.exr -m relmse:epsilon=0.001,hdr-flip\n",
     .options = options,
     .run = run,
 };

@@ -46,6 +46,7 @@ static const struct {
     {"INTEGRATOR", "integrators", NULL, false},
     {"FILTER", "filters", NULL, false},
     {"METHOD", "adaptive", NULL, false},
+    {"METRIC", "metrics", NULL, false},
     {"WARP", "warps", NULL, false},
     {"PROPERTY", NULL, property_name_at, false},
     {"COMMAND", NULL, command_name_at, false},

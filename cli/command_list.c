@@ -120,6 +120,8 @@ LIST(integrators, "integrator", const koksma_integrator *, (x = koksma_integrato
      (cli_row_whole(rows, "depth", (uint64_t)x->depth), SOURCE))
 LIST(filters, "filter", const koksma_filter *, (x = koksma_filter_at(i)), x->name, x->title,
      (cli_row_number(rows, "radius", x->radius), SOURCE))
+LIST(metrics, "metric", const koksma_metric *, (x = koksma_metric_at(i)), x->name, x->title,
+     (put_params(rows, x->params), SOURCE))
 LIST(uses, "use", const koksma_use *, (x = koksma_use_at(i)), x->name, x->help,
      cli_row_whole(rows, "dim", (uint64_t)x->dim))
 LIST(adaptive, "method", const koksma_adaptive *, (x = koksma_adaptive_at(i)), x->name, x->title,
@@ -205,6 +207,7 @@ static void list_parameters(cli_rows *rows)
     const koksma_measure *m;
     const koksma_integrand *f;
     const koksma_adaptive *a;
+    const koksma_metric *metric;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         list_parameters_of(rows, p->name, p->params);
     }
@@ -221,24 +224,40 @@ static void list_parameters(cli_rows *rows)
     for (size_t i = 0; (a = koksma_adaptive_at(i)); i++) {
         list_parameters_of(rows, a->name, a->params);
     }
+    for (size_t i = 0; (metric = koksma_metric_at(i)); i++) {
+        list_parameters_of(rows, metric->name, metric->params);
+    }
 }
 
 static const struct {
     const char *name;
     void (*list)(cli_rows *rows);
 } lists[] = {
-    {"patterns", list_patterns},   {"modifiers", list_modifiers},
-    {"measures", list_measures},   {"integrands", list_integrands},
-    {"claims", list_claims},       {"properties", list_properties},
-    {"warps", list_warps},         {"curves", list_curves},
-    {"scenes", list_scenes},       {"materials", list_materials},
-    {"lights", list_lights},       {"shapes", list_shapes},
-    {"formats", list_formats},     {"integrators", list_integrators},
-    {"pipelines", list_pipelines}, {"filters", list_filters},
-    {"uses", list_uses},           {"adaptive", list_adaptive},
-    {"methods", list_methods},     {"records", list_records},
-    {"plans", list_plans},         {"questions", list_questions},
-    {"sections", list_sections},   {"parameters", list_parameters},
+    {"patterns", list_patterns},
+    {"modifiers", list_modifiers},
+    {"measures", list_measures},
+    {"integrands", list_integrands},
+    {"claims", list_claims},
+    {"properties", list_properties},
+    {"warps", list_warps},
+    {"curves", list_curves},
+    {"scenes", list_scenes},
+    {"materials", list_materials},
+    {"lights", list_lights},
+    {"shapes", list_shapes},
+    {"formats", list_formats},
+    {"integrators", list_integrators},
+    {"pipelines", list_pipelines},
+    {"filters", list_filters},
+    {"uses", list_uses},
+    {"metrics", list_metrics},
+    {"adaptive", list_adaptive},
+    {"methods", list_methods},
+    {"records", list_records},
+    {"plans", list_plans},
+    {"questions", list_questions},
+    {"sections", list_sections},
+    {"parameters", list_parameters},
 };
 
 const char *cli_list_names(const char *comma, char *text, size_t size)

@@ -11,6 +11,7 @@
 
 #include "image/formats.h"
 #include "integrands/integrands.h"
+#include "image/metrics/metrics.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "optimise/methods.h"
@@ -96,6 +97,12 @@ static void names_are_those_of_files(void **state)
     expect_name(#line, koksma__format_##line.name, NULL, NULL);                                                      \
     n[6]++;
 #include "image/formats.def"
+#define METRIC(line)                                                                                                 \
+    expect_name(#line, koksma__metric_##line.name, &koksma__metric_##line,                                           \
+                koksma_metric_find(koksma__metric_##line.name));                                                     \
+    n[10]++;
+#include "image/metrics/metrics.def"
+    assert_null(koksma_metric_at(n[10]));
     assert_null(koksma_pattern_at(n[0]));
     assert_null(koksma_measure_at(n[1]));
     assert_null(koksma_warp_at(n[2]));

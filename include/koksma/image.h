@@ -103,6 +103,60 @@ KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const k
 KOKSMA_API koksma_status koksma_image_difference(const koksma_image *image, const koksma_image *reference,
                                                  koksma_image *out);
 
+/* ---- Metrics of the error ------------------------------------------------------------------------------------ */
+
+/* What a metric compares: width x height pixels of metric->channels values each, row by row from the top. */
+typedef struct koksma_metric_input {
+    const double *params; /* in the order of the metric's table */
+    int width, height;
+    const double *image, *reference;
+} koksma_metric_input;
+
+/* A metric of the error of images: each pixel has an error of at least 0; the value is the mean of them, or its root. */
+typedef struct koksma_metric {
+    const char *name, *title;
+    const char *cite;           /* a key of docs/references.bib */
+    const koksma_param *params; /* NULL: none */
+    int channels;               /* 1: of the luminance (Rec. 709); 3: of linear red, green and blue */
+    bool root;                  /* the value is the root of the mean */
+    /* errors  receives width x height numbers. Errors: MEMORY. */
+    koksma_status (*errors)(const koksma_metric_input *input, double *errors);
+} koksma_metric;
+
+/* Returns metric i of the table, NULL past the end; the metric of a name, NULL if unknown. */
+KOKSMA_API const koksma_metric *koksma_metric_at(size_t i);
+KOKSMA_API const koksma_metric *koksma_metric_find(const char *name);
+
+/* A metric with its parameters. Plain data; copy it freely. */
+typedef struct koksma_metric_spec {
+    const koksma_metric *metric;
+    double params[KOKSMA_MAX_PARAMS];
+} koksma_metric_spec;
+
+/* Parses a spec of a metric, such as "relmse" or "ldr-flip:ppd=40".
+   Errors: ARGUMENT (a parameter), UNKNOWN (the name). */
+KOKSMA_API koksma_status koksma_metric_parse(const char *text, koksma_metric_spec *spec);
+
+/* Writes the canonical text of a spec, without parameters at their defaults.
+     text  KOKSMA_MAX_SPEC characters; empty if the spec has no metric */
+KOKSMA_API void koksma_metric_text(const koksma_metric_spec *spec, char *text);
+
+typedef struct koksma_metric_value {
+    double value;
+    double robust;    /* the value without the `top` pixels of largest error */
+    double top_share; /* the share of the sum of all pixels' errors that these carry, 0 .. 1 */
+    size_t top;       /* 0.1 % of the pixels, rounded down */
+} koksma_metric_value;
+
+/* From this top_share on, few pixels carry most of the error. */
+#define KOKSMA_FEW_PIXELS 0.5
+
+/* Evaluates a metric; image and reference have equal sizes, and 1 or 3 channels each. Values outside a metric's
+   range (negative light in FLIP) are clamped as its definition says.
+   Errors: ARGUMENT (the sizes differ, a spec without a metric), MEMORY. */
+KOKSMA_API koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, const koksma_image *image,
+                                                const koksma_image *reference, koksma_metric_value *out);
+
 /* ---- Coherence: whether the error is noise, or bands and patterns -------------------------------------------- */
 
 /* Whether the errors of images are noise, or have a regular pattern: how far the largest peak of their power spectrum

@@ -12,7 +12,7 @@ KOKSMA__LAB koksma_status koksma__params_parse(const char *member, const koksma_
                                                double *values);
 
 /* Whether all values are in their ranges. Errors: ARGUMENT. */
-koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
+KOKSMA__LAB koksma_status koksma__params_check(const char *member, const koksma_param *params, const double *values);
 
 /* Whether a member has a form in so many dimensions. Errors: DIM. */
 koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int max_dim);
@@ -21,7 +21,7 @@ koksma_status koksma__dim_check(const char *member, int dim, int min_dim, int ma
 KOKSMA__LAB void koksma__params_text(const koksma_param *params, const double *values, char *text, size_t size);
 
 /* The name before the colon, of up to 63 letters, and where the parameters begin. Errors: ARGUMENT. */
-koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
+KOKSMA__LAB koksma_status koksma__spec_split(const char *text, char *name, const char **rest);
 
 /* The arguments that the functions of a pattern or measure get from its spec. */
 koksma_args koksma__spec_arguments(const koksma_spec *spec, const koksma_run *run);

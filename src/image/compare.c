@@ -21,16 +21,6 @@ double koksma__luminance(const koksma_image *image, size_t pixel)
                                 : 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
 }
 
-static koksma_status check_sizes(const koksma_image *a, const koksma_image *b)
-{
-    KOKSMA__TRY(koksma__image_usable(a));
-    KOKSMA__TRY(koksma__image_usable(b));
-    KOKSMA__FAIL_IF(a->width != b->width || a->height != b->height, KOKSMA_ARGUMENT,
-                    "an image of %d x %d pixels can't be compared with one of %d x %d", a->width, a->height, b->width,
-                    b->height);
-    return KOKSMA_OK;
-}
-
 static double absolute_error(const koksma_image *image, const koksma_image *reference, size_t pixel)
 {
     return fabs(koksma__luminance(image, pixel) - koksma__luminance(reference, pixel));
@@ -39,7 +29,7 @@ static double absolute_error(const koksma_image *image, const koksma_image *refe
 koksma_status koksma_image_compare(const koksma_image *image, const koksma_image *reference, koksma_image_error *out)
 {
     KOKSMA__REQUIRE(image, reference, out);
-    KOKSMA__TRY(check_sizes(image, reference));
+    KOKSMA__TRY(koksma__image_check_sizes(image, reference));
     const size_t n = (size_t)image->width * (size_t)image->height;
     koksma__sum sum = {0}, squares = {0}, deviations = {0};
     double max = 0;
@@ -67,7 +57,7 @@ koksma_status koksma_image_difference(const koksma_image *image, const koksma_im
 {
     KOKSMA__REQUIRE(image, reference, out);
     *out = (koksma_image){0};
-    koksma_status status = check_sizes(image, reference);
+    koksma_status status = koksma__image_check_sizes(image, reference);
     if (!status) {
         status = koksma_image_init(out, image->width, image->height, 1);
     }

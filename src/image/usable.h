@@ -12,4 +12,15 @@ static inline koksma_status koksma__image_usable(const koksma_image *image)
                          : koksma__fail(KOKSMA_ARGUMENT, "an image without pixels");
 }
 
+/* Whether two images have pixels, and equally many in both directions. Errors: ARGUMENT. */
+static inline koksma_status koksma__image_check_sizes(const koksma_image *a, const koksma_image *b)
+{
+    KOKSMA__TRY(koksma__image_usable(a));
+    KOKSMA__TRY(koksma__image_usable(b));
+    KOKSMA__FAIL_IF(a->width != b->width || a->height != b->height, KOKSMA_ARGUMENT,
+                    "an image of %d x %d pixels can't be compared with one of %d x %d", a->width, a->height, b->width,
+                    b->height);
+    return KOKSMA_OK;
+}
+
 #endif

@@ -38,6 +38,8 @@ VALID = {
     "size_t *": "a_buffer(sizeof(size_t))", "const char **": "a_buffer(sizeof(char *))",
     "double *": "a_buffer(16 * sizeof(double))", "const double *": "three_numbers()", "uint32_t *": "a_buffer(16 * sizeof(uint32_t))",
     "koksma_image *": "an_image()", "koksma_layer *": "two_layers()", "koksma_image_error *": "a_buffer(sizeof(koksma_image_error))",
+    "koksma_metric_spec *": "a_metric()", "koksma_metric_value *": "a_buffer(sizeof(koksma_metric_value))", "koksma_metric_find.name": "\"rmse\"",
+    "koksma_metric_parse.text": "\"hdr-flip:ppd=40\"", "koksma_metric_parse.spec": "a_buffer(sizeof(koksma_metric_spec))",
     "koksma_scene_part *": "a_buffer(sizeof(koksma_scene_part))", "koksma_coherence *": "a_coherence()", "koksma_coherence_values *": "a_buffer(sizeof(koksma_coherence_values))",
     "koksma_scene *": "a_scene()", "koksma_scene **": "a_buffer(sizeof(void *))",
     "koksma_render_options *": ["render_options(\"gaussian-jittered\")", "render_options(\"random;pixel=gaussian-jittered;lens+time=random\")"],
@@ -108,7 +110,7 @@ VALID = {
 }
 
 # Members of the library's tables: a caller has them from the library, and only a missing one can be noticed.
-TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_param"}
+TABLES = {"koksma_pattern", "koksma_measure", "koksma_integrand", "koksma_warp", "koksma_filter", "koksma_integrator", "koksma_adaptive", "koksma_metric", "koksma_param"}
 # Structs that a function only writes: what is in them before the call means nothing.
 RESULTS = re.compile(r"_(audit|optimum|entry|tally|value|line|values|error|report|summary|cost|row|ranking|findings|ring|facts|integration|sensitivity)$")
 WRONG = {

@@ -116,6 +116,15 @@ static void *a_pattern(const char *text)
     return a_copy(&spec, sizeof spec);
 }
 
+static void *a_metric(void)
+{
+    koksma_metric_spec *spec = a_buffer(sizeof *spec);
+    if (koksma_metric_parse("hdr-flip:tone-mapper=reinhard", spec)) {
+        abort();
+    }
+    return spec;
+}
+
 static void *a_measure(const char *text)
 {
     koksma_spec spec;

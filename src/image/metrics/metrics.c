@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * The table of metrics, their specs, and what all have in common. A metric gives every pixel an error of at least 0; its
+ * value is their mean, or the root of it. Beside the value stand
+ *
+ *     top_share  the share of the sum that the 0.1 % of the pixels with the largest errors carry; 0 of fewer than 1000 pixels
+ *     robust     the value without these pixels: a mean trimmed at one side
+ *
+ * Where top_share is large, the value says more about a few pixels (fireflies) than about the image, and an order of
+ * images by it is not to be trusted. The largest errors are found by quickselect (Hoare 1961) in O(n).
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/lookup.h"
+#include "core/spec.h"
+#include "core/status.h"
+#include "core/suggestion.h"
+#include "core/sum.h"
+#include "image/formats.h"
+#include "image/metrics/metrics.h"
+#include "image/usable.h"
+
+enum { BLOCK = 512 };
+
+static const koksma_metric *const table[] = {
+#define METRIC(name) &koksma__metric_##name,
+#include "image/metrics/metrics.def"
+#undef METRIC
+};
+
+KOKSMA__LOOKUP(koksma_metric, table)
+KOKSMA__NAME_AT(koksma_metric)
+
+koksma_status koksma_metric_parse(const char *text, koksma_metric_spec *spec)
+{
+    KOKSMA__REQUIRE(text, spec);
+    char name[64];
+    const char *rest = "";
+    *spec = (koksma_metric_spec){0};
+    KOKSMA__TRY(koksma__spec_split(text, name, &rest));
+    spec->metric = koksma_metric_find(name);
+    if (!spec->metric) {
+        return koksma__fail_unknown("metric", name, koksma_metric_name_at, NULL, "'koksma list metrics' names them");
+    }
+    return koksma__params_parse(name, spec->metric->params, rest, spec->params);
+}
+
+void koksma_metric_text(const koksma_metric_spec *spec, char *text)
+{
+    KOKSMA__REQUIRE_OR(, spec, text);
+    *text = '\0';
+    if (spec->metric) {
+        snprintf(text, KOKSMA_MAX_SPEC, "%s", spec->metric->name);
+        koksma__params_text(spec->metric->params, spec->params, text, KOKSMA_MAX_SPEC);
+    }
+}
+
+void koksma__metric_values(const koksma_metric *metric, const koksma_image *image, double *out)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
+    for (size_t p = 0; p < n; p++) {
+        if (metric->channels == 1) {
+            out[p] = koksma__luminance(image, p);
+        }
+        for (size_t c = 0; c < 3 && metric->channels == 3; c++) {
+            out[3 * p + c] = (double)image->pixels[p * channels + (channels == 3 ? c : 0)];
+        }
+    }
+}
+
+double koksma__metric_mean(const koksma_metric *metric, const double *errors, size_t n)
+{
+    koksma__sum sum = {0};
+    for (size_t first = 0; first < n; first += BLOCK) { /* eight sums at once in a block */
+        const size_t end = n - first < BLOCK ? n : first + BLOCK;
+        double part[8] = {0};
+        for (size_t p = first; p < end; p++) {
+            part[p & 7] += errors[p];
+        }
+        for (int i = 0; i < 8; i++) {
+            koksma__sum_add(&sum, part[i]);
+        }
+    }
+    const double mean = koksma__sum_value(&sum) / (double)n;
+    return metric->root ? sqrt(mean) : mean;
+}
+
+/* Moves the k largest of n numbers to the end. */
+static void select_largest(double *x, size_t n, size_t k)
+{
+    size_t first = 0, end = n;
+    const size_t target = n - k;
+    while (end - first > 1) {
+        const double pivot = x[first + (end - first) / 2];
+        size_t less = first, same = first, more = end;
+        while (same < more) { /* three ways: equal errors, such as zeros, are many */
+            const double v = x[same];
+            if (v < pivot) {
+                x[same++] = x[less];
+                x[less++] = v;
+            } else if (v > pivot) {
+                x[same] = x[--more];
+                x[more] = v;
+            } else {
+                same++;
+            }
+        }
+        if (target >= less && target < more) {
+            return;
+        }
+        first = target < less ? first : more;
+        end = target < less ? less : end;
+    }
+}
+
+koksma_metric_value koksma__metric_pool(const koksma_metric *metric, double *errors, size_t n)
+{
+    koksma_metric_value out = {.value = koksma__metric_mean(metric, errors, n), .top = n / 1000};
+    select_largest(errors, n, out.top);
+    koksma__sum rest = {0}, top = {0};
+    for (size_t p = 0; p < n; p++) {
+        koksma__sum_add(p < n - out.top ? &rest : &top, errors[p]);
+    }
+    const double of_rest = koksma__sum_value(&rest), of_top = koksma__sum_value(&top);
+    const double mean = of_rest / (double)(n - out.top);
+    out.robust = !out.top ? out.value : metric->root ? sqrt(mean) : mean;
+    out.top_share = of_top > 0 ? of_top / (of_rest + of_top) : 0;
+    return out;
+}
+
+koksma_status koksma_metric_evaluate(const koksma_metric_spec *spec, const koksma_image *image,
+                                     const koksma_image *reference, koksma_metric_value *out)
+{
+    KOKSMA__REQUIRE(spec, image, reference, out);
+    KOKSMA__FAIL_IF(!spec->metric, KOKSMA_ARGUMENT, "a spec without a metric: koksma_metric_parse makes one");
+    KOKSMA__TRY(koksma__params_check(spec->metric->name, spec->metric->params, spec->params));
+    KOKSMA__TRY(koksma__image_check_sizes(image, reference));
+    const size_t n = (size_t)image->width * (size_t)image->height, values = n * (size_t)spec->metric->channels;
+    double *buffer = malloc((2 * values + n) * sizeof *buffer);
+    KOKSMA__REQUIRE_MEMORY(buffer, (2 * values + n) * sizeof *buffer);
+    double *errors = buffer + 2 * values;
+    koksma__metric_values(spec->metric, image, buffer);
+    koksma__metric_values(spec->metric, reference, buffer + values);
+    const koksma_metric_input in = {.params = spec->params,
+                                    .width = image->width,
+                                    .height = image->height,
+                                    .image = buffer,
+                                    .reference = buffer + values};
+    const koksma_status status = spec->metric->errors(&in, errors);
+    if (!status) {
+        *out = koksma__metric_pool(spec->metric, errors, n);
+    }
+    free(buffer);
+    return status;
+}
