@@ -106,65 +106,30 @@ static void store(const growth *g, const uint32_t *v, size_t stride, koksma_poin
     koksma__store_columns(count, g->dim, columns[0], first, g->k, out);
 }
 
-static void store_shuffled(const growth *g, uint32_t order, koksma_points *out, size_t first, size_t count)
-{
-    const uint32_t zero = koksma_mirror(koksma_owen_hash(0, order));
-    uint32_t index[KOKSMA__COLUMN_BLOCK], v[COLUMNS][KOKSMA__COLUMN_BLOCK];
-    for (size_t i = 0; i < count; i++) {
-        index[i] = (uint32_t)(first + i);
-    }
-    koksma__kernels()->owen_hash(count, index, true, true, order, index);
-    for (int c = 0; c < g->dim; c++) {
-        for (size_t i = 0; i < count; i++) {
-            v[c][i] = g->v[(size_t)c * g->n + (index[i] ^ zero)];
-        }
-    }
-    store(g, v[0], KOKSMA__COLUMN_BLOCK, out, first, count);
-}
-
-static koksma_status grow_and_store(growth *g, const uint32_t *order, const koksma_run *run, koksma_points *out)
-{
-    uint32_t few[COLUMNS * FEW], *memory = NULL;
-    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * g->n;
-    g->v = few;
-    if (numbers > COLUMNS * FEW) {
-        const size_t bytes = numbers * sizeof *memory;
-        memory = g->v = malloc(bytes);
-        KOKSMA__REQUIRE_MEMORY(memory, bytes);
-        koksma__large_pages(memory, bytes);
-    }
-    koksma_status status = KOKSMA_OK;
-    for (g->k = 0; g->k < out->dim && !status; g->k += COLUMNS) {
-        g->dim = out->dim - g->k < COLUMNS ? out->dim - g->k : COLUMNS;
-        status = grow_columns(g, run);
-        for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
-            const size_t left = out->n - first, count = left < KOKSMA__COLUMN_BLOCK ? left : KOKSMA__COLUMN_BLOCK;
-            if (order) {
-                store_shuffled(g, *order, out, first, count);
-            } else {
-                store(g, g->v + first, g->n, out, first, count);
-            }
-        }
-    }
-    free(memory);
-    return status;
-}
-
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out)
 {
     growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n};
-    return grow_and_store(&g, NULL, run, out);
-}
-
-koksma_status koksma__grow_shuffled(uint64_t seed, uint32_t purpose, const uint32_t *partners, uint32_t order,
-                                    const koksma_run *run, koksma_points *out)
-{
-    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = 1};
-    while (g.n < out->n) {
-        g.n *= 2;
+    uint32_t few[COLUMNS * FEW], *memory = NULL;
+    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * g.n;
+    g.v = few;
+    if (numbers > COLUMNS * FEW) {
+        const size_t bytes = numbers * sizeof *memory;
+        memory = g.v = malloc(bytes);
+        KOKSMA__REQUIRE_MEMORY(memory, bytes);
+        koksma__large_pages(memory, bytes);
     }
-    return grow_and_store(&g, &order, run, out);
+    koksma_status status = KOKSMA_OK;
+    for (; g.k < out->dim && !status; g.k += COLUMNS) {
+        g.dim = out->dim - g.k < COLUMNS ? out->dim - g.k : COLUMNS;
+        status = grow_columns(&g, run);
+        for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
+            const size_t left = out->n - first, count = left < KOKSMA__COLUMN_BLOCK ? left : KOKSMA__COLUMN_BLOCK;
+            store(&g, g.v + first, g.n, out, first, count);
+        }
+    }
+    free(memory);
+    return status;
 }
 
 koksma_status koksma__grow_column(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
