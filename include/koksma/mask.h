@@ -70,7 +70,7 @@ KOKSMA_INLINE uint32_t koksma_mask_value(uint32_t rank, uint32_t pixels, uint32_
 KOKSMA_INLINE void koksma_mask_2d(const koksma_sobol *sequence, const uint32_t values[3], uint32_t s, uint32_t spp,
                                   double xy[2])
 {
-    const uint32_t i = koksma_mirror(koksma_owen_hash(koksma_mirror_index(s), sequence->order));
+    const uint32_t i = koksma_shuffled(s, sequence->order);
     const uint32_t net = (spp & (0u - spp)) - 1; /* 2^m - 1 */
     const uint32_t pairing = koksma_mirror(values[2] ^ values[2] >> 1) & net;
     const uint32_t x = koksma_mirror(koksma_owen_hash(i, sequence->seeds[0]));

@@ -37,7 +37,7 @@
  *     koksma_r_2d        1.07
  *
  * The order of a domain's samples depends on 32 random bits: with probability 2^-32 two domains have the same order
- * and are then dependent.
+ * and are then dependent. koksma_sobol_2d and koksma_pmj02_2d have the same law, with different bits.
  *
  * The points equal those of libkoksma's patterns bit for bit; the seed is the key of the domain:
  *
@@ -53,8 +53,8 @@
  *
  * Coordinates are in [0,1). Cast them with koksma_to_float: (float)0.99999999 is 1.
  *
- * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021.
- * PMJ02 by stochastic generation: Helmer, Christensen & Kensler 2021. Correlated multi-jitter: Kensler 2013.
+ * Sources: Philox: Salmon et al. 2011. Owen hashing: Laine & Karras 2011, Burley 2020; constants of Vegdahl 2021. Seeds:
+ * constants of Wellons 2018 and of Degski's hash. PMJ02 by matrices: Helmer, Christensen & Kensler 2021. Correlated multi-jitter: Kensler 2013.
  * R-sequence: Roberts 2018. Padding by shuffled copies: Burley 2020. Z-order: Ahmed & Wonka 2020.
  */
 #ifndef KOKSMA_SAMPLER_H
@@ -112,24 +112,29 @@ KOKSMA_INLINE void koksma_words(uint64_t key, uint32_t purpose, uint64_t index, 
 
 /* ---- Domains ------------------------------------------------------------------------------------------- */
 
+/* Returns a hash of a key: one round of multiplying and folding, a bijection. Keys that differ in few bits are far
+   apart after two rounds: one derives a domain, one more begins each draw. */
+KOKSMA_INLINE uint64_t koksma_mix(uint64_t key)
+{
+    key *= (uint64_t)0xd6e8feb8u << 32 | 0x6659fd93u;
+    return key ^ key >> 32;
+}
+
 /* Returns the domain for one purpose of another domain's samples, such as the lens. Purposes are numbers of your
-   choice; domains may be nested to any depth. */
+   choice; domains may be nested to any depth. Two purposes of one domain never have the same key. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_use(koksma_domain domain, uint32_t use)
 {
-    uint32_t w[4];
     koksma_domain sub;
-    koksma_words(domain.key, KOKSMA_FOR_DOMAIN, use, 0x75736500u, w);
-    sub.key = (uint64_t)w[1] << 32 | w[0];
+    sub.key = koksma_mix(domain.key ^ ((uint64_t)0x243f6a88u << 32 | (0x85a308d3u ^ use)));
     return sub;
 }
 
-/* Returns the domain of pixel (x, y) of the image with this seed. */
+/* Returns the domain of pixel (x, y) of the image with this seed. Two pixels of one image never have the same key. */
 KOKSMA_INLINE koksma_domain koksma_domain_of_pixel(uint64_t seed, uint32_t x, uint32_t y)
 {
-    uint32_t w[4];
+    const uint64_t image = koksma_mix(seed ^ ((uint64_t)0x13198a2eu << 32 | 0x03707344u));
     koksma_domain pixel;
-    koksma_words(seed, KOKSMA_FOR_DOMAIN, (uint64_t)y << 32 | x, 0x70697865u, w);
-    pixel.key = (uint64_t)w[1] << 32 | w[0];
+    pixel.key = koksma_mix(koksma_mix(image ^ ((uint64_t)y << 32 | x)));
     return pixel;
 }
 
@@ -158,16 +163,33 @@ KOKSMA_INLINE uint32_t koksma_mirror(uint32_t x)
     return x << 16 | x >> 16;
 }
 
-/* Does the same, written such that gcc recognises no byte swap: for that it would peel the first iteration of a loop
-   over i, and then not vectorise the others. */
-KOKSMA_INLINE uint32_t koksma_mirror_index(uint32_t i)
-{
-    i = (i & 0x00ff00ffu) << 8 | (i >> 8 & 0x00ff00ffu);
-    i = (i & 0x55555555u) << 1 | (i >> 1 & 0x55555555u);
-    i = (i & 0x33333333u) << 2 | (i >> 2 & 0x33333333u);
-    i = (i & 0x0f0f0f0fu) << 4 | (i >> 4 & 0x0f0f0f0fu);
-    return i << 16 | i >> 16;
-}
+/* ---- Four words at once -------------------------------------------------------------------------------- */
+
+/* Draws compute four coordinates side by side: in a vector register where gcc or clang compile for 64-bit x86 or ARM,
+   else one after the other, with the same bits. Define KOKSMA_PLAIN before the header to have the latter. */
+#if !defined(KOKSMA_PLAIN) && !defined(__CUDACC__) &&                                                                \
+    ((defined(__GNUC__) && __GNUC__ >= 9) || defined(__clang__)) &&                                                  \
+    (defined(__x86_64__) || (defined(__aarch64__) && !defined(__AARCH64EB__)))
+#define KOKSMA_VECTOR
+#endif
+
+#if defined(KOKSMA_VECTOR)
+typedef uint32_t koksma__four __attribute__((vector_size(16)));
+typedef int32_t koksma__four_signed __attribute__((vector_size(16)));
+typedef uint64_t koksma__two_long __attribute__((vector_size(16)));
+typedef uint32_t koksma__four_in_table __attribute__((vector_size(16), may_alias));
+typedef float koksma__four_float __attribute__((vector_size(16)));
+typedef double koksma__four_double __attribute__((vector_size(32)));
+#if defined(__SSSE3__)
+typedef char koksma__bytes __attribute__((vector_size(16)));
+#endif
+#define KOKSMA_ALIGNED __attribute__((aligned(16)))
+#else
+#define KOKSMA_ALIGNED
+typedef struct koksma__four {
+    uint32_t word[4];
+} koksma__four;
+#endif
 
 /* Returns Owen's nested uniform scrambling of x, whose bits are reversed: a hash of the bits below decides whether
    to flip each bit. */
@@ -181,9 +203,163 @@ KOKSMA_INLINE uint32_t koksma_owen_hash(uint32_t x, uint32_t seed)
     return x;
 }
 
+/* Returns the seed that chooses the order of a domain's samples. */
+KOKSMA_INLINE uint32_t koksma_seed_of_order(uint64_t key)
+{
+    return (uint32_t)(koksma_mix(koksma_mix(key)) >> 32);
+}
+
+/* Returns the seed of dimension 0, 1, 2 ... of a domain: a hash of all bits of the key and of the dimension. */
+KOKSMA_INLINE uint32_t koksma_seed_of(uint64_t key, uint32_t dimension)
+{
+    const uint64_t mixed = koksma_mix(key);
+    uint32_t x = (uint32_t)mixed + (dimension + 1) * 0x9e3779b9u;
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x += (uint32_t)(mixed >> 32);
+    x *= 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+/* Returns the seeds of dimensions 0 to 3. */
+KOKSMA_INLINE koksma__four koksma__four_seeds(uint64_t key)
+{
+#if defined(KOKSMA_VECTOR)
+    const uint64_t mixed = koksma_mix(key);
+    const koksma__four lanes = {0x9e3779b9u, 0x3c6ef372u, 0xdaa66d2bu, 0x78dde6e4u};
+    koksma__four x = lanes + (uint32_t)mixed;
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x += (uint32_t)(mixed >> 32);
+    x *= 0x846ca68bu;
+    return x ^ x >> 16;
+#else
+    koksma__four x;
+    uint32_t k;
+    for (k = 0; k < 4; k++) {
+        x.word[k] = koksma_seed_of(key, k);
+    }
+    return x;
+#endif
+}
+
+/* Reverses the order of the bits in each word: by bytes and tables of half bytes, or by a product of matrices. */
+#if defined(KOKSMA_VECTOR)
+KOKSMA_INLINE koksma__four koksma__mirror_four(koksma__four x)
+{
+#if defined(__SSSE3__)
+    const koksma__bytes swap = {3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
+    const koksma__bytes bytes = (koksma__bytes)__builtin_ia32_pshufb128((koksma__bytes)x, swap);
+#if defined(__GFNI__)
+    const uint64_t rows = (uint64_t)0x80402010u << 32 | 0x08040201u;
+    const koksma__two_long matrix = {rows, rows};
+    return (koksma__four)__builtin_ia32_vgf2p8affineqb_v16qi(bytes, (koksma__bytes)matrix, 0);
+#else
+    const koksma__two_long lower = {(uint64_t)0x0e060a02u << 32 | 0x0c040800u,
+                                    (uint64_t)0x0f070b03u << 32 | 0x0d050901u};
+    const koksma__two_long upper = lower << 4;
+    x = (koksma__four)bytes;
+    return (koksma__four)__builtin_ia32_pshufb128((koksma__bytes)upper, (koksma__bytes)(x & 0x0f0f0f0fu)) |
+           (koksma__four)__builtin_ia32_pshufb128((koksma__bytes)lower, (koksma__bytes)(x >> 4 & 0x0f0f0f0fu));
+#endif
+#else
+    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+    return x << 16 | x >> 16;
+#endif
+}
+#endif
+
+/* Scrambles four coordinates with bits reversed, each by its seed, and reverses their bits. */
+KOKSMA_INLINE koksma__four koksma__scramble_four(koksma__four x, koksma__four seeds)
+{
+#if defined(KOKSMA_VECTOR)
+    x ^= x * 0x3d20adeau;
+    x += seeds;
+    x *= seeds >> 16 | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return koksma__mirror_four(x);
+#else
+    int k;
+    for (k = 0; k < 4; k++) {
+        x.word[k] = koksma_mirror(koksma_owen_hash(x.word[k], seeds.word[k]));
+    }
+    return x;
+#endif
+}
+
+/* Returns x 2^-32, exact. It goes through a signed number because compilers vectorise that conversion. */
+KOKSMA_INLINE double koksma_fraction(uint32_t x)
+{
+    return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
+}
+
+/* Copies four words from memory, and to memory. */
+KOKSMA_INLINE koksma__four koksma__four_of_words(const uint32_t words[4])
+{
+    koksma__four x;
+#if defined(KOKSMA_VECTOR)
+    __builtin_memcpy(&x, words, sizeof x);
+#else
+    int k;
+    for (k = 0; k < 4; k++) {
+        x.word[k] = words[k];
+    }
+#endif
+    return x;
+}
+
+KOKSMA_INLINE void koksma__four_to_words(koksma__four x, uint32_t words[4])
+{
+#if defined(KOKSMA_VECTOR)
+    __builtin_memcpy(words, &x, sizeof x);
+#else
+    int k;
+    for (k = 0; k < 4; k++) {
+        words[k] = x.word[k];
+    }
+#endif
+}
+
+/* Stores the first `count` of four words as fractions in [0,1). */
+KOKSMA_INLINE void koksma__to_doubles(koksma__four x, int count, double *xs)
+{
+#if defined(KOKSMA_VECTOR)
+    const koksma__four_double unit =
+        (__builtin_convertvector((koksma__four_signed)(x ^ 0x80000000u), koksma__four_double) + 2147483648.0) *
+        (1.0 / 4294967296.0);
+    __builtin_memcpy(xs, &unit, (unsigned)count * sizeof *xs);
+#else
+    int k;
+    for (k = 0; k < count; k++) {
+        xs[k] = koksma_fraction(x.word[k]);
+    }
+#endif
+}
+
+/* Stores the first `count` of four words as fractions in [0,1), rounded down to multiples of 2^-24. */
+KOKSMA_INLINE void koksma__to_floats(koksma__four x, int count, float *xs)
+{
+#if defined(KOKSMA_VECTOR)
+    const koksma__four_float unit =
+        __builtin_convertvector((koksma__four_signed)(x >> 8), koksma__four_float) * (1.0f / 16777216.0f);
+    __builtin_memcpy(xs, &unit, (unsigned)count * sizeof *xs);
+#else
+    int k;
+    for (k = 0; k < count; k++) {
+        xs[k] = (float)(int32_t)(x.word[k] >> 8) * (1.0f / 16777216.0f);
+    }
+#endif
+}
+
 /* ---- The order of the samples of a domain -------------------------------------------------------------- */
 
-/* Returns the random word that chooses the order of samples 2^32 part .. 2^32 (part + 1) - 1. */
+/* Returns the random word that chooses the order of samples 2^32 part .. 2^32 (part + 1) - 1 of koksma_r_2d. */
 KOKSMA_INLINE uint32_t koksma_order(uint64_t key, uint32_t part)
 {
     uint32_t w[4];
@@ -195,14 +371,67 @@ KOKSMA_INLINE uint32_t koksma_order(uint64_t key, uint32_t part)
    indices by Owen hashing. Aligned blocks of 2^m indices become aligned blocks of 2^m indices. */
 KOKSMA_INLINE uint32_t koksma_shuffled(uint32_t i, uint32_t order)
 {
-    return koksma_mirror(koksma_owen_hash(koksma_mirror_index(i), order));
+    return koksma_mirror(koksma_owen_hash(koksma_mirror(i), order));
 }
 
-/* Does the same, followed by an XOR that maps 0 to 0, so that indices below 2^m stay below 2^m. In an Owen-scrambled
-   digital sequence the XOR changes no probability: it is a digital shift of the points. */
-KOKSMA_INLINE uint32_t koksma_shuffled_from_0(uint32_t i, uint32_t order)
+/* Returns the row of a table of digital sequences that half byte n of the index j chooses, n = 0 for the uppermost. The
+   bits of j are reversed. Rows have `width` (2 or 4) words. */
+KOKSMA_INLINE koksma__four koksma__row(const uint32_t *table, uint32_t width, uint32_t n, uint32_t j)
 {
-    return koksma_mirror(koksma_owen_hash(koksma_mirror_index(i), order) ^ koksma_owen_hash(0, order));
+    const uint32_t fourfold = n < 7 ? j >> (26 - 4 * n) : j << 2;
+    const uint32_t *row = table + 16 * width * n + (width == 4 ? fourfold & 60u : fourfold >> 1 & 30u);
+#if defined(KOKSMA_VECTOR)
+    if (width == 4) {
+        return *(const koksma__four_in_table *)row;
+    } else {
+        const koksma__two_long half = {(uint64_t)row[1] << 32 | row[0], 0};
+        return (koksma__four)half;
+    }
+#else
+    koksma__four x;
+    uint32_t k;
+    for (k = 0; k < 4; k++) {
+        x.word[k] = k < width ? row[k] : 0;
+    }
+    return x;
+#endif
+}
+
+/* Returns a XOR b. */
+KOKSMA_INLINE koksma__four koksma__xor(koksma__four a, koksma__four b)
+{
+#if defined(KOKSMA_VECTOR)
+    return a ^ b;
+#else
+    int k;
+    for (k = 0; k < 4; k++) {
+        a.word[k] ^= b.word[k];
+    }
+    return a;
+#endif
+}
+
+/* Returns the point of a digital sequence, with bits reversed, at position i of a shuffled order: the sum modulo 2 of one
+   row of the table for each half byte of the index. Aligned blocks of 2^m positions are aligned blocks of 2^m indices, in
+   the order of koksma_shuffled but for an XOR of the upper 16 bits, after which indices below 2^16 stay below 2^16, and
+   four rows do. In an Owen-scrambled digital sequence the XOR changes no probability: it is a digital shift. */
+KOKSMA_INLINE koksma__four koksma__digital(const uint32_t *table, uint32_t width, uint32_t i, uint32_t order)
+{
+    uint32_t j = koksma_owen_hash(koksma_mirror(i), order);
+    koksma__four x;
+#if defined(KOKSMA_VECTOR)
+    /* Keeps gcc from computing j and its first row twice, the second time for the next iteration of a loop. */
+    __asm__("" : "+r"(j));
+#endif
+    x = koksma__xor(koksma__xor(koksma__row(table, width, 0, j), koksma__row(table, width, 1, j)),
+                    koksma__xor(koksma__row(table, width, 2, j), koksma__row(table, width, 3, j)));
+    if (i >> 16) {
+        j ^= koksma_owen_hash(0, order);
+        x = koksma__xor(x,
+                        koksma__xor(koksma__xor(koksma__row(table, width, 4, j), koksma__row(table, width, 5, j)),
+                                    koksma__xor(koksma__row(table, width, 6, j), koksma__row(table, width, 7, j))));
+    }
+    return x;
 }
 
 /* ---- Sobol', Owen-scrambled by hashing, in shuffled order ---------------------------------------------- */
@@ -217,37 +446,75 @@ KOKSMA_INLINE uint32_t koksma_pascal(uint32_t i)
     return i ^ (i & 0xffff0000u) >> 16;
 }
 
-/* Returns Sobol' dimension 3 (dimension = 0) or 4 (1) of Joe & Kuo at i, with bits reversed. */
-KOKSMA_INLINE uint32_t koksma_sobol_mirrored(uint32_t i, int dimension)
+/* Returns sample i of four dimensions of Sobol' (Joe & Kuo 2008) as 32-bit fractions, scrambled. */
+KOKSMA_INLINE koksma__four koksma__sobol_four(uint32_t i, uint32_t order, koksma__four seeds)
 {
-    static const uint32_t columns[2][32] = {
-        {0x00000001u, 0x00000003u, 0x00000006u, 0x00000009u, 0x00000017u, 0x0000003au, 0x00000071u, 0x000000a3u,
-         0x00000116u, 0x00000339u, 0x00000677u, 0x000009aau, 0x00001601u, 0x00003903u, 0x00007706u, 0x0000aa09u,
-         0x00010117u, 0x0003033au, 0x00060671u, 0x000909a3u, 0x00171616u, 0x003a3939u, 0x00717777u, 0x00a3aaaau,
-         0x01170001u, 0x033a0003u, 0x06710006u, 0x09a30009u, 0x16160017u, 0x3939003au, 0x77770071u, 0xaaaa00a3u},
-        {0x00000001u, 0x00000003u, 0x00000004u, 0x0000000au, 0x0000001fu, 0x0000002eu, 0x00000045u, 0x000000c9u,
-         0x0000011bu, 0x000002a4u, 0x0000079au, 0x00000b67u, 0x0000101eu, 0x0000302du, 0x00004041u, 0x0000a0c3u,
-         0x0001f104u, 0x0002e28au, 0x000457dfu, 0x000c9baeu, 0x0011a105u, 0x002a7289u, 0x0079e7dbu, 0x00b6dba4u,
-         0x0100011au, 0x030002a7u, 0x0400079eu, 0x0a000b6du, 0x1f001001u, 0x2e003003u, 0x45004004u, 0xc900a00au}};
-    uint32_t x = 0;
-    int b;
-    KOKSMA_ASSERT(dimension == 0 || dimension == 1);
-    for (b = 0; b < 32; b++) {
-        x ^= columns[dimension][b] & (0u - (i >> b & 1u));
-    }
-    return x;
-}
-
-/* Returns x 2^-32, exact. It goes through a signed number because compilers vectorise that conversion. */
-KOKSMA_INLINE double koksma_fraction(uint32_t x)
-{
-    return ((double)(int32_t)(x ^ 0x80000000u) + 2147483648.0) * (1.0 / 4294967296.0);
-}
-
-/* Scrambles a number with bits reversed and returns it as a fraction in [0,1). */
-KOKSMA_INLINE double koksma_scrambled(uint32_t mirrored, uint32_t seed)
-{
-    return koksma_fraction(koksma_mirror(koksma_owen_hash(mirrored, seed)));
+    static KOKSMA_ALIGNED const uint32_t table[512] = {
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00000008u, 0x0000000fu, 0x00000009u, 0x0000000au,
+        0x00000004u, 0x00000005u, 0x00000006u, 0x00000004u, 0x0000000cu, 0x0000000au, 0x0000000fu, 0x0000000eu,
+        0x00000002u, 0x00000003u, 0x00000003u, 0x00000003u, 0x0000000au, 0x0000000cu, 0x0000000au, 0x00000009u,
+        0x00000006u, 0x00000006u, 0x00000005u, 0x00000007u, 0x0000000eu, 0x00000009u, 0x0000000cu, 0x0000000du,
+        0x00000001u, 0x00000001u, 0x00000001u, 0x00000001u, 0x00000009u, 0x0000000eu, 0x00000008u, 0x0000000bu,
+        0x00000005u, 0x00000004u, 0x00000007u, 0x00000005u, 0x0000000du, 0x0000000bu, 0x0000000eu, 0x0000000fu,
+        0x00000003u, 0x00000002u, 0x00000002u, 0x00000002u, 0x0000000bu, 0x0000000du, 0x0000000bu, 0x00000008u,
+        0x00000007u, 0x00000007u, 0x00000004u, 0x00000006u, 0x0000000fu, 0x00000008u, 0x0000000du, 0x0000000cu,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00000080u, 0x000000ffu, 0x000000a3u, 0x000000c9u,
+        0x00000040u, 0x00000055u, 0x00000071u, 0x00000045u, 0x000000c0u, 0x000000aau, 0x000000d2u, 0x0000008cu,
+        0x00000020u, 0x00000033u, 0x0000003au, 0x0000002eu, 0x000000a0u, 0x000000ccu, 0x00000099u, 0x000000e7u,
+        0x00000060u, 0x00000066u, 0x0000004bu, 0x0000006bu, 0x000000e0u, 0x00000099u, 0x000000e8u, 0x000000a2u,
+        0x00000010u, 0x00000011u, 0x00000017u, 0x0000001fu, 0x00000090u, 0x000000eeu, 0x000000b4u, 0x000000d6u,
+        0x00000050u, 0x00000044u, 0x00000066u, 0x0000005au, 0x000000d0u, 0x000000bbu, 0x000000c5u, 0x00000093u,
+        0x00000030u, 0x00000022u, 0x0000002du, 0x00000031u, 0x000000b0u, 0x000000ddu, 0x0000008eu, 0x000000f8u,
+        0x00000070u, 0x00000077u, 0x0000005cu, 0x00000074u, 0x000000f0u, 0x00000088u, 0x000000ffu, 0x000000bdu,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00000800u, 0x00000f0fu, 0x000009aau, 0x00000b67u,
+        0x00000400u, 0x00000505u, 0x00000677u, 0x0000079au, 0x00000c00u, 0x00000a0au, 0x00000fddu, 0x00000cfdu,
+        0x00000200u, 0x00000303u, 0x00000339u, 0x000002a4u, 0x00000a00u, 0x00000c0cu, 0x00000a93u, 0x000009c3u,
+        0x00000600u, 0x00000606u, 0x0000054eu, 0x0000053eu, 0x00000e00u, 0x00000909u, 0x00000ce4u, 0x00000e59u,
+        0x00000100u, 0x00000101u, 0x00000116u, 0x0000011bu, 0x00000900u, 0x00000e0eu, 0x000008bcu, 0x00000a7cu,
+        0x00000500u, 0x00000404u, 0x00000761u, 0x00000681u, 0x00000d00u, 0x00000b0bu, 0x00000ecbu, 0x00000de6u,
+        0x00000300u, 0x00000202u, 0x0000022fu, 0x000003bfu, 0x00000b00u, 0x00000d0du, 0x00000b85u, 0x000008d8u,
+        0x00000700u, 0x00000707u, 0x00000458u, 0x00000425u, 0x00000f00u, 0x00000808u, 0x00000df2u, 0x00000f42u,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00008000u, 0x0000ffffu, 0x0000aa09u, 0x0000a0c3u,
+        0x00004000u, 0x00005555u, 0x00007706u, 0x00004041u, 0x0000c000u, 0x0000aaaau, 0x0000dd0fu, 0x0000e082u,
+        0x00002000u, 0x00003333u, 0x00003903u, 0x0000302du, 0x0000a000u, 0x0000ccccu, 0x0000930au, 0x000090eeu,
+        0x00006000u, 0x00006666u, 0x00004e05u, 0x0000706cu, 0x0000e000u, 0x00009999u, 0x0000e40cu, 0x0000d0afu,
+        0x00001000u, 0x00001111u, 0x00001601u, 0x0000101eu, 0x00009000u, 0x0000eeeeu, 0x0000bc08u, 0x0000b0ddu,
+        0x00005000u, 0x00004444u, 0x00006107u, 0x0000505fu, 0x0000d000u, 0x0000bbbbu, 0x0000cb0eu, 0x0000f09cu,
+        0x00003000u, 0x00002222u, 0x00002f02u, 0x00002033u, 0x0000b000u, 0x0000ddddu, 0x0000850bu, 0x000080f0u,
+        0x00007000u, 0x00007777u, 0x00005804u, 0x00006072u, 0x0000f000u, 0x00008888u, 0x0000f20du, 0x0000c0b1u,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00080000u, 0x000f000fu, 0x000909a3u, 0x000c9baeu,
+        0x00040000u, 0x00050005u, 0x00060671u, 0x000457dfu, 0x000c0000u, 0x000a000au, 0x000f0fd2u, 0x0008cc71u,
+        0x00020000u, 0x00030003u, 0x0003033au, 0x0002e28au, 0x000a0000u, 0x000c000cu, 0x000a0a99u, 0x000e7924u,
+        0x00060000u, 0x00060006u, 0x0005054bu, 0x0006b555u, 0x000e0000u, 0x00090009u, 0x000c0ce8u, 0x000a2efbu,
+        0x00010000u, 0x00010001u, 0x00010117u, 0x0001f104u, 0x00090000u, 0x000e000eu, 0x000808b4u, 0x000d6aaau,
+        0x00050000u, 0x00040004u, 0x00070766u, 0x0005a6dbu, 0x000d0000u, 0x000b000bu, 0x000e0ec5u, 0x00093d75u,
+        0x00030000u, 0x00020002u, 0x0002022du, 0x0003138eu, 0x000b0000u, 0x000d000du, 0x000b0b8eu, 0x000f8820u,
+        0x00070000u, 0x00070007u, 0x0004045cu, 0x00074451u, 0x000f0000u, 0x00080008u, 0x000d0dffu, 0x000bdfffu,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x00800000u, 0x00ff00ffu, 0x00a3aaaau, 0x00b6dba4u,
+        0x00400000u, 0x00550055u, 0x00717777u, 0x0079e7dbu, 0x00c00000u, 0x00aa00aau, 0x00d2ddddu, 0x00cf3c7fu,
+        0x00200000u, 0x00330033u, 0x003a3939u, 0x002a7289u, 0x00a00000u, 0x00cc00ccu, 0x00999393u, 0x009ca92du,
+        0x00600000u, 0x00660066u, 0x004b4e4eu, 0x00539552u, 0x00e00000u, 0x00990099u, 0x00e8e4e4u, 0x00e54ef6u,
+        0x00100000u, 0x00110011u, 0x00171616u, 0x0011a105u, 0x00900000u, 0x00ee00eeu, 0x00b4bcbcu, 0x00a77aa1u,
+        0x00500000u, 0x00440044u, 0x00666161u, 0x006846deu, 0x00d00000u, 0x00bb00bbu, 0x00c5cbcbu, 0x00de9d7au,
+        0x00300000u, 0x00220022u, 0x002d2f2fu, 0x003bd38cu, 0x00b00000u, 0x00dd00ddu, 0x008e8585u, 0x008d0828u,
+        0x00700000u, 0x00770077u, 0x005c5858u, 0x00423457u, 0x00f00000u, 0x00880088u, 0x00fff2f2u, 0x00f4eff3u,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x08000000u, 0x0f0f0f0fu, 0x09a30009u, 0x0a000b6du,
+        0x04000000u, 0x05050505u, 0x06710006u, 0x0400079eu, 0x0c000000u, 0x0a0a0a0au, 0x0fd2000fu, 0x0e000cf3u,
+        0x02000000u, 0x03030303u, 0x033a0003u, 0x030002a7u, 0x0a000000u, 0x0c0c0c0cu, 0x0a99000au, 0x090009cau,
+        0x06000000u, 0x06060606u, 0x054b0005u, 0x07000539u, 0x0e000000u, 0x09090909u, 0x0ce8000cu, 0x0d000e54u,
+        0x01000000u, 0x01010101u, 0x01170001u, 0x0100011au, 0x09000000u, 0x0e0e0e0eu, 0x08b40008u, 0x0b000a77u,
+        0x05000000u, 0x04040404u, 0x07660007u, 0x05000684u, 0x0d000000u, 0x0b0b0b0bu, 0x0ec5000eu, 0x0f000de9u,
+        0x03000000u, 0x02020202u, 0x022d0002u, 0x020003bdu, 0x0b000000u, 0x0d0d0d0du, 0x0b8e000bu, 0x080008d0u,
+        0x07000000u, 0x07070707u, 0x045c0004u, 0x06000423u, 0x0f000000u, 0x08080808u, 0x0dff000du, 0x0c000f4eu,
+        0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x80000000u, 0xffffffffu, 0xaaaa00a3u, 0xc900a00au,
+        0x40000000u, 0x55555555u, 0x77770071u, 0x45004004u, 0xc0000000u, 0xaaaaaaaau, 0xdddd00d2u, 0x8c00e00eu,
+        0x20000000u, 0x33333333u, 0x3939003au, 0x2e003003u, 0xa0000000u, 0xccccccccu, 0x93930099u, 0xe7009009u,
+        0x60000000u, 0x66666666u, 0x4e4e004bu, 0x6b007007u, 0xe0000000u, 0x99999999u, 0xe4e400e8u, 0xa200d00du,
+        0x10000000u, 0x11111111u, 0x16160017u, 0x1f001001u, 0x90000000u, 0xeeeeeeeeu, 0xbcbc00b4u, 0xd600b00bu,
+        0x50000000u, 0x44444444u, 0x61610066u, 0x5a005005u, 0xd0000000u, 0xbbbbbbbbu, 0xcbcb00c5u, 0x9300f00fu,
+        0x30000000u, 0x22222222u, 0x2f2f002du, 0x31002002u, 0xb0000000u, 0xddddddddu, 0x8585008eu, 0xf8008008u,
+        0x70000000u, 0x77777777u, 0x5858005cu, 0x74006006u, 0xf0000000u, 0x88888888u, 0xf2f200ffu, 0xbd00c00cu};
+    return koksma__scramble_four(koksma__digital(table, 4, i, order), seeds);
 }
 
 /* The seeds of a domain's Sobol' sequence: compute them once for a loop over many samples of one domain. */
@@ -259,99 +526,81 @@ typedef struct koksma_sobol {
 KOKSMA_INLINE koksma_sobol koksma_sobol_of(koksma_domain domain)
 {
     koksma_sobol sequence;
-    uint32_t w[4];
-    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 1, 0, w);
-    sequence.seeds[3] = w[0];
-    koksma_words(domain.key, KOKSMA_FOR_SCRAMBLE, 0, 0, w);
-    sequence.seeds[0] = w[0];
-    sequence.seeds[1] = w[1];
-    sequence.seeds[2] = w[2];
-    sequence.order = w[3];
+    koksma__four_to_words(koksma__four_seeds(domain.key), sequence.seeds);
+    sequence.order = koksma_seed_of_order(domain.key);
     return sequence;
 }
 
 /* Computes sample i of a (0,2)-sequence in base 2: every aligned block of 2^m samples is a (0,m,2)-net. */
 KOKSMA_INLINE void koksma_sobol_at_2d(const koksma_sobol *sequence, uint32_t i, double xy[2])
 {
-    const uint32_t j = koksma_shuffled(i, sequence->order);
-    xy[0] = koksma_scrambled(j, sequence->seeds[0]);
-    xy[1] = koksma_scrambled(koksma_pascal(j), sequence->seeds[1]);
+    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 2, xy);
 }
 
 /* Computes sample i in four dimensions; the first two are those of koksma_sobol_at_2d. */
 KOKSMA_INLINE void koksma_sobol_at_4d(const koksma_sobol *sequence, uint32_t i, double xs[4])
 {
-    const uint32_t j = koksma_shuffled(i, sequence->order);
-    xs[0] = koksma_scrambled(j, sequence->seeds[0]);
-    xs[1] = koksma_scrambled(koksma_pascal(j), sequence->seeds[1]);
-    xs[2] = koksma_scrambled(koksma_sobol_mirrored(j, 0), sequence->seeds[2]);
-    xs[3] = koksma_scrambled(koksma_sobol_mirrored(j, 1), sequence->seeds[3]);
+    koksma__to_doubles(koksma__sobol_four(i, sequence->order, koksma__four_of_words(sequence->seeds)), 4, xs);
 }
 
-/* Computes sample i of a domain in two dimensions, or in four. For many samples, koksma_sobol_at_2d is faster. */
+/* Computes sample i of a domain as four 32-bit fractions. */
+KOKSMA_INLINE koksma__four koksma__sobol_words(koksma_domain domain, uint32_t i)
+{
+    return koksma__sobol_four(i, koksma_seed_of_order(domain.key), koksma__four_seeds(domain.key));
+}
+
+/* Computes sample i of a domain in two dimensions, or in four. */
 KOKSMA_INLINE void koksma_sobol_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
-    const koksma_sobol sequence = koksma_sobol_of(domain);
-    koksma_sobol_at_2d(&sequence, i, xy);
+    koksma__to_doubles(koksma__sobol_words(domain, i), 2, xy);
 }
 
 KOKSMA_INLINE void koksma_sobol_4d(koksma_domain domain, uint32_t i, double xs[4])
 {
-    const koksma_sobol sequence = koksma_sobol_of(domain);
-    koksma_sobol_at_4d(&sequence, i, xs);
+    koksma__to_doubles(koksma__sobol_words(domain, i), 4, xs);
 }
 
 /* ---- Progressive multi-jittered (0,2) ------------------------------------------------------------------ */
 
-/* Returns `partner`: point 2^level + i shares its stratum of width 2^-level in coordinate k (0 or 1) with point
-   i ^ partner; level is below 32. */
-KOKSMA_INLINE uint32_t koksma_pmj02_partner(int k, uint32_t level)
-{
-    static const uint32_t partners[2][32] = {
-        {0x0,      0x0,      0x2,       0x6,       0x6,       0xe,       0x36,       0x4e,
-         0x16,     0x2e,     0x276,     0x6ce,     0x716,     0xc2e,     0x3076,     0x40ce,
-         0x116,    0x22e,    0x20676,   0x60ece,   0x61716,   0xe2c2e,   0x367076,   0x4ec0ce,
-         0x170116, 0x2c022e, 0x2700676, 0x6c00ece, 0x7001716, 0xc002c2e, 0x30007076, 0x4000c0ce},
-        {0x0,      0x1,       0x3,       0x3,       0x7,       0x1b,       0x27,       0xb,
-         0x17,     0x13b,     0x367,     0x38b,     0x617,     0x183b,     0x2067,     0x8b,
-         0x117,    0x1033b,   0x30767,   0x30b8b,   0x71617,   0x1b383b,   0x276067,   0xb808b,
-         0x160117, 0x138033b, 0x3600767, 0x3800b8b, 0x6001617, 0x1800383b, 0x20006067, 0x808b}};
-    KOKSMA_ASSERT((k == 0 || k == 1) && level < 32);
-    return partners[k][level];
-}
-
-/* Returns coordinate k (0 or 1) of point i, as a 32-bit fraction, in the order of the pattern pmj02 without shuffle.
-   That order is nearly the same for all keys: only koksma_pmj02_2d is independent between domains. Point i lies in
-   the empty half of the stratum of an earlier point, whose upper bits come from a still earlier one. */
-KOKSMA_INLINE uint32_t koksma_pmj02_fraction(uint64_t key, uint32_t i, int k)
-{
-    uint32_t fraction = 0, above = 0xffffffffu, w[4];
-    KOKSMA_ASSERT(k == 0 || k == 1);
-    for (;;) {
-        uint32_t level = 0, own;
-        koksma_words(key, KOKSMA_FOR_POINT, i / 4, (uint32_t)k, w);
-        if (i == 0) {
-            return fraction ^ (w[0] & above);
-        }
-        while (level < 31 && i >> (level + 1)) {
-            level++;
-        }
-        own = level < 31 ? 0xffffffffu >> (level + 1) : 0;
-        fraction ^= w[i % 4] >> level >> 1 & above & own;
-        above &= ~own;
-        fraction ^= 1u << (31 - level);
-        i = (i ^ 1u << level) ^ koksma_pmj02_partner(k, level);
-    }
-}
-
-/* Computes sample i. Every aligned block of 2^m samples is a (0,m,2)-net in base 2, and the first 2^m are the first
-   2^m points of the pattern pmj02 in another order. Costs about one hash for each bit of the shuffled index that is
-   1. */
+/* Computes sample i of the digital sequence of PMJ02 (Helmer, Christensen & Kensler 2021: the matrices of the Stirling
+   numbers modulo 2), scrambled and shuffled as koksma_sobol_2d. Every aligned block of 2^m samples is a (0,m,2)-net. */
 KOKSMA_INLINE void koksma_pmj02_2d(koksma_domain domain, uint32_t i, double xy[2])
 {
-    const uint32_t j = koksma_shuffled_from_0(i, koksma_order(domain.key, 0));
-    xy[0] = koksma_pmj02_fraction(domain.key, j, 0) * (1.0 / 4294967296.0);
-    xy[1] = koksma_pmj02_fraction(domain.key, j, 1) * (1.0 / 4294967296.0);
+    static KOKSMA_ALIGNED const uint32_t table[256] = {
+        0x00000000u, 0x00000000u, 0x0000000cu, 0x0000000au, 0x00000006u, 0x00000006u, 0x0000000au, 0x0000000cu,
+        0x00000002u, 0x00000003u, 0x0000000eu, 0x00000009u, 0x00000004u, 0x00000005u, 0x00000008u, 0x0000000fu,
+        0x00000001u, 0x00000001u, 0x0000000du, 0x0000000bu, 0x00000007u, 0x00000007u, 0x0000000bu, 0x0000000du,
+        0x00000003u, 0x00000002u, 0x0000000fu, 0x00000008u, 0x00000005u, 0x00000004u, 0x00000009u, 0x0000000eu,
+        0x00000000u, 0x00000000u, 0x000000f0u, 0x00000088u, 0x00000078u, 0x00000078u, 0x00000088u, 0x000000f0u,
+        0x00000028u, 0x0000003cu, 0x000000d8u, 0x000000b4u, 0x00000050u, 0x00000044u, 0x000000a0u, 0x000000ccu,
+        0x00000014u, 0x00000014u, 0x000000e4u, 0x0000009cu, 0x0000006cu, 0x0000006cu, 0x0000009cu, 0x000000e4u,
+        0x0000003cu, 0x00000028u, 0x000000ccu, 0x000000a0u, 0x00000044u, 0x00000050u, 0x000000b4u, 0x000000d8u,
+        0x00000000u, 0x00000000u, 0x00000cc0u, 0x00000aa0u, 0x00000660u, 0x00000660u, 0x00000aa0u, 0x00000cc0u,
+        0x00000220u, 0x00000330u, 0x00000ee0u, 0x00000990u, 0x00000440u, 0x00000550u, 0x00000880u, 0x00000ff0u,
+        0x00000110u, 0x00000110u, 0x00000dd0u, 0x00000bb0u, 0x00000770u, 0x00000770u, 0x00000bb0u, 0x00000dd0u,
+        0x00000330u, 0x00000220u, 0x00000ff0u, 0x00000880u, 0x00000550u, 0x00000440u, 0x00000990u, 0x00000ee0u,
+        0x00000000u, 0x00000000u, 0x0000ff00u, 0x00008080u, 0x00007f80u, 0x00007f80u, 0x00008080u, 0x0000ff00u,
+        0x00002a80u, 0x00003fc0u, 0x0000d580u, 0x0000bf40u, 0x00005500u, 0x00004040u, 0x0000aa00u, 0x0000c0c0u,
+        0x00001540u, 0x00001540u, 0x0000ea40u, 0x000095c0u, 0x00006ac0u, 0x00006ac0u, 0x000095c0u, 0x0000ea40u,
+        0x00003fc0u, 0x00002a80u, 0x0000c0c0u, 0x0000aa00u, 0x00004040u, 0x00005500u, 0x0000bf40u, 0x0000d580u,
+        0x00000000u, 0x00000000u, 0x000c0c00u, 0x000a0a00u, 0x00060600u, 0x00060600u, 0x000a0a00u, 0x000c0c00u,
+        0x00020200u, 0x00030300u, 0x000e0e00u, 0x00090900u, 0x00040400u, 0x00050500u, 0x00080800u, 0x000f0f00u,
+        0x00010100u, 0x00010100u, 0x000d0d00u, 0x000b0b00u, 0x00070700u, 0x00070700u, 0x000b0b00u, 0x000d0d00u,
+        0x00030300u, 0x00020200u, 0x000f0f00u, 0x00080800u, 0x00050500u, 0x00040400u, 0x00090900u, 0x000e0e00u,
+        0x00000000u, 0x00000000u, 0x00f0f000u, 0x00888800u, 0x00787800u, 0x00787800u, 0x00888800u, 0x00f0f000u,
+        0x00282800u, 0x003c3c00u, 0x00d8d800u, 0x00b4b400u, 0x00505000u, 0x00444400u, 0x00a0a000u, 0x00cccc00u,
+        0x00141400u, 0x00141400u, 0x00e4e400u, 0x009c9c00u, 0x006c6c00u, 0x006c6c00u, 0x009c9c00u, 0x00e4e400u,
+        0x003c3c00u, 0x00282800u, 0x00cccc00u, 0x00a0a000u, 0x00444400u, 0x00505000u, 0x00b4b400u, 0x00d8d800u,
+        0x00000000u, 0x00000000u, 0x0cccc000u, 0x0aaaa000u, 0x06666000u, 0x06666000u, 0x0aaaa000u, 0x0cccc000u,
+        0x02222000u, 0x03333000u, 0x0eeee000u, 0x09999000u, 0x04444000u, 0x05555000u, 0x08888000u, 0x0ffff000u,
+        0x01111000u, 0x01111000u, 0x0dddd000u, 0x0bbbb000u, 0x07777000u, 0x07777000u, 0x0bbbb000u, 0x0dddd000u,
+        0x03333000u, 0x02222000u, 0x0ffff000u, 0x08888000u, 0x05555000u, 0x04444000u, 0x09999000u, 0x0eeee000u,
+        0x00000000u, 0x00000000u, 0xffff0000u, 0x80008000u, 0x7fff8000u, 0x7fff8000u, 0x80008000u, 0xffff0000u,
+        0x2aaa8000u, 0x3fffc000u, 0xd5558000u, 0xbfff4000u, 0x55550000u, 0x40004000u, 0xaaaa0000u, 0xc000c000u,
+        0x15554000u, 0x15554000u, 0xeaaa4000u, 0x9555c000u, 0x6aaac000u, 0x6aaac000u, 0x9555c000u, 0xeaaa4000u,
+        0x3fffc000u, 0x2aaa8000u, 0xc000c000u, 0xaaaa0000u, 0x40004000u, 0x55550000u, 0xbfff4000u, 0xd5558000u};
+    const koksma__four x = koksma__digital(table, 2, i, koksma_seed_of_order(domain.key));
+    koksma__to_doubles(koksma__scramble_four(x, koksma__four_seeds(domain.key)), 2, xy);
 }
 
 /* ---- Correlated multi-jitter --------------------------------------------------------------------------- */

@@ -43,7 +43,7 @@ except ModuleNotFoundError:
     raise ImportError("koksma.mitsuba needs Mitsuba 3: pip install mitsuba") from None
 
 OWEN_SOBOL = "sobol:scramble=hash-owen,shuffle=1"
-_FOR_DOMAIN, _FOR_POINT, _FOR_SHUFFLE, _FOR_SCRAMBLE = 1, 2, 3, 6  # purposes of random words, as in sampler.h
+_FOR_POINT, _FOR_SHUFFLE = 2, 3  # purposes of random words, as in sampler.h
 _WORD = 0xFFFFFFFF
 _classes: Dict[str, Any] = {}  # sampler classes by variant
 
@@ -73,17 +73,34 @@ def _words(key: Tuple[Any, Any], purpose: int, index: Tuple[Any, Any], lane: int
     return a, b, c, d
 
 
+def _masked(x: Any) -> Any:
+    return x & _WORD if isinstance(x, int) else x
+
+
+def _mix(key: Tuple[Any, Any]) -> Tuple[Any, Any]:
+    """koksma_mix."""
+    high, low = _wide(key[0], 0x6659FD93)
+    high = _masked(high + key[0] * 0xD6E8FEB8 + key[1] * 0x6659FD93)
+    return low ^ high, high
+
+
 def _domain_of_pixel(seed: int, pixel: Any) -> Tuple[Any, Any]:
+    """koksma_domain_of_pixel with y = 0."""
     kind = type(pixel)
-    return _words((kind(seed & _WORD), kind(seed >> 32)), _FOR_DOMAIN, (pixel, kind(0)), 0x70697865)[:2]
+    image = _mix((seed & _WORD ^ 0x03707344, seed >> 32 ^ 0x13198A2E))
+    return _mix(_mix((kind(image[0]) ^ pixel, kind(image[1]))))
 
 
 def _domain_of_use(domain: Tuple[Any, Any], use: Any) -> Tuple[Any, Any]:
-    return _words(domain, _FOR_DOMAIN, (use, type(use)(0)), 0x75736500)[:2]
+    return _mix((domain[0] ^ use ^ 0x85A308D3, domain[1] ^ 0x243F6A88))
 
 
-def _masked(x: Any) -> Any:
-    return x & _WORD if isinstance(x, int) else x
+def _seed_of(mixed: Tuple[Any, Any], dimension: int) -> Any:
+    """koksma_seed_of the key whose koksma_mix is given."""
+    x = _masked(mixed[0] + ((dimension + 1) * 0x9E3779B9 & _WORD))
+    x = _masked((x ^ x >> 16) * 0x7FEB352D)
+    x = _masked(((x ^ x >> 15) + mixed[1]) * 0x846CA68B)
+    return x ^ x >> 16
 
 
 def _mirror(x: Any) -> Any:
@@ -109,10 +126,10 @@ def _pascal(i: Any) -> Any:
 
 def _sobol_2d(domain: Tuple[Any, Any], i: Any) -> Tuple[Any, Any]:
     """koksma_sobol_2d, as 32-bit fractions."""
-    kind = type(i)
-    w = _words(domain, _FOR_SCRAMBLE, (kind(0), kind(0)), 0)
-    j = _mirror(_owen_hash(_mirror(i), w[3]))
-    return _mirror(_owen_hash(j, w[0])), _mirror(_owen_hash(_pascal(j), w[1]))
+    mixed = _mix(domain)
+    order = _mix(mixed)[1]
+    j = _mirror(_owen_hash(_mirror(i), order)) ^ _mirror(_owen_hash(type(i)(0), order)) & 0xFFFF0000
+    return _mirror(_owen_hash(j, _seed_of(mixed, 0))), _mirror(_owen_hash(_pascal(j), _seed_of(mixed, 1)))
 
 
 # ---- The sampler ---------------------------------------------------------------------------------------------------

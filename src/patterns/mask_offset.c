@@ -91,5 +91,6 @@ const koksma_pattern koksma__pattern_mask_offset = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_UNBIASED,
     .params = params,
+    .revision = 1,
     .generate = generate,
 };

@@ -8,32 +8,50 @@
  *
  * Source: Christensen, Kensler & Kilpatrick 2018; Helmer, Christensen & Kensler 2021 for the generation.
  *
- *     shuffle=1    nested uniform shuffle of the index, by a hash that keeps index 0
+ *     shuffle=1    the same matrices, scrambled by a hash as sobol:scramble=hash-owen, in random order
  *
- * With shuffle=1 the first 2^m points are the same set in another order, and every aligned block of 2^m points stays
- * a (0,m,2)-net. Two seeds then pair their points at random. Without it they do not: the strata of point i are the
- * same for all seeds up to exclusive ors of their numbers.
+ * With shuffle=1 every aligned block of 2^m points is a (0,m,2)-net, and two seeds pair their points at random. Without
+ * it they do not: the strata of point i are the same for all seeds up to exclusive ors of their numbers.
  *
  * koksma_pmj02_2d of koksma/sampler.h has the points of shuffle=1 one by one.
  */
-#include <koksma/sampler.h>
-
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
+#include "patterns/shared/hash_owen.h"
+
+/* The columns of the matrix of coordinate k: point 2^l is in the empty half of the stratum of its partner. */
+static void directions_of(int k, uint32_t *directions)
+{
+    for (int l = 0; l < 32; l++) {
+        directions[l] = 0x80000000u >> l;
+        for (int b = 0; b < l; b++) {
+            directions[l] ^= koksma__pmj02_partners[32 * k + l] >> b & 1 ? directions[b] : 0;
+        }
+    }
+}
+
+static void shuffled(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
+{
+    const uint64_t *seed = context;
+    uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
+    koksma__hash_owen_order(*seed, first, count, index);
+    for (int c = 0; c < some; c++) {
+        directions_of(k + c, directions);
+        koksma__mirror_directions(directions, directions);
+        koksma__kernels()->digital_at(count, index, directions, v);
+        koksma__hash_owen_scramble(*seed, k + c, count, v, xs[c]);
+    }
+}
 
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
-    uint32_t partners[2 * 32];
-    for (uint32_t l = 0; l < 32; l++) {
-        partners[l] = koksma_pmj02_partner(0, l);
-        partners[32 + l] = koksma_pmj02_partner(1, l);
-    }
-    const uint32_t order = koksma_order(seed, 0);
     KOKSMA__TRY(koksma__range_fits("pmj02", args, out));
-    return koksma__grow_range(seed, KOKSMA__PURPOSE_POINT, partners, args->params[0] != 0 ? &order : NULL, args, out);
+    return args->params[0] != 0 ? koksma__range_blocks(args, out, shuffled, &seed)
+                                : koksma__grow_range(seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, args, out);
 }
 
 static const koksma_param params[] = {
@@ -50,6 +68,7 @@ const koksma_pattern koksma__pattern_pmj02 = {
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES |
               KOKSMA_CLAIM_UNBIASED,
     .params = params,
+    .revision = 1,
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

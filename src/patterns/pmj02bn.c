@@ -29,8 +29,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <koksma/sampler.h>
-
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/status.h"
@@ -191,16 +189,6 @@ static koksma_status find_masks(masks *m, const double *plain, const koksma_run 
     return KOKSMA_OK;
 }
 
-static koksma_status grow(uint64_t seed, const koksma_run *run, koksma_points *out)
-{
-    uint32_t partners[2 * 32];
-    for (uint32_t l = 0; l < 32; l++) {
-        partners[l] = koksma_pmj02_partner(0, l);
-        partners[32 + l] = koksma_pmj02_partner(1, l);
-    }
-    return koksma__grow(seed, KOKSMA__PURPOSE_POINT, partners, run, out);
-}
-
 static void apply(const masks *m, koksma_points *out)
 {
     for (size_t i = 0; i < 2 * out->n; i++) {
@@ -213,7 +201,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
 {
     masks m = {.levels = (int)args->params[0]};
     if (m.levels == 0) {
-        return grow(seed, args->run, out);
+        return koksma__grow(seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, args->run, out);
     }
     const size_t n = (size_t)1 << 2 * m.levels, side = (size_t)1 << m.levels, width = side + 2;
     const size_t floats = 4 * side * width + width, words = 2 * n + 2 * side;
@@ -228,9 +216,9 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     m.flips[0] = (unsigned char *)(m.of[1] + side);
     m.flips[1] = m.flips[0] + side;
     koksma_points first = {.n = n, .dim = 2, .xs = plain};
-    koksma_status status = grow(seed, args->run, &first);
+    koksma_status status = koksma__grow(seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, args->run, &first);
     status = status ? status : find_masks(&m, plain, args->run);
-    status = status ? status : grow(seed, args->run, out);
+    status = status ? status : koksma__grow(seed, KOKSMA__PURPOSE_POINT, koksma__pmj02_partners, args->run, out);
     if (!status) {
         apply(&m, out);
     }

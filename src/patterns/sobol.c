@@ -19,9 +19,8 @@
  *
  * Known exactly, 2D, n = 16: D* = 0.171875, L2 star = 0.047766231 (no scrambling).
  */
-#include <koksma/sampler.h>
-
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/random.h"
 #include "core/status.h"
@@ -29,6 +28,7 @@
 #include "patterns/patterns.h"
 #include "patterns/shared/columns.h"
 #include "patterns/shared/grow.h"
+#include "patterns/shared/hash_owen.h"
 #include "patterns/shared/sobol_table.h"
 
 enum { NONE, DIGITAL_SHIFT, LMS, OWEN, HASH_OWEN };
@@ -45,7 +45,7 @@ static const uint32_t *directions_of(const job *j, int k)
     return j->matrices ? j->matrices[k] : koksma__sobol_directions(k, j->old);
 }
 
-/* Word k of what the seed gives to scrambling; word 3 is kept for the shuffle. */
+/* Word k of what the seed gives to a digital shift; word 3 is unused. */
 static uint32_t seed_of(const job *j, int k)
 {
     const uint64_t at = (uint64_t)(k < 3 ? k : k + 1);
@@ -81,43 +81,32 @@ static koksma_status fill_digital(const job *j, const koksma_args *args, koksma_
     return koksma__range_digital(args, directions, starts, out);
 }
 
-/* The hash takes mirrored words: made of mirrored directions. */
-static void mirror_directions(const uint32_t *directions, uint32_t *mirrored)
-{
-    for (int b = 0; b < 32; b++) {
-        mirrored[b] = koksma_mirror(directions[b]);
-    }
-}
-
 static void hash_owen(const void *context, int k, int some, uint64_t first, size_t count, koksma__columns xs)
 {
     const job *j = context;
     const koksma__kernel_table *kernels = koksma__kernels();
     uint32_t index[KOKSMA__COLUMN_BLOCK], v[KOKSMA__COLUMN_BLOCK], directions[32];
-    for (size_t i = 0; i < count; i++) {
-        index[i] = (uint32_t)(first + i);
-    }
     if (j->shuffle) {
-        const uint32_t seed = koksma__random(j->seed, KOKSMA__PURPOSE_SCRAMBLE, 0, 0).w[3];
-        kernels->owen_hash(count, index, true, true, seed, index);
+        koksma__hash_owen_order(j->seed, first, count, index);
+    } else {
+        for (size_t i = 0; i < count; i++) {
+            index[i] = (uint32_t)(first + i);
+        }
     }
     for (int c = 0; c < some; c++) {
-        const uint32_t seed = seed_of(j, k + c);
-        mirror_directions(directions_of(j, k + c), directions);
         if (k + c == 0) {
-            kernels->owen_hash(count, index, false, true, seed, v);
+            memcpy(v, index, count * sizeof *v);
         } else if (k + c == 1) {
             kernels->pascal(count, index, v);
-            kernels->owen_hash(count, v, false, true, seed, v);
         } else {
+            koksma__mirror_directions(directions_of(j, k + c), directions);
             if (j->shuffle) {
                 kernels->digital_at(count, index, directions, v);
             } else {
                 kernels->digital(count, directions, koksma__digital_start(directions, first), v);
             }
-            kernels->owen_hash(count, v, false, true, seed, v);
         }
-        kernels->fractions(count, v, xs[c]);
+        koksma__hash_owen_scramble(j->seed, k + c, count, v, xs[c]);
     }
 }
 
@@ -135,7 +124,7 @@ static koksma_status generate_owen(const job *j, const koksma_args *args, koksma
     for (int k = 0; k < out->dim; k++) {
         koksma__partners(directions_of(j, k), levels, partners + 32 * k);
     }
-    const koksma_status status = koksma__grow_range(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, NULL, args, out);
+    const koksma_status status = koksma__grow_range(j->seed, KOKSMA__PURPOSE_SCRAMBLE, partners, args, out);
     if (partners != few) {
         free(partners);
     }
@@ -219,6 +208,7 @@ const koksma_pattern koksma__pattern_sobol = {
     .max_dim = KOKSMA__SOBOL_DIM,
     .claims = KOKSMA_CLAIM_SEQUENCE | KOKSMA_CLAIM_ANY_N | KOKSMA_CLAIM_NET2 | KOKSMA_CLAIM_NET2_PREFIXES,
     .params = params,
+    .revision = 1,
     .generate = generate,
     .ranges = koksma__ranges_always,
 };

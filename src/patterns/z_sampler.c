@@ -73,5 +73,6 @@ const koksma_pattern koksma__pattern_z_sampler = {
     .max_dim = 2,
     .claims = KOKSMA_CLAIM_NET2,
     .params = params,
+    .revision = 1,
     .generate = generate,
 };

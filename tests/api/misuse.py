@@ -170,7 +170,7 @@ tree = json.loads(subprocess.run([clang, "-x", "c", "-std=c11", "-I", include, "
                                   "-"], input=source, capture_output=True, text=True, check=True).stdout)
 functions, structs, enums = [], {}, set()
 for node in tree["inner"]:
-    if node["kind"] == "FunctionDecl" and node["name"].startswith("koksma_"):
+    if node["kind"] == "FunctionDecl" and re.match("koksma_[^_]", node["name"]):
         functions.append(node)
     elif node["kind"] == "RecordDecl" and "name" in node and node.get("completeDefinition"):
         structs[node["name"]] = [(f["name"], f["type"]["qualType"]) for f in node["inner"] if f["kind"] == "FieldDecl"]

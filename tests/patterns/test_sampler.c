@@ -84,33 +84,6 @@ static void samples_are_the_librarys(void **state)
     }
 }
 
-/* koksma_pmj02_fraction has the order of the pattern pmj02; koksma_pmj02_2d permutes each of its first 2^m points. */
-static void pmj02_keeps_its_own_order(void **state)
-{
-    (void)state;
-    const koksma_domain domain = {123456789};
-    koksma_points own = test_points("pmj02", N, 2, domain.key);
-    for (uint32_t i = 0; i < N; i++) {
-        for (int k = 0; k < 2; k++) {
-            const double x = koksma_pmj02_fraction(domain.key, i, k) * 0x1p-32;
-            assert_memory_equal(&x, &own.xs[2 * i + (uint32_t)k], sizeof x);
-        }
-    }
-    for (uint32_t n = 1; n <= 512; n *= 2) {
-        for (uint32_t i = n / 2; i < n; i++) { /* the first n / 2 are done */
-            double xs[2];
-            uint32_t j = 0;
-            koksma_pmj02_2d(domain, i, xs);
-            while (j < n && memcmp(xs, own.xs + 2 * (size_t)j, sizeof xs)) {
-                j++;
-            }
-            assert_true(n / 2 <= j && j < n);
-            memset(own.xs + 2 * (size_t)j, 0xff, sizeof xs); /* no other sample is that one */
-        }
-    }
-    koksma_points_fini(&own);
-}
-
 static void z_ranks_are_a_permutation(void **state)
 {
     (void)state;
@@ -265,7 +238,6 @@ int main(void)
         cmocka_unit_test(z_ranks_are_a_permutation), cmocka_unit_test(permutations_are_permutations),
         cmocka_unit_test(all_arguments_serve),       cmocka_unit_test(floats_stay_below_one),
         cmocka_unit_test(masks_are_permutations),    cmocka_unit_test(pairs_of_places_are_nearly_uniform),
-        cmocka_unit_test(pmj02_keeps_its_own_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,55 +107,30 @@ static void store(const growth *g, const uint32_t *v, size_t stride, koksma_poin
     koksma__store_columns(count, g->dim, columns[0], first, g->k, out);
 }
 
-static void store_shuffled(const growth *g, uint32_t order, koksma_points *out, size_t first, size_t count)
-{
-    const uint32_t zero = koksma_mirror(koksma_owen_hash(0, order));
-    uint32_t index[KOKSMA__COLUMN_BLOCK], v[COLUMNS][KOKSMA__COLUMN_BLOCK];
-    for (size_t i = 0; i < count; i++) {
-        index[i] = (uint32_t)(first + i);
-    }
-    koksma__kernels()->owen_hash(count, index, true, true, order, index);
-    for (int c = 0; c < g->dim; c++) {
-        for (size_t i = 0; i < count; i++) {
-            v[c][i] = g->v[(size_t)c * g->n + (index[i] ^ zero)];
-        }
-    }
-    store(g, v[0], KOKSMA__COLUMN_BLOCK, out, first, count);
-}
-
-static koksma_status grow_and_store(growth *g, const uint32_t *order, const koksma_run *run, koksma_points *out)
-{
-    uint32_t few[COLUMNS * FEW], *memory = NULL;
-    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * g->n;
-    g->v = few;
-    if (numbers > COLUMNS * FEW) {
-        const size_t bytes = numbers * sizeof *memory;
-        memory = g->v = malloc(bytes);
-        KOKSMA__REQUIRE_MEMORY(memory, bytes);
-        koksma__large_pages(memory, bytes);
-    }
-    koksma_status status = KOKSMA_OK;
-    for (g->k = 0; g->k < out->dim && !status; g->k += COLUMNS) {
-        g->dim = out->dim - g->k < COLUMNS ? out->dim - g->k : COLUMNS;
-        status = grow_columns(g, run);
-        for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
-            const size_t left = out->n - first, count = left < KOKSMA__COLUMN_BLOCK ? left : KOKSMA__COLUMN_BLOCK;
-            if (order) {
-                store_shuffled(g, *order, out, first, count);
-            } else {
-                store(g, g->v + first, g->n, out, first, count);
-            }
-        }
-    }
-    free(memory);
-    return status;
-}
-
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out)
 {
     growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n};
-    return grow_and_store(&g, NULL, run, out);
+    uint32_t few[COLUMNS * FEW], *memory = NULL;
+    const size_t numbers = (size_t)(out->dim < COLUMNS ? out->dim : COLUMNS) * g.n;
+    g.v = few;
+    if (numbers > COLUMNS * FEW) {
+        const size_t bytes = numbers * sizeof *memory;
+        memory = g.v = malloc(bytes);
+        KOKSMA__REQUIRE_MEMORY(memory, bytes);
+        koksma__large_pages(memory, bytes);
+    }
+    koksma_status status = KOKSMA_OK;
+    for (; g.k < out->dim && !status; g.k += COLUMNS) {
+        g.dim = out->dim - g.k < COLUMNS ? out->dim - g.k : COLUMNS;
+        status = grow_columns(&g, run);
+        for (size_t first = 0; first < out->n && !status; first += KOKSMA__COLUMN_BLOCK) {
+            const size_t left = out->n - first, count = left < KOKSMA__COLUMN_BLOCK ? left : KOKSMA__COLUMN_BLOCK;
+            store(&g, g.v + first, g.n, out, first, count);
+        }
+    }
+    free(memory);
+    return status;
 }
 
 /* ---- Ranges ---------------------------------------------------------------------------------------------- */
@@ -163,8 +138,7 @@ koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *part
 /* Points first .. of out, in aligned blocks of a power of two of points: what a level does to an index, one xor, keeps
    such blocks together. The first block is grown as ever. */
 typedef struct range {
-    const growth *g;       /* n and v: of the first block */
-    const uint32_t *order; /* or NULL */
+    const growth *g; /* n and v: of the first block */
     uint64_t first;
     koksma_points *out;
 } range;
@@ -199,24 +173,9 @@ static koksma_status grow_range_block(void *context, size_t b)
     const range *r = context;
     const growth *g = r->g;
     const uint64_t block = (r->first / g->n + b) * g->n, end = r->first + r->out->n;
-    uint32_t index[FAR_BLOCK], v[COLUMNS][FAR_BLOCK], from = (uint32_t)block;
-    if (r->order) {
-        const uint32_t zero = koksma_mirror(koksma_owen_hash(0, *r->order));
-        for (size_t i = 0; i < g->n; i++) {
-            index[i] = (uint32_t)(block + i);
-        }
-        koksma__kernels()->owen_hash(g->n, index, true, true, *r->order, index);
-        for (size_t i = 0; i < g->n; i++) {
-            index[i] ^= zero;
-        }
-        from = index[0] & ~(uint32_t)(g->n - 1);
-    }
+    uint32_t v[COLUMNS][FAR_BLOCK];
     for (int c = 0; c < g->dim; c++) {
-        uint32_t grown[FAR_BLOCK];
-        grow_far(g, c, from, r->order ? grown : v[c]);
-        for (size_t i = 0; r->order && i < g->n; i++) {
-            v[c][i] = grown[index[i] - from];
-        }
+        grow_far(g, c, (uint32_t)block, v[c]);
     }
     uint64_t at = block < r->first ? r->first : block;
     const uint64_t stop = block + g->n < end ? block + g->n : end;
@@ -227,22 +186,19 @@ static koksma_status grow_range_block(void *context, size_t b)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const uint32_t *order,
-                                 const koksma_args *args, koksma_points *out)
+koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_args *args,
+                                 koksma_points *out)
 {
-    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = out->n};
-    while (order && g.n & (g.n - 1)) {
-        g.n += g.n & -g.n;
-    }
+    growth g = {.seed = seed, .purpose = purpose, .partners = partners, .n = LEAST_BLOCK};
     if (args->first == 0) {
-        return grow_and_store(&g, order, args->run, out);
+        return koksma__grow(seed, purpose, partners, args->run, out);
     }
-    for (g.n = LEAST_BLOCK; g.n < FAR_BLOCK && g.n < out->n;) {
+    while (g.n < FAR_BLOCK && g.n < out->n) {
         g.n *= 2;
     }
     g.v = malloc(COLUMNS * g.n * sizeof *g.v);
     KOKSMA__REQUIRE_MEMORY(g.v, COLUMNS * g.n * sizeof *g.v);
-    const range r = {&g, order, args->first, out};
+    const range r = {&g, args->first, out};
     const size_t blocks = (size_t)((args->first + out->n - 1) / g.n - args->first / g.n + 1);
     koksma_status status = KOKSMA_OK;
     for (g.k = 0; g.k < out->dim && !status; g.k += COLUMNS) {

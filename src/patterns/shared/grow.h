@@ -14,10 +14,13 @@
 koksma_status koksma__grow(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_run *run,
                            koksma_points *out);
 
-/* Points args->first .. of those, up to 2^32 - 1. order: in another order, point i is point koksma_shuffled_from_0(i,
-   *order) of koksma__grow (the function of koksma/sampler.h); NULL: in this one. */
-koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const uint32_t *order,
-                                 const koksma_args *args, koksma_points *out);
+/* Points args->first .. of those, up to 2^32 - 1. */
+koksma_status koksma__grow_range(uint64_t seed, uint32_t purpose, const uint32_t *partners, const koksma_args *args,
+                                 koksma_points *out);
+
+/* The partners of pmj02: its two coordinates are the matrices of the Stirling numbers of the first kind modulo 2, and the
+   same shifted by a row and a column. */
+extern const uint32_t koksma__pmj02_partners[2 * 32];
 
 /* Computes coordinate 0 of the first n points as 32-bit fractions: v[i] is 2^32 times that of point i. partners has the
    partner of each of the 32 levels. */

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Hashed Owen scrambling of digital sequences (Laine & Karras 2011, Burley 2020) in bulk, with the seeds and the order of
+   koksma/sampler.h. The order is a nested uniform shuffle of the index by the same hash; an XOR keeps indices below 2^16
+   there, which is all that koksma/sampler.h then needs of its table. */
+#include "patterns/shared/hash_owen.h"
+
+#include <koksma/sampler.h>
+
+#include "kernels/kernels.h"
+
+void koksma__hash_owen_order(uint64_t seed, size_t first, size_t count, uint32_t *index)
+{
+    const uint32_t order = koksma_seed_of_order(seed);
+    const uint32_t shift = koksma_mirror(koksma_owen_hash(0, order)) & 0xffff0000u;
+    for (size_t i = 0; i < count; i++) {
+        index[i] = (uint32_t)(first + i);
+    }
+    koksma__kernels()->owen_hash(count, index, true, true, order, index);
+    for (size_t i = 0; i < count; i++) {
+        index[i] ^= shift;
+    }
+}
+
+void koksma__hash_owen_scramble(uint64_t seed, int k, size_t count, uint32_t *v, double *xs)
+{
+    koksma__kernels()->owen_hash(count, v, false, true, koksma_seed_of(seed, (uint32_t)k), v);
+    koksma__kernels()->fractions(count, v, xs);
+}
+
+void koksma__mirror_directions(const uint32_t *directions, uint32_t *mirrored)
+{
+    for (int b = 0; b < 32; b++) {
+        mirrored[b] = koksma_mirror(directions[b]);
+    }
+}
