@@ -67,7 +67,6 @@ RUN(star_sweep, (double)N *N, size_t at[2]; t->star_sweep(N, sorted, words, sort
 RUN(star_extremes, 48 * 32, t->star_extremes(48, pairs_a, 32, pairs_b, columns))
 RUN(star_pairs, 48 * 32, t->star_pairs(48, pairs_a, 32, pairs_b, 1000, 7, sums[0]))
 RUN(far_corners, N, sink += t->far_corners(N, counts16, floats, 1, 1, 1000, found))
-RUN(corner_excesses, N, t->corner_excesses(N / 8, 30, 1, units, units + N, units + 2 * N, out[0], sums[0]))
 RUN(cells_2d, N, t->cells_2d(0, 1, 32, 32, out[2]))
 RUN(rooks_2d, N, t->rooks_2d(1, squares, 0, N, N + 1, out[0]))
 RUN(nearest_place, N,

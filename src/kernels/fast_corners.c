@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Corners whose count and volume differ too much: most blocks have none, and are left after one comparison. Sums of such
-   excesses, in lanes. */
+/* Corners whose count and volume differ too much: most blocks have none, and are left after one comparison. */
 #include "kernels/kernels.h"
-
-void KERNEL_NAME(corner_excesses)(size_t blocks, double area, double limit, const double *z, const double *open,
-                                  const double *closed, double *slopes, double sums[2]);
 
 enum { BLOCK = 128, LANES = 32 };
 
@@ -43,25 +39,4 @@ size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float
         }
     }
     return found;
-}
-
-void KERNEL_NAME(corner_excesses)(size_t blocks, double area, double limit, const double *restrict z,
-                                  const double *restrict open, const double *restrict closed, double *restrict slopes,
-                                  double sums[2])
-{
-    double squares[8] = {0}, by_area[8] = {0};
-    for (size_t k = 0; k < 8 * blocks; k += 8) {
-        for (size_t l = 0; l < 8; l++) {
-            const double v = area * z[k + l], over = v - open[k + l] - limit, under = closed[k + l] - v - limit;
-            const double e = (over > 0 ? over : 0) - (under > 0 ? under : 0);
-            slopes[k + l] += area * e;
-            squares[l] += e * e;
-            by_area[l] += e * z[k + l];
-        }
-    }
-    sums[0] = sums[1] = 0;
-    for (size_t l = 0; l < 8; l++) {
-        sums[0] += squares[l];
-        sums[1] += by_area[l];
-    }
 }

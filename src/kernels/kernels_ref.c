@@ -93,24 +93,6 @@ size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float
     return found;
 }
 
-void KERNEL_NAME(corner_excesses)(size_t blocks, double area, double limit, const double *z, const double *open,
-                                  const double *closed, double *slopes, double sums[2])
-{
-    double lanes[2][8] = {{0}};
-    for (size_t k = 0; k < 8 * blocks; k++) {
-        const double v = area * z[k], e = fmax(0, v - open[k] - limit) - fmax(0, closed[k] - v - limit);
-        slopes[k] += area * e;
-        lanes[0][k % 8] += e * e;
-        lanes[1][k % 8] += e * z[k];
-    }
-    for (size_t c = 0; c < 2; c++) {
-        sums[c] = 0;
-        for (size_t l = 0; l < 8; l++) {
-            sums[c] += lanes[c][l];
-        }
-    }
-}
-
 void KERNEL_NAME(star_extremes)(size_t na, const double *const a[2], size_t nb, const double *const b[2],
                                 double *const out[2])
 {

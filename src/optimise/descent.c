@@ -191,7 +191,7 @@ static void kick(koksma__descent *d, koksma__stream *random)
 }
 
 /* {i a + s}: half of them with an axis i / n + s, of these half with multiples of 1/n as a, which are lattices of rank 1. */
-static void draw_kronecker(koksma__descent *d, koksma__stream *random)
+void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random)
 {
     const double n = (double)d->points.n;
     const uint32_t kind = koksma__next(random) % 4;
@@ -212,7 +212,7 @@ void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma
     if (u < 0.8) {
         kick(d, random);
     } else if (keep == KOKSMA_KEEP_NONE && u < 0.96) {
-        draw_kronecker(d, random);
+        koksma__descent_kronecker(d, random);
     } else {
         for (size_t c = 0; c < d->count; c++) {
             d->points.xs[c] = d->low[c] + d->length * koksma__next_unit(random);

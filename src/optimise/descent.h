@@ -35,6 +35,9 @@ void koksma__descent_fini(koksma__descent *d);
 /* The points to begin with: the best set changed, or new ones. */
 void koksma__descent_start(koksma__descent *d, const koksma_points *best, koksma_keep keep, koksma__stream *random);
 
+/* Points {i a + s}, a and s random vectors; of half of them one axis is i / n + s. */
+void koksma__descent_kronecker(koksma__descent *d, koksma__stream *random);
+
 /* Leaves the points at the least value found from where they are, in at most so many iterations. */
 koksma_status koksma__descend(koksma__descent *d, int iterations, double *least);
 

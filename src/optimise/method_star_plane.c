@@ -14,9 +14,9 @@
  * causes of changes, closes at the F that makes the product of its counts - F equal to that of its counts + F: F is set to
  * it, and the work goes on. When nothing is violated, F is the least for p, and the cycle that set it is the critical one.
  *
- * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; one in four is the best
- * set. A walk keeps to permutations whose F is below a limit, up to THRESHOLD above the walk's least, its target (Dueck 1993:
- * record-to-record travel). Moves: two points swap their ranks by y, such that a box of a cycle that is violated at the target
+ * Starts: the order of the points (i, {i a + s}) for a with small partial quotients and random s; or the best set, in
+ * a share of the searches (width_of). A walk keeps to permutations whose F is below a limit, up to a threshold above the
+ * walk's least, its target (Dueck 1993: record-to-record travel). Moves: two points swap their ranks by y, such that a box of a cycle that is violated at the target
  * and holds too many points loses one, or one that holds too few gains one: no other swap can help. The last CYCLES cycles
  * that were violated anywhere are kept, and a walk descends the number of those that are violated at the target: a move that
  * adds to it, or violates one at the limit, is refused before any constraint is looked at. Only where none is left the least
@@ -37,8 +37,19 @@
 
 enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
 
-/* How far a walk may get above its least F, at most. */
-static const double THRESHOLD = 0.02;
+/* What searches among few points look for widely, as lattices are far from the best there, and among many near the best. */
+typedef struct width {
+    double threshold; /* how far a walk may get above its least F, at most */
+    double accepted;  /* and a start above the best */
+    double again;     /* the share of searches that begin at the best set */
+} width;
+
+static width width_of(size_t n)
+{
+    return n <= 64    ? (width){.threshold = 0.05, .accepted = 0.3, .again = 0.1}
+           : n <= 350 ? (width){.threshold = 0.02, .accepted = 0.25, .again = 0.25}
+                      : (width){.threshold = 0.02, .accepted = 0.05, .again = 0.25};
+}
 
 /* Corners looked at in one search: some tenths of a second. */
 static double budget_of(size_t n)
@@ -529,7 +540,7 @@ static void write_points(const plane *s, koksma_points *points)
 /* A walk from a permutation whose F is known; what is below *best is written to points. */
 static void walk(plane *s, double F, double *best, koksma_points *points)
 {
-    const double threshold = F * THRESHOLD * koksma__next_unit(&s->random), below = 1 - 1e-7;
+    const double threshold = F * width_of(s->n).threshold * koksma__next_unit(&s->random), below = 1 - 1e-7;
     double target = F * below;
     find_conflicts(s, target);
     for (size_t m = 0; m < PATIENCE && s->work < s->budget; m++) {
@@ -621,8 +632,9 @@ static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64
     if (!status && !xs) {
         status = koksma__fail_memory(3 * n * sizeof *xs);
     }
-    const double accepted = 1.01 + 0.05 * koksma__next_unit(&s.random) + 1 / (double)n; /* of the best */
-    bool again = koksma__next_below(&s.random, 4) == 0;
+    const width wide = width_of(n);
+    const double accepted = 1.01 + wide.accepted * koksma__next_unit(&s.random) + 1 / (double)n; /* of the best */
+    const bool again = koksma__next_unit(&s.random) < wide.again;
     double best = value * (double)n * (1 + 1e-9), F;
     while (!status && s.work < s.budget) {
         if (again) {

@@ -2,15 +2,18 @@
 /*
  * star-space: the star discrepancy in three dimensions, by descent of the excesses over a target f,
  *
- *     E = sum over all corners (X_i, Y_j, Z_k) of max(0, c - n X_i Y_j Z_k - n f)^2 + max(0, n X_i Y_j Z_k - o - n f)^2,
+ *     E = sum over corners (X_i, Y_j, Z_k) of max(0, c - n X_i Y_j Z_k - n f)^2 + max(0, n X_i Y_j Z_k - o - n f)^2,
  *
  * c and o the numbers of points in the closed and in the open box of the corner, X, Y, Z the coordinates of the points and 1
- * in order. For fixed ranks its gradient is that of the volumes, and in log X, log Y, log Z the sets with E = 0 are convex.
- * L-BFGS at f a little below the set's value; where that, which koksma_evaluate finds, does not fall, at f nearer to it. Half
- * of the searches walk from the best set, the others from the best by E of some starts of descent.c, anew after STALE kicks
- * without a gain. A kick draws one to three points anew, or swaps coordinates of points of near ranks. The walk goes on from
- * what a descent finds if its value is not more than a threshold above. Counts are of one x after the other: (n + 1)^3
- * corners a gradient, in lanes.
+ * in order. For fixed ranks the counts are fixed, and in log X, log Y, log Z the sets with E = 0 are convex: a target that
+ * is reached is an exact answer, and one a little below the value is tried until none is.
+ *
+ * A pass over all corners, in lanes of whole numbers and floats (far_corners), gives the value and a list of the corners
+ * that are near it; L-BFGS looks at the list alone, some hundredth part, as if ranks did not change, and the next pass
+ * decides. Three of four searches walk from the best set, the others from the best of DRAWS sets {i a + s}, anew after
+ * STALE kicks without a gain. Kicks exchange a coordinate of two points, such that a listed box with too many points loses
+ * one, or one with too few gains one, as no other exchange can help; one in five draws points anew. The walk goes on from
+ * what a descent finds if its value is not more than a threshold above.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -22,34 +25,49 @@
 #include "measures/shared/order.h"
 #include "optimise/descent.h"
 
-enum { MAX_N = 512, ITERATIONS = 30, DRAWS = 16, STALE = 40 };
+enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
+
+/* A corner: the points that have its coordinates (n: the side, at 1), the points in its box, and whether they are too many
+   (the closed box; 1) or too few (the open one; -1). */
+typedef struct corner {
+    uint16_t at[3];
+    int16_t count, sign;
+} corner;
 
 typedef struct job {
-    size_t n, stride; /* stride: more than n + 2, a multiple of 8 */
+    size_t n, stride; /* of rows of counts */
     double target;
-    uint32_t *order;       /* of each axis, then ranks by each axis */
-    double *x, *slopes;    /* coordinates in order, then 1, then 0; the derivatives by them; of each axis a stride */
-    double *open, *closed; /* points before x_i, and up to it, with ranks below (j, k): rows of a stride */
+    uint32_t *order, *found; /* order: of each axis, then ranks by each axis */
+    double *x;               /* coordinates in order of each axis, then 1 */
+    float *z;                /* those of the third axis, then 0 */
+    int16_t *open, *closed;  /* points before x_i, and up to it, with ranks below (j, k) */
+    corner *corners, *kept;  /* kept: those of the walk's set */
+    size_t listed, n_kept;
+    void *memory;
 } job;
 
-/* Adds the corners (i, j, k) for all j, k: to the slopes, and to the value. */
-static void add_corners(const job *j, size_t i, double *value)
+static koksma_status job_init(job *j, size_t n)
 {
-    const size_t n = j->n, stride = j->stride;
-    const double *x = j->x, *y = x + stride, *z = y + stride, share = (double)n;
-    for (size_t b = 0; b <= n; b++) {
-        double sums[2];
-        koksma__kernels()->corner_excesses((n + 8) / 8, share * x[i] * y[b], share * j->target, z,
-                                           j->open + b * stride, j->closed + (b + 1) * stride + 1,
-                                           j->slopes + 2 * stride, sums);
-        *value += sums[0];
-        j->slopes[i] += sums[1] * y[b];
-        j->slopes[stride + b] += sums[1] * x[i];
+    const size_t stride = (n + 1 + LANES - 1) / LANES * LANES + LANES, matrix = (n + 2) * stride;
+    const size_t bytes = 3 * (n + 1) * sizeof(double) + 2 * CAPACITY * sizeof(corner) + stride * sizeof(float) +
+                         (6 * n + stride + 1) * sizeof(uint32_t) + 2 * matrix * sizeof(int16_t);
+    *j = (job){.n = n, .stride = stride, .memory = calloc(1, bytes)};
+    if (!j->memory) {
+        return koksma__fail_memory(bytes);
     }
+    j->x = j->memory;
+    j->z = (float *)(j->x + 3 * (n + 1));
+    j->order = (uint32_t *)(j->z + stride);
+    j->found = j->order + 6 * n;
+    j->corners = (corner *)(j->found + stride + 1);
+    j->kept = j->corners + CAPACITY;
+    j->open = (int16_t *)(j->kept + CAPACITY);
+    j->closed = j->open + matrix;
+    return KOKSMA_OK;
 }
 
 /* Counts the i-th point by x. */
-static void count(const job *j, size_t i, double *counts)
+static void count(const job *j, size_t i, int16_t *counts)
 {
     const size_t n = j->n, point = j->order[i];
     const uint32_t *rank = j->order + 3 * n;
@@ -60,90 +78,174 @@ static void count(const job *j, size_t i, double *counts)
     }
 }
 
-static koksma_status excesses(const void *context, const koksma_points *points, double *value, double *gradient)
+static koksma_status sort(job *j, const double *xs)
 {
-    const job *j = context;
-    const size_t n = j->n, stride = j->stride;
+    const size_t n = j->n;
     const koksma_run one_thread = {.threads = 1};
     for (size_t k = 0; k < 3; k++) {
-        const koksma_status status = koksma__order(&one_thread, n, points->xs + k, 3, j->order + k * n);
+        uint32_t *order = j->order + k * n;
+        const koksma_status status = koksma__order(&one_thread, n, xs + k, 3, order);
         if (status) {
             return status;
         }
         for (size_t i = 0; i < n; i++) {
-            j->x[k * stride + i] = points->xs[3 * j->order[k * n + i] + k];
-            j->order[(3 + k) * n + j->order[k * n + i]] = (uint32_t)i;
+            j->x[k * (n + 1) + i] = xs[3 * order[i] + k];
+            j->order[(3 + k) * n + order[i]] = (uint32_t)i;
         }
-        j->x[k * stride + n] = 1;
+        j->x[k * (n + 1) + n] = 1;
     }
-    memset(j->slopes, 0, 3 * stride * sizeof(double));
-    memset(j->open, 0, 2 * stride * stride * sizeof(double));
-    *value = 0;
     for (size_t i = 0; i <= n; i++) {
-        if (i > 0) {
-            count(j, i - 1, j->open);
-        }
-        if (i < n) {
-            count(j, i, j->closed);
-        }
-        add_corners(j, i, value);
-    }
-    const double scale = 2 * (double)n;
-    for (size_t k = 0; k < 3; k++) {
-        for (size_t i = 0; i < n; i++) {
-            gradient[3 * j->order[k * n + i] + k] = (k < 2 ? scale : 2) * j->slopes[k * stride + i];
-        }
+        j->z[i] = (float)j->x[2 * (n + 1) + i];
     }
     return KOKSMA_OK;
 }
 
-/* The point that is `steps` ranks after point i along axis k, or the last one. */
-static size_t after(const koksma_points *points, size_t i, size_t k, size_t steps)
+/* Lists the corners (i, b, any) with a difference above `limit` points; false if there is no room. Raises the largest. */
+static bool list_row(job *j, size_t i, size_t b, int16_t sign, double limit, double *largest)
 {
-    size_t at = i;
-    while (steps-- > 0) {
-        size_t next = at;
-        for (size_t p = 0; p < points->n; p++) {
-            const double x = points->xs[3 * p + k];
-            if (x > points->xs[3 * at + k] && (next == at || x < points->xs[3 * next + k])) {
-                next = p;
+    const size_t n = j->n, columns = (n + 1 + LANES - 1) / LANES * LANES;
+    const int16_t *counts = sign > 0 ? j->closed + (b + 1) * j->stride + 1 : j->open + b * j->stride;
+    const double area = (double)n * j->x[i] * j->x[n + 1 + b];
+    const float rounding = (float)n * 0x1p-21F;
+    const size_t found = koksma__kernels()->far_corners(columns, counts, j->z, sign, (float)(sign * area),
+                                                        fmaxf(0, (float)limit - rounding), j->found);
+    for (size_t f = 0; f < found; f++) {
+        const size_t c = j->found[f];
+        const double difference = sign * (counts[c] - area * j->x[2 * (n + 1) + c]);
+        *largest = fmax(*largest, difference);
+        if (j->listed == CAPACITY) {
+            return false;
+        }
+        j->corners[j->listed++] =
+            (corner){{(uint16_t)(i < n ? j->order[i] : n), (uint16_t)(b < n ? j->order[n + b] : n),
+                      (uint16_t)(c < n ? j->order[2 * n + c] : n)},
+                     counts[c],
+                     sign};
+    }
+    return true;
+}
+
+/* Lists the corners with a difference above `limit`; *value is the largest difference. Where they are too many, the limit
+   is raised, and where there are none, lowered. */
+static koksma_status list(job *j, koksma__descent *d, double limit, double *value)
+{
+    const size_t n = j->n;
+    const koksma_status status = sort(j, d->points.xs);
+    for (bool fits = false; !status && (!fits || j->listed == 0); limit *= fits ? 0.5 : 1.05) {
+        memset(j->open, 0, 2 * (n + 2) * j->stride * sizeof(int16_t));
+        j->listed = 0;
+        *value = 0;
+        fits = true;
+        for (size_t i = 0; i <= n && fits; i++) {
+            if (i > 0) {
+                count(j, i - 1, j->open);
+            }
+            if (i < n) {
+                count(j, i, j->closed);
+            }
+            for (size_t b = 0; b <= n && fits; b++) {
+                fits =
+                    list_row(j, i, b, 1, limit * (double)n, value) && list_row(j, i, b, -1, limit * (double)n, value);
             }
         }
-        at = next;
+        d->work += pow((double)n + 1, 3) / 12 + (double)j->listed;
     }
-    return at;
+    *value /= (double)n;
+    d->cost = 100 + 2 * (double)n + (double)j->listed / 2;
+    return status;
 }
 
-static void kick(koksma__descent *d, koksma_keep keep, koksma__stream *random)
+/* Whether a corner's box has a point inside along the axes but `but`. */
+static bool inside(const job *j, const corner *at, const double *xs, size_t point, size_t but)
 {
-    const bool swaps = keep == KOKSMA_KEEP_NONE && koksma__next_unit(random) < 0.7;
-    for (size_t m = 1 + koksma__next_below(random, swaps ? 4 : 3); m-- > 0;) {
-        const size_t i = koksma__next_below(random, d->points.n), k = koksma__next_below(random, 3);
-        double *x = d->points.xs + 3 * i;
-        for (size_t c = 0; c < 3 && !swaps; c++) {
-            x[c] = d->low[3 * i + c] + d->length * koksma__next_unit(random);
+    bool in = true;
+    for (size_t k = 0; k < 3; k++) {
+        const double side = at->at[k] < j->n ? xs[3 * at->at[k] + k] : 1;
+        in = in && (k == but || xs[3 * point + k] < side || (at->sign > 0 && xs[3 * point + k] == side));
+    }
+    return in;
+}
+
+/* E of the listed corners. */
+static koksma_status excesses(const void *context, const koksma_points *points, double *value, double *gradient)
+{
+    const job *j = context;
+    const size_t n = j->n;
+    const double *xs = points->xs, share = (double)n, limit = share * j->target;
+    static const double sides[3] = {1, 1, 1};
+    double sum = 0, unused[3];
+    memset(gradient, 0, 3 * n * sizeof *gradient);
+    for (size_t l = 0; l < j->listed; l++) {
+        const corner c = j->corners[l];
+        const double *x = c.at[0] < n ? xs + 3 * c.at[0] : sides, *y = c.at[1] < n ? xs + 3 * c.at[1] : sides,
+                     *z = c.at[2] < n ? xs + 3 * c.at[2] : sides;
+        const double e = c.sign * (c.count - share * x[0] * y[1] * z[2]) - limit;
+        if (e > 0) {
+            const double slope = -2 * c.sign * share * e;
+            sum += e * e;
+            *(c.at[0] < n ? gradient + 3 * c.at[0] : unused) += slope * y[1] * z[2];
+            *(c.at[1] < n ? gradient + 3 * c.at[1] + 1 : unused) += slope * x[0] * z[2];
+            *(c.at[2] < n ? gradient + 3 * c.at[2] + 2 : unused) += slope * x[0] * y[1];
         }
-        if (swaps) {
-            double *other = d->points.xs + 3 * after(&d->points, i, k, 1 + koksma__next_below(random, 3));
-            const double swapped = x[k];
-            x[k] = other[k];
-            other[k] = swapped;
+    }
+    *value = sum;
+    return KOKSMA_OK;
+}
+
+/* Exchanges a coordinate of a point that a corner's box begins or ends with and of a near one, which is on the other side
+   of that border but not in the box. */
+static void exchange(const job *j, double *xs, koksma__stream *random)
+{
+    const corner *at = &j->kept[koksma__next_below(random, j->n_kept)];
+    const size_t k = koksma__next_below(random, 3), point = at->at[k];
+    size_t skipped = koksma__next_below(random, 3);
+    double near = at->sign > 0 ? 2 : -1, from = point < j->n ? xs[3 * point + k] : 0;
+    for (size_t nearest = j->n; point<j->n; from = near, near = at->sign> 0 ? 2 : -1, nearest = j->n) {
+        for (size_t p = 0; p < j->n; p++) {
+            const double x = xs[3 * p + k];
+            if ((at->sign > 0 ? x > from && x < near : x < from && x > near) && !inside(j, at, xs, p, k)) {
+                near = x;
+                nearest = p;
+            }
+        }
+        if (nearest == j->n) {
+            return;
+        }
+        if (skipped-- == 0) {
+            xs[3 * nearest + k] = xs[3 * point + k];
+            xs[3 * point + k] = near;
+            return;
         }
     }
 }
 
-/* Leaves in d->points, of some starts, the one with the smallest E at the target. */
-static koksma_status start(koksma__descent *d, const koksma_points *points, koksma_keep keep, double *best,
-                           koksma__stream *random)
+static void kick(const job *j, koksma__descent *d, koksma_keep keep, koksma__stream *random)
 {
-    double least = HUGE_VAL, value;
+    if (keep == KOKSMA_KEEP_NONE && koksma__next_unit(random) < 0.8) {
+        exchange(j, d->points.xs, random);
+        return;
+    }
+    const size_t first = 3 * koksma__next_below(random, d->points.n);
+    for (size_t c = first; c < first + 3; c++) {
+        d->points.xs[c] = d->low[c] + d->length * koksma__next_unit(random);
+    }
+}
+
+/* Leaves in d->points, of some starts, the one with the least value. */
+static koksma_status start(job *j, koksma__descent *d, const koksma_points *points, koksma_keep keep, double *best,
+                           double value, koksma__stream *random)
+{
+    double least = HUGE_VAL, found;
     koksma_status status = KOKSMA_OK;
     for (int draw = 0; draw < DRAWS && !status; draw++) {
-        koksma__descent_start(d, points, keep, random);
-        status = excesses(d->context, &d->points, &value, d->gradient);
-        d->work += d->cost;
-        if (value < least) {
-            least = value;
+        if (keep == KOKSMA_KEEP_NONE) {
+            koksma__descent_kronecker(d, random);
+        } else {
+            koksma__descent_start(d, points, keep, random);
+        }
+        status = list(j, d, value, &found);
+        if (!status && found < least) {
+            least = found;
             memcpy(best, d->points.xs, d->count * sizeof(double));
         }
     }
@@ -152,55 +254,67 @@ static koksma_status start(koksma__descent *d, const koksma_points *points, koks
 }
 
 /* Descends at targets below the value; `lowest` and best have what was least. Ends early where that stays above cut. */
-static koksma_status follow(const koksma_spec *measure, koksma__descent *d, job *j, double cut, double *best,
-                            double *lowest)
+static koksma_status follow(job *j, koksma__descent *d, double cut, double *best, double *lowest)
 {
-    static const double shares[] = {0.95, 0.98, 0.99};
-    const koksma_run one_thread = {.threads = 1};
-    koksma_value value;
-    koksma_status status = koksma_evaluate(measure, &d->points, &one_thread, &value);
-    *lowest = value.value;
+    static const double shares[] = {0.95, 0.98, 0.99, 0.995, 0.998};
+    enum { SHARES = sizeof shares / sizeof *shares };
+    double value;
+    koksma_status status = list(j, d, fmin(*lowest, cut) * 0.9, &value);
+    *lowest = value;
     memcpy(best, d->points.xs, d->count * sizeof(double));
-    for (int failures = 0; !status && failures < 3 && (failures < 2 || *lowest <= cut) && d->work < d->budget;) {
+    for (int failures = 0;
+         !status && failures < SHARES && (failures < 2 || *lowest <= cut * 1.002) && d->work < d->budget;) {
         double left;
         j->target = fmin(*lowest, cut) * shares[failures];
         status = koksma__descend(d, ITERATIONS, &left);
-        status = status ? status : koksma_evaluate(measure, &d->points, &one_thread, &value);
-        const bool falls = !status && value.value < *lowest * (1 - 1e-4);
+        status = status ? status : list(j, d, fmin(*lowest, cut) * (2 * shares[failures] - 1), &value);
+        const bool falls = !status && value < *lowest * (1 - 1e-4);
         failures = !falls ? failures + 1 : failures > 1 ? failures - 1 : 0;
-        if (!status && value.value < *lowest) {
-            *lowest = value.value;
+        if (!status && value < *lowest) {
+            *lowest = value;
             memcpy(best, d->points.xs, d->count * sizeof(double));
         }
     }
     return status;
 }
 
-/* The walk; points has the best set, and then what is better. */
-static koksma_status wander(const koksma_spec *measure, koksma_keep keep, koksma__descent *d, job *j,
-                            koksma__stream *random, double value, double *best, koksma_points *points)
+/* The corners near the value of the walk's set, for kicks. */
+static koksma_status keep_corners(job *j, koksma__descent *d, const double *at, double value)
 {
-    const bool anew = koksma__next(random) % 2;
+    double found;
+    memcpy(d->points.xs, at, d->count * sizeof(double));
+    const koksma_status status = list(j, d, value * 0.99, &found);
+    memcpy(j->kept, j->corners, j->listed * sizeof(corner));
+    j->n_kept = j->listed;
+    return status;
+}
+
+/* The walk; points has the best set, and then what is better. */
+static koksma_status wander(koksma_keep keep, koksma__descent *d, job *j, koksma__stream *random, double value,
+                            double *best, koksma_points *points)
+{
+    const bool anew = koksma__next_below(random, 4) == 0;
     const double threshold = 1 + 0.01 * koksma__next_unit(random);
     const size_t bytes = d->count * sizeof(double);
     double *at = best + d->count, current = anew ? HUGE_VAL : value, lowest;
-    koksma_status status = KOKSMA_OK;
     memcpy(at, points->xs, bytes);
+    koksma_status status = anew ? KOKSMA_OK : keep_corners(j, d, at, value);
     for (int stale = 0; !status && d->work < d->budget; stale++) {
         if (anew && (current == HUGE_VAL || stale > STALE)) {
             stale = 0;
             current = HUGE_VAL;
-            j->target = value;
-            status = start(d, points, keep, best, random);
+            status = start(j, d, points, keep, best, value, random);
         } else {
             memcpy(d->points.xs, at, bytes);
-            kick(d, keep, random);
+            kick(j, d, keep, random);
         }
-        status = status ? status : follow(measure, d, j, current * threshold, best, &lowest);
+        lowest = value;
+        status = status ? status : follow(j, d, current * threshold, best, &lowest);
         if (!status && lowest <= current * threshold) {
             stale = lowest < current * (1 - 1e-4) ? 0 : stale;
             current = lowest;
             memcpy(at, best, bytes);
+            status = keep_corners(j, d, at, current);
         }
         if (!status && lowest < value) {
             value = lowest;
@@ -213,26 +327,28 @@ static koksma_status wander(const koksma_spec *measure, koksma_keep keep, koksma
 static koksma_status search(const koksma_spec *measure, koksma_keep keep, uint64_t seed, double value,
                             koksma_points *points)
 {
+    (void)measure;
     koksma__stream random = {.seed = seed};
     koksma__descent d;
-    const size_t n = points->n, stride = (n + 3 + 7) / 8 * 8 + 8;
-    const size_t bytes = ((6 + 2 * stride) * stride + 6 * n) * sizeof(double) + 6 * n * sizeof(uint32_t);
-    job j = {.n = n, .stride = stride, .x = calloc(1, bytes)};
-    if (!j.x) {
-        return koksma__fail_memory(bytes);
+    job j;
+    const size_t n = points->n, bytes = 6 * n * sizeof(double);
+    koksma_status status = job_init(&j, n);
+    double *best = status ? NULL : malloc(bytes); /* of a descent; then the walk's set */
+    if (!status && !best) {
+        status = koksma__fail_memory(bytes);
     }
-    j.slopes = j.x + 3 * stride;
-    j.open = j.slopes + 3 * stride;
-    j.closed = j.open + stride * stride;
-    double *best = j.closed + stride * stride; /* of a descent; then the walk's set */
-    j.order = (uint32_t *)(best + 6 * n);
-    koksma_status status = koksma__descent_init(&d, points, keep, true, pow((double)n + 1, 3) / 4 + 1000);
-    d.function = excesses;
-    d.context = &j;
-    d.budget *= 3;
-    status = status ? status : wander(measure, keep, &d, &j, &random, value, best, points);
-    koksma__descent_fini(&d);
-    free(j.x);
+    if (!status) {
+        status = koksma__descent_init(&d, points, keep, true, 0);
+        if (!status) {
+            d.function = excesses;
+            d.context = &j;
+            d.budget = fmax(1.5e7 + 6e5 * (double)n, 5 * pow((double)n + 1, 3));
+            status = wander(keep, &d, &j, &random, value, best, points);
+            koksma__descent_fini(&d);
+        }
+    }
+    free(best);
+    free(j.memory);
     return status;
 }
 
@@ -243,7 +359,7 @@ static int serves(const koksma_spec *measure, size_t n, int dim, koksma_keep kee
 
 const koksma_method koksma__method_star_space = {
     .name = "star-space",
-    .title = "descent of the excesses of all corners (star, 3D)",
+    .title = "descent of the excesses of corners near the largest (star, 3D)",
     .cite = "nocedal2006",
     .serves = serves,
     .search = search,

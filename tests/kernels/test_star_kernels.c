@@ -93,49 +93,12 @@ static void corners_equal_reference(void **state)
     }
 }
 
-static void excesses_equal_reference(void **state)
-{
-    (void)state;
-    enum { MOST = 64 };
-    const koksma__kernel_table *ref = koksma__kernels_find("ref");
-    double z[MOST], open[MOST], closed[MOST], a[MOST], b[MOST], sums_a[2], sums_b[2];
-    for (size_t blocks = 1; blocks <= MOST / 8; blocks++) {
-        for (size_t k = 0; k < MOST; k++) {
-            z[k] = sets_unit(blocks, k);
-            open[k] = floor(20 * sets_unit(blocks + 50, k));
-            closed[k] = open[k] + floor(4 * sets_unit(blocks + 60, k));
-        }
-        for (size_t isa = 0; isa < 3; isa++) {
-            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
-            for (size_t k = 0; k < MOST; k++) {
-                a[k] = b[k] = z[k] - 0.5;
-            }
-            ref->corner_excesses(blocks, 25.5, 1.3, z, open, closed, a, sums_a);
-            double square = 0, by_area = 0;
-            for (size_t k = 0; k < 8 * blocks; k++) { /* the definition */
-                const double v = 25.5 * z[k], e = fmax(0, v - open[k] - 1.3) - fmax(0, closed[k] - v - 1.3);
-                assert_near(a[k], z[k] - 0.5 + 25.5 * e, 1e-12);
-                square += e * e;
-                by_area += e * z[k];
-            }
-            assert_near(sums_a[0], square, 1e-9);
-            assert_near(sums_a[1], by_area, 1e-9);
-            if (fast) {
-                fast->corner_excesses(blocks, 25.5, 1.3, z, open, closed, b, sums_b);
-                assert_memory_equal(a, b, sizeof a);
-                assert_memory_equal(sums_a, sums_b, sizeof sums_a);
-            }
-        }
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweep_equals_reference),
         cmocka_unit_test(partition_equals_reference),
         cmocka_unit_test(corners_equal_reference),
-        cmocka_unit_test(excesses_equal_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
