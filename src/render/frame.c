@@ -66,6 +66,13 @@ static int depth_of(const koksma_render_options *options)
     return options->depth < 0 ? options->integrator->depth : options->depth;
 }
 
+koksma_light_selection koksma__light_selection(const koksma_scene *scene, const koksma_render_options *options)
+{
+    const koksma__integrator_flags *flags = options->integrator->flags;
+    const bool many = scene->n_lights > KOKSMA__FEW_LIGHTS && flags->followed & KOKSMA__LOBE_DIFFUSE;
+    return options->lights != KOKSMA_LIGHTS_AUTO ? options->lights : many ? KOKSMA_LIGHTS_ONE : KOKSMA_LIGHTS_ALL;
+}
+
 koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_render_options *options)
 {
     const koksma__integrator_flags *flags = options->integrator->flags;
@@ -73,7 +80,7 @@ koksma__use_list koksma__frame_uses(const koksma_scene *scene, const koksma_rend
     for (size_t i = 0; i < scene->n_materials; i++) {
         lobes |= scene->materials[i].bsdf->lobes;
     }
-    const bool one = options->lights != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
+    const bool one = koksma__light_selection(scene, options) != KOKSMA_LIGHTS_ALL && scene->n_lights > 0;
     const int lights = one ? 1 : (int)scene->n_lights;
     return (koksma__use_list){.lens = scene->camera.lens_radius > 0,
                               .time = scene->moves,
@@ -182,6 +189,8 @@ koksma_status koksma__frame_open(const koksma_scene *scene, const koksma_render_
     KOKSMA__TRY(check(options));
     out->flags = options->integrator->flags;
     out->depth = depth_of(options);
+    out->light_selection = koksma__light_selection(scene, options);
+    out->together = KOKSMA__BLOCK;
     out->channels = scene->grey ? 1 : 3;
     out->batch = koksma__batch();
     return make_frame(out, run);
