@@ -13,7 +13,7 @@
 #include "render/filters/filters.h"
 #include "render/frustum_cull.h"
 #include "render/integrators/integrator_flags.h"
-#include "render/lights/lights.h"
+#include "render/pipelines/vertices.h"
 #include "render/samples/sampler.h"
 
 typedef struct koksma__frame {
@@ -33,6 +33,8 @@ typedef struct koksma__frame {
     koksma__lights lights;
     koksma__batch_material *materials;
     koksma__shading_material *shading_materials;
+    koksma__lane_materials lane_materials;
+    float background[3];
     koksma__filter_table *filter; /* NULL: box */
     void *cache;                  /* the integrator's own */
 } koksma__frame;

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "render/lights/surface_lights.h"
@@ -43,27 +44,50 @@ static double accumulate(const float *weights, size_t n, float *cdf)
     return total;
 }
 
+/* n + 1 numbers in whole steps, and one more. */
+static size_t padded(size_t n)
+{
+    return (n / KOKSMA__ENVIRONMENT_STEP + 2) * KOKSMA__ENVIRONMENT_STEP;
+}
+
+/* Fills what lies behind n + 1 cumulative numbers, and takes out the coarse ones. */
+static void finish(float *cdf, size_t n, float *coarse)
+{
+    for (size_t i = n + 1; i < padded(n); i++) {
+        cdf[i] = 2;
+    }
+    for (size_t i = 0; i < padded(n) / KOKSMA__ENVIRONMENT_STEP; i++) {
+        coarse[i] = cdf[i * KOKSMA__ENVIRONMENT_STEP];
+    }
+}
+
 static koksma_status tabulate(const koksma_image *image, koksma__environment *e)
 {
-    const size_t width = (size_t)image->width, height = (size_t)image->height;
+    const size_t width = (size_t)image->width, height = (size_t)image->height, stride = padded(width);
     float *weights = malloc((width + height) * sizeof *weights), *rows = weights ? weights + width : NULL;
-    e->row_cdf = malloc((height + 1) * sizeof *e->row_cdf);
-    e->column_cdf = malloc(height * (width + 1) * sizeof *e->column_cdf);
-    if (!weights || !e->row_cdf || !e->column_cdf) {
+    e->stride = stride;
+    e->row_cdf = malloc(padded(height) * sizeof *e->row_cdf);
+    e->row_coarse = malloc(padded(height) / KOKSMA__ENVIRONMENT_STEP * sizeof *e->row_coarse);
+    e->column_cdf = malloc(height * stride * sizeof *e->column_cdf);
+    e->column_coarse = malloc(height * stride / KOKSMA__ENVIRONMENT_STEP * sizeof *e->column_coarse);
+    if (!weights || !e->row_cdf || !e->row_coarse || !e->column_cdf || !e->column_coarse) {
         free(weights);
-        return koksma__fail_memory(height * (width + 1) * sizeof *e->column_cdf);
+        return koksma__fail_memory(height * stride * sizeof *e->column_cdf);
     }
     double sines = 0;
     for (size_t y = 0; y < height; y++) {
+        float *columns = e->column_cdf + y * stride;
         for (size_t x = 0; x < width; x++) {
             float rgb[3];
             pixel(image, y * width + x, rgb);
             weights[x] = koksma__luminance3(rgb);
         }
-        rows[y] = (float)(accumulate(weights, width, e->column_cdf + y * (width + 1)) * (double)row_sine(image, y));
+        rows[y] = (float)(accumulate(weights, width, columns) * (double)row_sine(image, y));
+        finish(columns, width, e->column_coarse + y * stride / KOKSMA__ENVIRONMENT_STEP);
         sines += (double)row_sine(image, y);
     }
     const double total = accumulate(rows, height, e->row_cdf);
+    finish(e->row_cdf, height, e->row_coarse);
     e->mean = (float)(total / (sines * (double)width)) * koksma__luminance3(e->radiance);
     free(weights);
     return KOKSMA_OK;
@@ -95,9 +119,7 @@ koksma_status koksma__environment_open(const koksma__light *light, koksma__envir
 void koksma__environment_close(koksma__environment *e)
 {
     if (e) {
-        free(e->row_cdf);
-        free(e->column_cdf);
-        free(e);
+        KOKSMA__FREE(e->row_cdf, e->row_coarse, e->column_cdf, e->column_coarse, e);
     }
 }
 
@@ -131,7 +153,7 @@ float koksma__environment_sample(const koksma__environment *e, const float u[2],
         float in_row, in_column;
         const float v = (y - KOKSMA__ENVIRONMENT_FLOOR) / (1 - KOKSMA__ENVIRONMENT_FLOOR);
         const size_t row = find(e->row_cdf, (size_t)e->height, v, &in_row);
-        const size_t column = find(e->column_cdf + row * (width + 1), width, x, &in_column);
+        const size_t column = find(e->column_cdf + row * e->stride, width, x, &in_column);
         x = ((float)column + in_column) / (float)width;
         y = ((float)row + in_row) / (float)e->height;
     }

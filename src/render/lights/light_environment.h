@@ -6,6 +6,8 @@
 #include "render/lanes3.h"
 #include "render/lights/lights.h"
 
+enum { KOKSMA__ENVIRONMENT_STEP = 16 }; /* numbers of a cumulative table between coarse ones */
+
 /* The share of samples that are uniform over the sphere. */
 #define KOKSMA__ENVIRONMENT_FLOOR 0.01f
 
@@ -16,7 +18,10 @@ typedef struct koksma__environment {
     int32_t width, height;
     float turn; /* as a part of a full turn */
     float mean;
-    float *row_cdf, *column_cdf; /* height + 1; height rows of width + 1 */
+    /* Cumulative tables, of `height` rows and of `width` columns in each row: row r's at column_cdf + r stride, as the
+       rows' own are. Numbers above 1 fill whole strides of 16 and one more. coarse: every 16th number. */
+    float *row_cdf, *column_cdf, *row_coarse, *column_coarse;
+    size_t stride;
 } koksma__environment;
 
 /* Where a direction is in the image, and its sine with the vertical. */
@@ -45,7 +50,7 @@ KOKSMA__INLINE koksma__texel koksma__environment_texel(const koksma__environment
 /* The density of the directions in a texel. */
 KOKSMA__INLINE float koksma__environment_texel_pdf(const koksma__environment *e, koksma__texel t)
 {
-    const float *columns = e->column_cdf + (size_t)t.row * (size_t)(e->width + 1) + t.column,
+    const float *columns = e->column_cdf + (size_t)t.row * e->stride + (size_t)t.column,
                 *rows = e->row_cdf + t.row;
     const float cell = (rows[1] - rows[0]) * (columns[1] - columns[0]) * ((float)e->width * (float)e->height);
     const float image = cell / (2 * 3.14159265358979f * 3.14159265358979f * (t.sine > 1e-6f ? t.sine : 1e-6f));

@@ -128,6 +128,9 @@ struct koksma__surfaces;
 struct koksma__light_lanes;
 struct koksma__beams;
 struct koksma__directions;
+struct koksma__lens;
+struct koksma__vertices;
+struct koksma__paths;
 struct koksma__environment;
 
 typedef struct koksma__batch_table {

@@ -156,47 +156,61 @@ static void look_around(const koksma__environment *e, const koksma__lanes *restr
     }
 }
 
-/* The cells of a cumulative table at `tables`, one a lane, that hold u, and where in them: binary searches in step. */
-static void find(const float **tables, int32_t cells, const float *u, int n, int32_t *found, float *within)
+/* Cumulative tables, one a lane, with their coarse numbers. */
+typedef struct tables {
+    const float *cdf[KOKSMA__BLOCK], *coarse[KOKSMA__BLOCK];
+} tables;
+
+/* The cells of n tables of this many cells that hold u, and where in them: binary searches of the coarse numbers in
+   step, whose misses of the cache overlap, and then how many of the 15 numbers after are not above u. */
+static void find(const tables *t, int32_t cells, const float *u, int n, int32_t *found, float *within)
 {
     KOKSMA__LANES(int32_t, high);
+    const int32_t steps = (cells + KOKSMA__ENVIRONMENT_STEP - 1) / KOKSMA__ENVIRONMENT_STEP;
     for (int i = 0; i < n; i++) {
         found[i] = 0;
-        high[i] = cells;
+        high[i] = steps;
     }
-    for (int32_t left = cells; left > 1; left -= left / 2) {
+    for (int32_t left = steps; left > 1; left -= left / 2) {
         for (int i = 0; i < n; i++) {
             const int32_t middle = (found[i] + high[i]) / 2;
-            const bool above = tables[i][middle] <= u[i];
+            const bool above = t->coarse[i][middle] <= u[i];
             found[i] = above ? middle : found[i];
             high[i] = above ? high[i] : middle;
         }
     }
     for (int i = 0; i < n; i++) {
-        const float *cell = tables[i] + found[i];
-        const float size = cell[1] - cell[0], part = size > 0 ? (u[i] - cell[0]) / size : 0.5f;
+        const float *step = t->cdf[i] + (size_t)found[i] * KOKSMA__ENVIRONMENT_STEP, at = u[i];
+        int32_t passed = 0;
+        for (int k = 1; k < KOKSMA__ENVIRONMENT_STEP; k++) {
+            passed += step[k] <= at;
+        }
+        found[i] = found[i] * KOKSMA__ENVIRONMENT_STEP + passed;
+        const float size = step[passed + 1] - step[passed], part = size > 0 ? (at - step[passed]) / size : 0.5f;
         within[i] = part < 1 ? part : 1 - 0x1p-24f;
     }
 }
 
-/* Positions in the image by importance; lanes that sample all directions alike are not set. */
+/* Positions in the image by importance; lanes that sample all directions alike have any. */
 static void place(const koksma__environment *e, const koksma__lanes *restrict u, int n, float *restrict x,
                   float *restrict y)
 {
-    const float *tables[KOKSMA__BLOCK] = {0};
+    tables t = {0};
     KOKSMA__LANES(int32_t, rows);
     KOKSMA__LANES(int32_t, columns);
     _Alignas(64) koksma__lanes part = {0}, in_row, in_column;
     for (int i = 0; i < n; i++) {
         const float v = (u[1][i] - KOKSMA__ENVIRONMENT_FLOOR) / (1 - KOKSMA__ENVIRONMENT_FLOOR);
         part[i] = v > 0 ? v : 0;
-        tables[i] = e->row_cdf;
+        t.cdf[i] = e->row_cdf;
+        t.coarse[i] = e->row_coarse;
     }
-    find(tables, e->height, part, n, rows, in_row);
+    find(&t, e->height, part, n, rows, in_row);
     for (int i = 0; i < n; i++) {
-        tables[i] = e->column_cdf + (size_t)rows[i] * (size_t)(e->width + 1);
+        t.cdf[i] = e->column_cdf + (size_t)rows[i] * e->stride;
+        t.coarse[i] = e->column_coarse + (size_t)rows[i] * e->stride / KOKSMA__ENVIRONMENT_STEP;
     }
-    find(tables, e->width, u[0], n, columns, in_column);
+    find(&t, e->width, u[0], n, columns, in_column);
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         x[i] = ((float)columns[i] + in_column[i]) / (float)e->width;

@@ -14,54 +14,58 @@
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
-static void look_up(const koksma__batch_material *patterns, const koksma__hits *h, int n, koksma__surfaces *s)
+/* Which of a checker's albedos the lanes have: 1 in every other square. */
+static void find_squares(const koksma__lane_materials *t, const koksma__hits *restrict h, const int32_t *restrict at,
+                         int n, int32_t *restrict odd)
 {
-    for (int i = 0; i < n; i++) {
-        const int32_t number = h->primitive[i] >= 0 ? h->material[i] : -1;
-        if (number < 0) {
-            s->form[i] = KOKSMA__UNLIT;
-            s->albedo[0][i] = s->albedo[1][i] = s->albedo[2][i] = 0;
-            s->diffuse[i] = s->parameters[3][i] = 1;
-            s->parameters[0][i] = s->parameters[1][i] = s->parameters[2][i] = 0;
-            continue;
-        }
-        const koksma__shading_material *m = &s->materials[number];
-        const koksma__batch_material *pattern = &patterns[number];
-        int which = 0;
-        if (pattern->checker) {
-            const float u = h->u[i], v = h->v[i];
-            const float half = 0.5f * (floorf(pattern->su * u + pattern->sv * v + pattern->s0) +
-                                       floorf(pattern->tu * u + pattern->tv * v + pattern->t0));
-            which = half != floorf(half);
-        }
-        s->form[i] = (int32_t)m->bsdf->form;
-        s->forms |= 1u << m->bsdf->form;
-        s->lobes |= m->bsdf->lobes;
-        s->takes_choice |= m->bsdf->takes_choice;
-        s->has_images |= m->image != NULL;
-        for (int k = 0; k < 3; k++) {
-            s->albedo[k][i] = m->albedo[which][k];
-        }
-        for (int k = 0; k < 4; k++) {
-            s->parameters[k][i] = m->values[k];
-        }
-        s->diffuse[i] = m->derived;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int32_t m = at[i];
+        const float u = t->u[0][m] * h->u[i] + t->u[1][m] * h->v[i] + t->u[2][m];
+        const float v = t->v[0][m] * h->u[i] + t->v[1][m] * h->v[i] + t->v[2][m];
+        const float half = 0.5f * (floorf(u) + floorf(v));
+        odd[i] = half != floorf(half);
     }
 }
 
-void BATCH_NAME(surfaces)(const koksma__batch_material *patterns, const koksma__rays *rays, int n,
-                          struct koksma__surfaces *restrict s)
+void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, struct koksma__surfaces *restrict s)
 {
-    s->forms = s->lobes = 0;
-    s->takes_choice = s->has_images = false;
+    const koksma__lane_materials *t = s->table;
+    const koksma__hits *restrict h = s->hits;
+    KOKSMA__LANES(int32_t, at);
+    KOKSMA__LANES(int32_t, odd);
+    int32_t traits = 0;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const koksma__v3 out = koksma__v3_unit((koksma__v3){-rays->dx[i], -rays->dy[i], -rays->dz[i]});
         s->out[0][i] = out.x;
         s->out[1][i] = out.y;
         s->out[2][i] = out.z;
+        at[i] = (h->primitive[i] >= 0) & (i < lanes) ? h->material[i] + 1 : 0;
+        odd[i] = 0;
     }
-    look_up(patterns, s->hits, n, s);
+    for (int i = 0; i < STEP(n); i++) {
+        s->form[i] = t->form[at[i]];
+        traits |= t->traits[at[i]];
+    }
+    s->traits = (unsigned)traits;
+    if (traits & KOKSMA__IS_CHECKER) {
+        find_squares(t, h, at, n, odd);
+    }
+    for (int k = 0; k < 3; k++) {
+        const float *even = t->albedo[0][k], *other = t->albedo[1][k];
+        for (int i = 0; i < STEP(n); i++) {
+            s->albedo[k][i] = odd[i] ? other[at[i]] : even[at[i]];
+        }
+    }
+    for (int k = 0; traits & (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_FACETS) && k < 4; k++) {
+        for (int i = 0; i < STEP(n); i++) {
+            s->parameters[k][i] = t->parameters[k][at[i]];
+        }
+    }
+    for (int i = 0; traits & 1 << KOKSMA__FORM_LOBES && i < STEP(n); i++) {
+        s->diffuse[i] = t->diffuse[at[i]];
+    }
 }
 
 /* ---- Values --------------------------------------------------------------------------------------------------- */
@@ -150,17 +154,20 @@ static void ray_values(const koksma__surfaces *s, const koksma__lanes *w, unsign
 
 static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned lobes, int n, koksma__bsdf_values *out)
 {
-    memset(out, 0, sizeof *out);
-    if (s->forms & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        out->value[0][i] = out->value[1][i] = out->value[2][i] = out->pdf[i] = 0;
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
         lambert_values(s, w, n, out);
     }
-    if (s->forms & 1u << KOKSMA__FORM_LOBES) {
+    if (s->traits & 1u << KOKSMA__FORM_LOBES) {
         lobe_values(s, w, lobes, n, out);
     }
-    if (s->forms & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
+    if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
         facet_values(s, w, n, out);
     }
-    if (s->forms & 1u << KOKSMA__FORM_RAYS) {
+    if (s->traits & 1u << KOKSMA__FORM_RAYS) {
         ray_values(s, w, lobes, n, out);
     }
 }
@@ -190,12 +197,15 @@ int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__l
     const unsigned shown = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY; /* specular lobes have no value */
     koksma__bsdf_values found;
     int lit = 0;
-    memset(reflected, 0, 3 * sizeof *reflected);
-    if (shown & ~followed & s->lobes) {
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        reflected[0][i] = reflected[1][i] = reflected[2][i] = 0;
+    }
+    if (shown & ~followed & koksma__lobes_of(s)) {
         values(s, b->w, shown & ~followed, n, &found);
         weigh(l, b, &found, false, n, reflected);
     }
-    if (shown & followed & s->lobes) {
+    if (shown & followed & koksma__lobes_of(s)) {
         values(s, b->w, shown & followed, n, &found);
         weigh(l, b, &found, goes_on, n, reflected);
     }
@@ -301,17 +311,22 @@ static void ray_directions(const koksma__surfaces *s, unsigned lobes, const koks
 void BATCH_NAME(scatter)(const struct koksma__surfaces *s, unsigned lobes, const float (*u)[KOKSMA__BLOCK], int n,
                          struct koksma__directions *to)
 {
-    memset(to, 0, sizeof *to);
-    if (s->forms & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        to->w[0][i] = to->w[1][i] = to->w[2][i] = to->pdf[i] = 0;
+        to->weight[0][i] = to->weight[1][i] = to->weight[2][i] = 0;
+        to->kept[i] = 0;
+    }
+    if (s->traits & 1u << KOKSMA__FORM_LAMBERT && lobes & KOKSMA__LOBE_DIFFUSE) {
         lambert_directions(s, u, n, to);
     }
-    if (s->forms & 1u << KOKSMA__FORM_LOBES && lobes & (KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY)) {
+    if (s->traits & 1u << KOKSMA__FORM_LOBES && lobes & (KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY)) {
         lobe_directions(s, lobes, u, n, to);
     }
-    if (s->forms & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
+    if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
         facet_directions(s, u, n, to);
     }
-    if (s->forms & 1u << KOKSMA__FORM_RAYS) {
+    if (s->traits & 1u << KOKSMA__FORM_RAYS) {
         ray_directions(s, lobes, u, n, to);
     }
 }

@@ -11,12 +11,22 @@ typedef float koksma__lanes[KOKSMA__BLOCK];
 
 enum { KOKSMA__UNLIT = -1 }; /* the form of a lane that met nothing, or a light */
 
+/* Traits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and others. */
+enum { KOKSMA__LOBES_AT = 8, KOKSMA__TAKES_CHOICE = 1 << 16, KOKSMA__HAS_IMAGE = 1 << 17, KOKSMA__IS_CHECKER = 1 << 18 };
+
+/* What blocks look up of materials, an array a number, by the material's index + 1; entry 0 is no material. */
+typedef struct koksma__lane_materials {
+    int32_t *form, *traits;
+    float *albedo[2][3], *parameters[4], *diffuse;
+    float *u[3], *v[3]; /* of a checker, at (u, v): floor(u[0] u + u[1] v + u[2]), and the same of v */
+} koksma__lane_materials;
+
 /* The surfaces that rays hit, seen from where these came. */
 typedef struct koksma__surfaces {
     const koksma__hits *hits;
     const koksma__shading_material *materials; /* by hits->material */
-    unsigned forms, lobes;                     /* 1 << form of each that there is; all lobes */
-    bool takes_choice, has_images;             /* of any */
+    const koksma__lane_materials *table;       /* the same in arrays */
+    unsigned traits;                           /* of all, ored */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
@@ -56,6 +66,37 @@ typedef struct koksma__beams {
     KOKSMA__LANES(int32_t, lit);
     KOKSMA__LANES(int32_t, visible);
 } koksma__beams;
+
+/* A block of paths, in lanes. */
+typedef struct koksma__paths {
+    koksma__rays rays;
+    _Alignas(64) koksma__lanes beta[3];
+    _Alignas(64) koksma__lanes n[3];
+    _Alignas(64) koksma__lanes pdf;
+    KOKSMA__LANES(int32_t, from);
+    KOKSMA__LANES(uint32_t, sample);
+} koksma__paths;
+
+/* A block of vertices, at the ends of a block of paths. */
+typedef struct koksma__vertices {
+    const koksma__paths *paths;
+    int n, whole;
+    bool moves, chooses; /* the times of paths are read; the normals that they leave, for choosing a light */
+    koksma__hits hits;
+    koksma__surfaces surfaces;           /* form KOKSMA__UNLIT: a miss, a light, or beyond n */
+    _Alignas(64) koksma__lanes light[3]; /* that the paths carry to their samples from here */
+} koksma__vertices;
+
+/* What the camera has beside koksma__batch_camera: a lens, whose points are offsets from its centre in units of its
+   radius; a shutter; and where the eye goes in a unit of time. */
+typedef struct koksma__lens {
+    float radius, focus, right[3], down[3], motion[3], open, interval;
+} koksma__lens;
+
+static inline unsigned koksma__lobes_of(const koksma__surfaces *s)
+{
+    return s->traits >> KOKSMA__LOBES_AT & 0xff;
+}
 
 /* Surface i, ray by ray. */
 static inline koksma__surface koksma__surface_at(const koksma__surfaces *s, int i)

@@ -33,6 +33,7 @@
 #include <string.h>
 
 #include <koksma/image.h>
+#include <koksma/warp.h>
 
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
@@ -79,47 +80,75 @@ enum { TOGETHER = 1024 }; /* samples that are followed together: bounds the queu
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
 
-static void aim(const koksma__frame *frame, const float film[2], const float lens[2], float time, koksma__path *path)
+static koksma__lens lens_of(const koksma__camera *camera)
 {
-    const koksma__batch_camera *c = &frame->camera;
-    const koksma__camera *camera = &frame->scene->camera;
-    double offset[2] = {0, 0};
-    if (lens) {
-        const double square[2] = {(double)lens[0], (double)lens[1]};
-        camera->lens_map->map(square, offset);
-    }
-    const float radius = (float)camera->lens_radius, focus = (float)camera->focus_distance;
+    koksma__lens lens = {.radius = (float)camera->lens_radius,
+                         .focus = (float)camera->focus_distance,
+                         .open = (float)camera->shutter[0],
+                         .interval = (float)(camera->shutter[1] - camera->shutter[0])};
     for (int k = 0; k < 3; k++) {
-        const float d = c->base[k] + film[0] * c->step_x[k] + film[1] * c->step_y[k];
-        const float shift =
-            radius * ((float)offset[0] * (float)camera->right[k] + (float)offset[1] * (float)camera->down[k]);
-        path->o[k] = c->eye[k] + time * (float)camera->motion[k] + shift;
-        path->d[k] = lens ? d - shift / focus : d;
-        path->beta[k] = 1;
+        lens.right[k] = (float)camera->right[k];
+        lens.down[k] = (float)camera->down[k];
+        lens.motion[k] = (float)camera->motion[k];
     }
-    path->time = time;
+    return lens;
 }
 
+/* Points on the lens of radius 1. */
+static void map_to_lens(const koksma__frame *frame, const float *pairs, int n, koksma__lanes x, koksma__lanes y)
+{
+    const koksma_warp *map = frame->scene->camera.lens_map;
+    for (int i = 0; i < n; i++) {
+        x[i] = pairs[2 * i];
+        y[i] = pairs[2 * i + 1];
+    }
+    if (map == koksma_warp_find("concentric-disk")) {
+        frame->batch->to_disk(n, x, y);
+        return;
+    }
+    for (int i = 0; i < n; i++) {
+        const double square[2] = {(double)x[i], (double)y[i]};
+        double disk[2];
+        map->map(square, disk);
+        x[i] = (float)disk[0];
+        y[i] = (float)disk[1];
+    }
+}
+
+/* Paths from the eye; positions, lens points and times have copies up to whole lanes. */
 static koksma_status start_paths(const koksma__trace *trace, const koksma__values *values, size_t first, size_t end)
 {
     const koksma__frame *frame = trace->frame;
     const koksma__camera *camera = &frame->scene->camera;
-    const float *lens = NULL, *times = NULL;
-    koksma_status status = KOKSMA_OK;
+    const koksma__lens lens = lens_of(camera);
+    koksma__queue *queue = &trace->scratch->queues[0];
+    const float *points = NULL, *times = NULL;
     if (camera->lens_radius > 0) {
-        status = koksma__wavefront_draw(trace, KOKSMA__USE_LENS, &lens);
+        KOKSMA__TRY(koksma__wavefront_draw(trace, KOKSMA__USE_LENS, &points));
     }
-    if (!status && frame->scene->moves) {
-        status = koksma__wavefront_draw(trace, KOKSMA__USE_TIME, &times);
+    if (frame->scene->moves) {
+        KOKSMA__TRY(koksma__wavefront_draw(trace, KOKSMA__USE_TIME, &times));
     }
-    const float open = (float)camera->shutter[0], interval = (float)(camera->shutter[1] - camera->shutter[0]);
-    for (size_t i = first; !status && i < end; i++) {
-        koksma__path path = {.from = -1, .sample = (uint32_t)i};
-        aim(frame, values->film + 2 * i, lens ? lens + 2 * i : NULL, times ? open + interval * times[2 * i] : open,
-            &path);
-        status = koksma__wavefront_push(&trace->scratch->queues[0], &path);
+    for (size_t start = first; start < end; start += KOKSMA__BLOCK) {
+        const int n = (int)(end - start < KOKSMA__BLOCK ? end - start : KOKSMA__BLOCK);
+        const int whole = (int)koksma__whole_lanes((size_t)n);
+        _Alignas(64) koksma__lanes x, y, u;
+        KOKSMA__TRY(koksma__wavefront_reserve(queue));
+        koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
+        if (points) {
+            map_to_lens(frame, points + 2 * start, whole, x, y);
+        }
+        for (int i = 0; times && i < whole; i++) {
+            u[i] = times[2 * (start + (size_t)i)];
+        }
+        frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
+                            whole, to);
+        for (int i = 0; i < whole; i++) {
+            to->sample[i] = (uint32_t)(start + (size_t)(i < n ? i : n - 1));
+        }
+        queue->n += (size_t)n;
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- What rays meet ------------------------------------------------------------------------------------- */
@@ -148,17 +177,10 @@ static void add_scaled(koksma__vertices *v, int i, const float value[3], float s
     }
 }
 
-/* Of the rays that hit nothing: the background, and the environment. */
+/* What environments send against the rays that hit nothing. */
 static void add_misses(const koksma__frame *frame, koksma__vertices *v)
 {
-    const float background[3] = {(float)frame->scene->background[0], (float)frame->scene->background[1],
-                                 (float)frame->scene->background[2]};
     const koksma__lights *lights = &frame->lights;
-    for (int i = 0; i < v->n; i++) {
-        if (v->hits.primitive[i] < 0) {
-            add_scaled(v, i, background, 1);
-        }
-    }
     for (size_t l = lights->first_around; l < lights->n; l++) {
         const koksma__shading_light *light = &lights->lights[l];
         _Alignas(64) koksma__lanes radiance[3], pdf;
@@ -259,90 +281,42 @@ static koksma_status branch(const koksma__trace *trace, const koksma__vertices *
 /* The pairs that the lanes' directions take: (u[0], u[1]), and u[2] for the choice of a lobe. */
 static koksma_status draw_directions(const koksma__trace *trace, const koksma__vertices *v, koksma__lanes u[3])
 {
-    const unsigned lobes = v->surfaces.lobes & trace->frame->flags->followed;
+    const unsigned lobes = koksma__lobes_of(&v->surfaces) & trace->frame->flags->followed;
     const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
     const float *us;
     memset(u, 0, 3 * sizeof *u);
     if (lobes & ~(unsigned)KOKSMA__LOBE_SPECULAR) {
         KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE, &us));
-        for (int i = 0; i < v->n; i++) {
-            u[0][i] = us[2 * v->paths->sample[i]];
-            u[1][i] = us[2 * v->paths->sample[i] + 1];
-        }
+        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[0], u[1]);
     }
-    if (v->surfaces.takes_choice) {
+    if (v->surfaces.traits & KOKSMA__TAKES_CHOICE) {
         KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &us));
-        for (int i = 0; i < v->n; i++) {
-            u[2][i] = us[2 * v->paths->sample[i]];
-        }
+        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[2], NULL);
     }
     return KOKSMA_OK;
 }
 
-/* Ends some of the paths at random, whose weights beta are below 1; the others get brighter. A path that has lost
-   nothing goes on: ending it would only add variance. */
-static koksma_status play_roulette(const koksma__trace *trace, const koksma__vertices *v, koksma__directions *to,
-                                   koksma__lanes beta[3])
+/* Ends some of the paths at random, whose weights are below 1; the others get brighter. A path that has lost nothing
+   goes on: ending it would only add variance. */
+static koksma_status play_roulette(const koksma__trace *trace, const koksma__vertices *v, koksma__directions *to)
 {
-    const float *ends = NULL;
-    for (int i = 0; i < v->n; i++) {
-        const float weights[3] = {beta[0][i], beta[1][i], beta[2][i]}, survival = koksma__max3(weights);
-        if (!to->kept[i] || !(survival < 1)) {
-            continue;
-        }
-        if (!ends) {
-            const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
-            KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends));
-        }
-        to->kept[i] = ends[2 * v->paths->sample[i]] < survival;
-        for (int k = 0; k < 3; k++) {
-            beta[k][i] *= 1 / survival;
-        }
-    }
-    return KOKSMA_OK;
-}
-
-/* The paths that go on. Those that start on a diffuse surface (of a record of the irradiance cache) see no lights in
-   mirrors. */
-static koksma_status go_on(const koksma__trace *trace, const koksma__vertices *v, const koksma__directions *to,
-                           const koksma__lanes beta[3])
-{
-    const koksma__hits *h = &v->hits;
-    koksma__queue *queue = trace->next;
-    const float specular = trace->first > 0 ? -1 : 0;
-    KOKSMA__TRY(koksma__wavefront_reserve(queue));
-    for (int i = 0; i < v->n; i++) {
-        if (!to->kept[i] || !(beta[0][i] > 0 || beta[1][i] > 0 || beta[2][i] > 0)) {
-            continue;
-        }
-        koksma__paths *next = &queue->blocks[queue->n / KOKSMA__BLOCK];
-        const size_t j = queue->n++ % KOKSMA__BLOCK;
-        next->rays.ox[j] = h->px[i];
-        next->rays.oy[j] = h->py[i];
-        next->rays.oz[j] = h->pz[i];
-        next->rays.dx[j] = to->w[0][i];
-        next->rays.dy[j] = to->w[1][i];
-        next->rays.dz[j] = to->w[2][i];
-        next->rays.time[j] = v->paths->rays.time[i];
-        next->n[0][j] = h->nx[i];
-        next->n[1][j] = h->ny[i];
-        next->n[2][j] = h->nz[i];
-        next->beta[0][j] = beta[0][i];
-        next->beta[1][j] = beta[1][i];
-        next->beta[2][j] = beta[2][i];
-        next->pdf[j] = to->pdf[i] > 0 ? to->pdf[i] : specular;
-        next->from[j] = h->primitive[i];
-        next->sample[j] = v->paths->sample[i];
-    }
+    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
+    const float *ends;
+    _Alignas(64) koksma__lanes u;
+    KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends));
+    trace->frame->batch->pairs(ends, v->paths->sample, v->whole, u, NULL);
+    trace->frame->batch->roulette(u, v->whole, to);
     return KOKSMA_OK;
 }
 
 static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 {
     const koksma__integrator_flags *flags = trace->frame->flags;
+    const koksma__batch_table *batch = trace->frame->batch;
+    koksma__queue *queue = trace->next;
     koksma__directions to;
-    _Alignas(64) koksma__lanes u[3], beta[3];
-    if (!(flags->followed & v->surfaces.lobes) || trace->bounce >= trace->frame->depth) {
+    _Alignas(64) koksma__lanes u[3];
+    if (!(flags->followed & koksma__lobes_of(&v->surfaces)) || trace->bounce >= trace->frame->depth) {
         return KOKSMA_OK;
     }
     for (int i = 0; flags->branches && i < v->n; i++) {
@@ -352,16 +326,17 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
         }
     }
     KOKSMA__TRY(draw_directions(trace, v, u));
-    trace->frame->batch->scatter(&v->surfaces, flags->followed, u, v->whole, &to);
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < v->whole; i++) {
-            beta[k][i] = v->paths->beta[k][i] * to.weight[k][i];
-        }
+    batch->scatter(&v->surfaces, flags->followed, u, v->whole, &to);
+    if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
+        KOKSMA__TRY(play_roulette(trace, v, &to));
     }
-    if (flags->roulette && trace->bounce >= 4) {
-        KOKSMA__TRY(play_roulette(trace, v, &to, beta));
+    /* paths that start on a diffuse surface (of a record of the irradiance cache) see no lights in mirrors */
+    for (int i = 0; trace->first > 0 && i < v->n; i++) {
+        to.pdf[i] = to.pdf[i] > 0 ? to.pdf[i] : -1;
     }
-    return go_on(trace, v, &to, beta);
+    KOKSMA__TRY(koksma__wavefront_reserve(queue));
+    queue->n += (size_t)batch->close_up(v, &to, &queue->blocks[queue->n / KOKSMA__BLOCK], queue->n % KOKSMA__BLOCK);
+    return KOKSMA_OK;
 }
 
 /* ---- One block -------------------------------------------------------------------------------------------- */
@@ -418,30 +393,30 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     v->paths = paths;
     v->n = n;
     v->whole = (int)koksma__whole_lanes((size_t)n);
+    v->moves = frame->scene->moves;
+    v->chooses = frame->light_selection != KOKSMA_LIGHTS_ALL;
     v->surfaces.hits = hits;
     v->surfaces.materials = frame->shading_materials;
-    memset(v->light, 0, sizeof v->light);
+    v->surfaces.table = &frame->lane_materials;
     fill_lanes(paths, n, v->whole);
     frame->geometry.closest(&frame->geometry, &paths->rays, trace->bounce ? paths->from : NULL, v->whole, hits);
     if (frame->scene->moves) {
         memcpy(hits->time, paths->rays.time, sizeof hits->time);
     }
     values->rays += (uint64_t)n;
-    frame->batch->surfaces(frame->materials, &paths->rays, v->whole, &v->surfaces);
-    for (int i = n; i < v->whole; i++) {
-        v->surfaces.form[i] = KOKSMA__UNLIT;
-    }
-    if (v->surfaces.has_images) {
+    frame->batch->surfaces(&paths->rays, n, v->whole, &v->surfaces);
+    frame->batch->background(frame->background, v);
+    if (v->surfaces.traits & KOKSMA__HAS_IMAGE) {
         add_textures(frame, v);
     }
     add_misses(frame, v);
     for (int i = 0; i < n; i++) {
-        if (v->surfaces.form[i] < 0 && hits->primitive[i] >= 0) {
+        if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
             add_emission(frame, v, i);
         }
-        if (values->albedo && trace->bounce == trace->first) {
-            note_first(values, v, i);
-        }
+    }
+    for (int i = 0; values->albedo && trace->bounce == trace->first && i < n; i++) {
+        note_first(values, v, i);
     }
     KOKSMA__TRY(add_local(frame, v));
     KOKSMA__TRY(koksma__wavefront_light(trace, v, values));

@@ -19,16 +19,6 @@ typedef struct koksma__path {
     uint32_t sample;
 } koksma__path;
 
-/* A block of paths, in lanes. */
-typedef struct koksma__paths {
-    koksma__rays rays;
-    _Alignas(64) koksma__lanes beta[3];
-    _Alignas(64) koksma__lanes n[3];
-    _Alignas(64) koksma__lanes pdf;
-    KOKSMA__LANES(int32_t, from);
-    KOKSMA__LANES(uint32_t, sample);
-} koksma__paths;
-
 typedef struct koksma__queue {
     koksma__paths *blocks;
     size_t n, capacity; /* paths; capacity in whole blocks */
@@ -40,15 +30,6 @@ typedef struct koksma__drawn {
     bool done;
     float *pairs;
 } koksma__drawn;
-
-/* A block of vertices. */
-typedef struct koksma__vertices {
-    const koksma__paths *paths;
-    int n, whole;
-    koksma__hits hits;
-    koksma__surfaces surfaces;           /* form KOKSMA__UNLIT: a miss, a light, or beyond n */
-    _Alignas(64) koksma__lanes light[3]; /* that the paths carry to their samples from here */
-} koksma__vertices;
 
 typedef struct koksma__wavefront_scratch {
     koksma__sample_scratch draw;

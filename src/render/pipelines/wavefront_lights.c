@@ -61,10 +61,10 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
     koksma__beams beams;
     KOKSMA__LANES(int32_t, aimed);
     _Alignas(64) koksma__lanes u[2], reflected[3];
-    memset(u, 0, sizeof u);
-    for (int i = 0; us && i < v->n; i++) {
-        u[0][i] = us[2 * v->paths->sample[i]];
-        u[1][i] = us[2 * v->paths->sample[i] + 1];
+    if (us) {
+        frame->batch->pairs(us, v->paths->sample, v->whole, u[0], u[1]);
+    } else {
+        memset(u, 0, sizeof u);
     }
     frame->batch->beams(l, &v->hits, u, v->whole, &beams);
     const int sampled = frame->batch->reflect(&v->surfaces, l, &beams, frame->flags->followed,
@@ -80,11 +80,7 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         frame->geometry.occlude(&frame->geometry, &v->hits, v->whole, &shadows);
         values->rays += (uint64_t)sampled;
     }
-    for (int k = 0; k < 3; k++) {
-        for (int i = 0; i < v->whole; i++) {
-            v->light[k][i] += shadows.light[i] > 0 ? v->paths->beta[k][i] * reflected[k][i] : 0;
-        }
-    }
+    frame->batch->collect(&shadows, reflected, v);
 }
 
 static koksma_status sample_all(const koksma__trace *trace, koksma__vertices *v, uint32_t base,
@@ -115,7 +111,7 @@ koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertic
     const float *us = NULL, *choices = NULL;
     koksma__light_lanes l = {.lights = frame->lights.lights, .same = -1, .centres = !frame->flags->areas};
     _Alignas(64) koksma__lanes u;
-    if (!v->surfaces.forms || !frame->lights.n) {
+    if (!v->surfaces.traits || !frame->lights.n) {
         return KOKSMA_OK;
     }
     if (frame->light_selection == KOKSMA_LIGHTS_ALL) {
@@ -125,9 +121,7 @@ koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertic
     if (frame->flags->areas) {
         KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT, &us));
     }
-    for (int i = 0; i < v->whole; i++) {
-        u[i] = i < v->n ? choices[2 * v->paths->sample[i]] : 0;
-    }
+    frame->batch->pairs(choices, v->paths->sample, v->whole, u, NULL);
     choose(trace, v, u, &l);
     for (int i = 0; i < v->whole; i++) {
         l.light[i] = v->surfaces.form[i] < 0 ? -1 : l.light[i];
